@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Compiler settings every target of the project shares, and the checks that exactness rests on.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+# The error bounds of the certificates hold for IEEE arithmetic only.
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" MATCHES "-ffast-math|-Ofast|-funsafe-math-optimizations")
+  message(FATAL_ERROR "cellwalk decides exactly and needs IEEE arithmetic: remove -ffast-math, -Ofast "
+                      "or -funsafe-math-optimizations from CMAKE_CXX_FLAGS")
+endif()
+
+add_library(cellwalk_options INTERFACE)
+add_library(cellwalk::options ALIAS cellwalk_options)
+set_target_properties(cellwalk_options PROPERTIES EXPORT_NAME options)
+target_compile_features(cellwalk_options INTERFACE cxx_std_20)
+# No contraction into fused multiply-adds: results are the same for every compiler.
+target_compile_options(cellwalk_options INTERFACE -ffp-contract=off)
+
+add_library(cellwalk_warnings INTERFACE)
+target_compile_options(cellwalk_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)

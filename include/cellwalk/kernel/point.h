@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Points and vectors: plain arrays of doubles, so that positions can be read where they lie.
+#ifndef CELLWALK_KERNEL_POINT_H
+#define CELLWALK_KERNEL_POINT_H
+
+#include <array>
+#include <cmath>
+
+namespace cellwalk {
+
+/// A point of D-space in the units of the environment. Every value is exact input: nothing is rounded on the way in.
+template <int D>
+using Point = std::array<double, D>;
+
+/// A direction or displacement in D-space.
+template <int D>
+using Vector = std::array<double, D>;
+
+/// a - b, rounded.
+template <std::size_t D>
+std::array<double, D> operator-(const std::array<double, D>& a, const std::array<double, D>& b) {
+  std::array<double, D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = a[i] - b[i];
+  return r;
+}
+
+/// a + b, rounded.
+template <std::size_t D>
+std::array<double, D> operator+(const std::array<double, D>& a, const std::array<double, D>& b) {
+  std::array<double, D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = a[i] + b[i];
+  return r;
+}
+
+/// s * a, rounded.
+template <std::size_t D>
+std::array<double, D> operator*(double s, const std::array<double, D>& a) {
+  std::array<double, D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = s * a[i];
+  return r;
+}
+
+/// The scalar product, rounded.
+template <std::size_t D>
+double dot(const std::array<double, D>& a, const std::array<double, D>& b) {
+  double r = 0;
+  for (std::size_t i = 0; i < D; ++i) r += a[i] * b[i];
+  return r;
+}
+
+/// The cross product, rounded.
+inline Vector<3> cross(const Vector<3>& a, const Vector<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The Euclidean length, rounded.
+template <std::size_t D>
+double length(const std::array<double, D>& a) {
+  return std::sqrt(dot(a, a));
+}
+
+/// True if every coordinate is finite.
+template <std::size_t D>
+bool is_finite(const std::array<double, D>& a) {
+  for (double x : a)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_KERNEL_POINT_H

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Number policies. Every predicate of the library is the sign of an orientation of input points, asked of one of these:
+//
+//   Exact   double arithmetic with a forward error bound, then interval, then exact arithmetic: always right
+//   Lazy    CGAL's lazy exact kernel: always right, the reference for the cost of exactness
+//   Double  the sign of the rounded determinant: wrong near degeneracies; for experiments only
+//   Float   the same in single precision; for experiments only
+//
+// Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
+//   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
+//   orientation(p,q,r,s) > 0  s lies on the side of plane pqr to which (q-p) x (r-p) points (3D)
+#ifndef CELLWALK_KERNEL_POLICIES_H
+#define CELLWALK_KERNEL_POLICIES_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace cellwalk {
+
+namespace detail {
+
+/// Exact sign by CGAL's filtered kernel; the slow path of Exact.
+int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
+/// Exact sign by CGAL's lazy exact kernel.
+int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
+
+/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075, which
+/// 16u times this allowance covers whatever the outer factor is.
+inline constexpr double underflow_allowance = 1e-290;
+
+/// The rounded determinant of a 2D orientation, and the sum of the magnitudes of its terms.
+template <class T>
+struct Determinant {
+  T value;
+  T magnitude;
+};
+
+template <class T>
+inline Determinant<T> determinant(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]);
+  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]);
+  const T left = ax * by, right = ay * bx;
+  return {left - right, std::abs(left) + std::abs(right)};
+}
+
+template <class T>
+inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]), az = T(q[2]) - T(p[2]);
+  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]), bz = T(r[2]) - T(p[2]);
+  const T cx = T(s[0]) - T(p[0]), cy = T(s[1]) - T(p[1]), cz = T(s[2]) - T(p[2]);
+  const T ab = ax * by, ba = ay * bx, bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax;
+  const T value = (ab - ba) * cz + (bc - cb) * az + (ca - ac) * bz;
+  const T tiny = T(underflow_allowance);
+  const T magnitude = (std::abs(ab) + std::abs(ba) + tiny) * std::abs(cz) +
+                      (std::abs(bc) + std::abs(cb) + tiny) * std::abs(az) +
+                      (std::abs(ca) + std::abs(ac) + tiny) * std::abs(bz);
+  return {value, magnitude};
+}
+
+template <class T>
+inline int sign_of(T x) {
+  return (x > T(0)) - (x < T(0));
+}
+
+/// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each coordinate
+/// difference carries a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in 2D before the
+/// magnitude, itself rounded down by as many, is compared. 16u covers both with room to spare.
+inline constexpr double orientation_error = 16 * 0x1p-53;
+/// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by 2^-1075,
+/// far less than 16u times 1e-250); above it a term may have overflowed.
+inline constexpr double smallest_magnitude = 1e-250;
+inline constexpr double largest_magnitude = 1e+300;
+
+}  // namespace detail
+
+/// How often a policy had to leave double arithmetic.
+struct Predicate_counts {
+  std::uint64_t orientations = 0;  ///< orientation signs asked for
+  std::uint64_t fallbacks = 0;     ///< those that the filter left undecided
+
+  Predicate_counts& operator+=(const Predicate_counts& other) {
+    orientations += other.orientations;
+    fallbacks += other.fallbacks;
+    return *this;
+  }
+};
+
+/// Exact signs at the cost of double arithmetic in nearly all cases. The default.
+/// Cost: about 5 ns where the filter decides; 0.1 to 10 us otherwise.
+struct Exact {
+  static constexpr bool is_exact = true;
+  static constexpr bool uses_certificates = true;
+  static constexpr const char* name = "exact";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    const auto d = detail::determinant<double>(points...);
+    const double bound = detail::orientation_error * d.magnitude;
+    // A NaN fails both comparisons and is decided below.
+    if (d.magnitude > detail::smallest_magnitude && d.magnitude < detail::largest_magnitude) {
+      if (d.value > bound) return 1;
+      if (d.value < -bound) return -1;
+    }
+    ++counts.fallbacks;
+    return detail::orientation_cgal(points...);
+  }
+};
+
+/// Exact signs by CGAL's lazy exact kernel, without certificates.
+struct Lazy {
+  static constexpr bool is_exact = true;
+  static constexpr bool uses_certificates = false;
+  static constexpr const char* name = "lazy";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    return detail::orientation_lazy(points...);
+  }
+};
+
+/// Rounded signs in double precision: misses walls near degeneracies. For experiments.
+struct Double {
+  static constexpr bool is_exact = false;
+  static constexpr bool uses_certificates = false;
+  static constexpr const char* name = "double";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    return detail::sign_of(detail::determinant<double>(points...).value);
+  }
+};
+
+/// Rounded signs in single precision. For experiments.
+struct Float {
+  static constexpr bool is_exact = false;
+  static constexpr bool uses_certificates = false;
+  static constexpr const char* name = "float";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    return detail::sign_of(detail::determinant<float>(points...).value);
+  }
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_KERNEL_POLICIES_H

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A particle: a point that remembers its cell and the facet it aims at. Paper: section II (PCD).
+#ifndef CELLWALK_WALK_PARTICLE_H
+#define CELLWALK_WALK_PARTICLE_H
+
+#include <cellwalk/environment/snapshot.h>
+
+#include <cstdint>
+
+namespace cellwalk {
+
+/// Position, cell, dimension of the lowest cell it lies on, and the facet it aims at (a half-facet names the aimed-at
+/// dart; with the position it spans the predictive simplex).
+/// Invariant I1: the position lies in the closure of the cell.
+template <int D>
+struct Particle {
+  Point<D> position;
+  Cell cell = Cell::none;
+  std::uint16_t dimension = D;  ///< D: interior of the cell .. 0: on a vertex
+  std::uint16_t aimed = 0;      ///< facet of the cell it aims at
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_WALK_PARTICLE_H

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/policies.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace cellwalk::detail {
+namespace {
+
+template <class Kernel>
+int orientation_in(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  using P = typename Kernel::Point_2;
+  return CGAL::orientation(P(p[0], p[1]), P(q[0], q[1]), P(r[0], r[1]));
+}
+
+template <class Kernel>
+int orientation_in(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  using P = typename Kernel::Point_3;
+  return CGAL::orientation(P(p[0], p[1], p[2]), P(q[0], q[1], q[2]), P(r[0], r[1], r[2]), P(s[0], s[1], s[2]));
+}
+
+using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Lazy_exact = CGAL::Exact_predicates_exact_constructions_kernel;
+
+}  // namespace
+
+int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return orientation_in<Filtered>(p, q, r);
+}
+
+int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  return orientation_in<Filtered>(p, q, r, s);
+}
+
+int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return orientation_in<Lazy_exact>(p, q, r);
+}
+
+int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  return orientation_in<Lazy_exact>(p, q, r, s);
+}
+
+}  // namespace cellwalk::detail
