@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/policies.h>
-
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cellwalk/kernel/policies.h>
 
 namespace cellwalk::detail {
 namespace {
@@ -16,7 +16,8 @@ int orientation_in(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
 template <class Kernel>
 int orientation_in(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
   using P = typename Kernel::Point_3;
-  return CGAL::orientation(P(p[0], p[1], p[2]), P(q[0], q[1], q[2]), P(r[0], r[1], r[2]), P(s[0], s[1], s[2]));
+  return CGAL::orientation(P(p[0], p[1], p[2]), P(q[0], q[1], q[2]), P(r[0], r[1], r[2]),
+                           P(s[0], s[1], s[2]));
 }
 
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Certification: proof by exact predicates that a complex is what the walk relies on. DESIGN: docs/certification.md.
+// Certification: proof by exact predicates that a complex is what the walk relies on. DESIGN:
+// docs/certification.md.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_H
 
-#include <cellwalk/environment/cell_shape.h>
-#include <cellwalk/environment/snapshot.h>
-
 #include <cstddef>
 #include <string>
+
+#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 
 namespace cellwalk {
 
 /// Why a cell is not acceptable, with the local facet concerned.
 enum class Cell_defect {
   none,
-  degenerate_facet,   ///< all vertices of a facet on one line
+  degenerate_facet,  ///< all vertices of a facet on one line
   facet_not_planar,
-  facet_not_convex,   ///< not a convex polygon that turns once (collinear vertices are allowed)
-  not_closed,         ///< facets do not form one closed surface (Euler characteristic 2)
-  not_convex,         ///< a vertex lies strictly outside a facet
-  inverted,           ///< all facets face inwards
-  flat,               ///< zero volume
-  wound               ///< coplanar facets overlap
+  facet_not_convex,  ///< not a convex polygon that turns once (collinear vertices are allowed)
+  not_closed,        ///< facets do not form one closed surface (Euler characteristic 2)
+  not_convex,        ///< a vertex lies strictly outside a facet
+  inverted,          ///< all facets face inwards
+  flat,              ///< zero volume
+  wound              ///< coplanar facets overlap
 };
 
 struct Cell_check {
@@ -40,19 +41,19 @@ std::string describe(const Cell_check& check);
 struct Certificate {
   std::size_t cells = 0, facets = 0, ridges = 0, vertices = 0;
   std::size_t solid_cells = 0;
-  std::size_t walls = 0;             ///< impassable facets, the boundary included
+  std::size_t walls = 0;  ///< impassable facets, the boundary included
   std::size_t boundary_facets = 0;
-  std::size_t membranes = 0;         ///< impassable facets with free cells on both sides
-  std::size_t components = 0;        ///< of free space, joined through passable facets
-  std::size_t pinched_vertices = 0;  ///< vertices whose cells are not joined through facets
+  std::size_t membranes = 0;           ///< impassable facets with free cells on both sides
+  std::size_t components = 0;          ///< of free space, joined through passable facets
+  std::size_t pinched_vertices = 0;    ///< vertices whose cells are not joined through facets
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
 };
 
-/// Certifies a snapshot: every cell by check_cell; cells turn exactly once round each inner ridge and at most once
-/// round a boundary ridge; no boundary facet meets the interior of a cell (so the complex does not overlap itself);
-/// solid cells are walled off from free ones; no two vertices in the same place (unless allow_duplicates).
-/// \throw Error(not_certified) naming cell (its input index), facet and reason
-/// Cost: about 2 us a tetrahedron and core; parallel.
+/// Certifies a snapshot: every cell by check_cell; cells turn exactly once round each inner ridge and at most
+/// once round a boundary ridge; no boundary facet meets the interior of a cell (so the complex does not
+/// overlap itself); solid cells are walled off from free ones; no two vertices in the same place (unless
+/// allow_duplicates). \throw Error(not_certified) naming cell (its input index), facet and reason Cost: about
+/// 2 us a tetrahedron and core; parallel.
 template <int D>
 Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates = false);
 

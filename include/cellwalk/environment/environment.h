@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The environment: a certified convex cell complex, held as a combinatorial map (the editable truth) and compiled into
-// a snapshot (what is walked). This header does not include CGAL; <cellwalk/environment/map.h> gives the map.
+// The environment: a certified convex cell complex, held as a combinatorial map (the editable truth) and
+// compiled into a snapshot (what is walked). This header does not include CGAL; <cellwalk/environment/map.h>
+// gives the map.
 #ifndef CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_H
+
+#include <cstdint>
+#include <memory>
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/environment/split.h>
 #include <cellwalk/records/cell_soup.h>
-
-#include <cstdint>
-#include <memory>
 
 namespace cellwalk {
 
@@ -29,20 +30,21 @@ struct Build_options {
 /// Everything that building changed or noticed. Nothing is repaired silently.
 struct Build_report {
   std::size_t cells_read = 0, points_read = 0;
-  std::size_t unused_points = 0;      ///< dropped
-  std::size_t merged_points = 0;      ///< duplicates merged (Duplicate_vertices::merge)
-  bool flipped = false;               ///< every cell was inverted; all were flipped
+  std::size_t unused_points = 0;  ///< dropped
+  std::size_t merged_points = 0;  ///< duplicates merged (Duplicate_vertices::merge)
+  bool flipped = false;           ///< every cell was inverted; all were flipped
   Split_report split;
-  Certificate certificate;            ///< counts, volumes, components, walls
+  Certificate certificate;  ///< counts, volumes, components, walls
 };
 
 template <int D>
 class Environment {
  public:
-  /// Merges or refuses duplicate points, flips a mesh that is inverted throughout, splits cells that are not exactly
-  /// convex, glues, builds the map, compiles the snapshot and certifies it.
-  /// \throw Error(input) for a malformed soup, Error(not_certified) with the cell and the reason
-  static Environment build(Cell_soup<D> soup, const Build_options& options = {}, Build_report* report = nullptr);
+  /// Merges or refuses duplicate points, flips a mesh that is inverted throughout, splits cells that are not
+  /// exactly convex, glues, builds the map, compiles the snapshot and certifies it. \throw Error(input) for a
+  /// malformed soup, Error(not_certified) with the cell and the reason
+  static Environment build(Cell_soup<D> soup, const Build_options& options = {},
+                           Build_report* report = nullptr);
 
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
@@ -60,7 +62,8 @@ class Environment {
   Cell_soup<D> soup() const;
 
   // --- edits: map and snapshot stay in step, only touched cells are recompiled.
-  //     \throw Error(usage) if frozen; Error(not_certified) if the result would not be certified (nothing is changed)
+  //     \throw Error(usage) if frozen; Error(not_certified) if the result would not be certified (nothing is
+  //     changed)
   void set_impassable(Half_facet facet, bool wall);
   /// Moves a vertex; every cell of its star must stay exactly convex and positive (facets planar).
   void move_vertex(std::uint32_t point, const Point<D>& position);

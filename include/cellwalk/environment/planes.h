@@ -1,32 +1,41 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate of a side.
+// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate of
+// a side.
 //
-// Frame. Points are mapped to y = scale (x - center), scale a power of two, so that the environment lies in [-1,1]^D.
+// Frame. Points are mapped to y = scale (x - center), scale a power of two, so that the environment lies in
+// [-1,1]^D.
 //
-// Bound. Let g be the exact plane function of a facet, positive outside, scaled by some factor > 0 (only its sign
-// matters). The compiler of the snapshot proves for every stored plane (n,d) that |n.y + d - g(y)| <= 3u for all y in
-// [-1,1]^D, u = 2^-24, |n| <= 1 + 2u, |d| <= sqrt(D) + 4u; a plane for which it cannot is stored as n = d = 0.
-// Evaluation rounds y to float (u/2 a coordinate, plus 2^-53 for the mapping), and n.y + d with D+1 roundings on each
-// path, at most 4u (|n|_1 + |d|) (1 + 2^-20). With |n|_1 <= sqrt(3): u (3 + sqrt(3)/2 + 8 sqrt(3)) (1 + 2^-19) < 18u.
-// plane_error = 20u leaves room for underflow (below 2^-120).
+// Bound. Let g be the exact plane function of a facet, positive outside, scaled by some factor > 0 (only its
+// sign matters). The compiler of the snapshot proves for every stored plane (n,d) that |n.y + d - g(y)| <= 3u
+// for all y in
+// [-1,1]^D, u = 2^-24, |n| <= 1 + 2u, |d| <= sqrt(D) + 4u; a plane for which it cannot is stored as n = d =
+// 0. Evaluation rounds y to float (u/2 a coordinate, plus 2^-53 for the mapping), and n.y + d with D+1
+// roundings on each path, at most 4u (|n|_1 + |d|) (1 + 2^-20). With |n|_1 <= sqrt(3): u (3 + sqrt(3)/2 + 8
+// sqrt(3)) (1 + 2^-19) < 18u. plane_error = 20u leaves room for underflow (below 2^-120).
 #ifndef CELLWALK_ENVIRONMENT_PLANES_H
 #define CELLWALK_ENVIRONMENT_PLANES_H
 
-#include <cellwalk/kernel/point.h>
-
 #include <array>
 #include <cmath>
+
+#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 
 /// Absolute error of an evaluated plane, in units of the frame.
 inline constexpr float plane_error = 20 * 0x1p-24f;
 
-/// Lanes of single precision; a compiler vector, so that baseline x86-64 and NEON evaluate four planes at once.
+/// Lanes of single precision; a compiler vector, so that baseline x86-64 and NEON evaluate four planes at
+/// once.
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
-/// Four planes: signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and offset -1.
+/// A point of the frame in single precision.
+template <int D>
+using Float_point = std::array<float, static_cast<std::size_t>(D)>;
+
+/// Four planes: signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and offset
+/// -1.
 template <int D>
 struct alignas(D == 3 ? 64 : 16) Plane_block {
   std::array<Float4, D> normal;
@@ -40,7 +49,7 @@ struct Plane_frame {
   double scale = 1;
 
   /// Maps a point; returns false if it lies outside the box, where the bound does not hold.
-  bool map(const Point<D>& x, std::array<float, D>& y) const {
+  bool map(const Point<D>& x, Float_point<D>& y) const {
     bool inside = true;
     for (int i = 0; i < D; ++i) {
       const double t = (x[i] - center[i]) * scale;
@@ -53,7 +62,7 @@ struct Plane_frame {
 
 /// Signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
 template <int D>
-inline Float4 evaluate(const Plane_block<D>& block, const std::array<float, D>& y) {
+inline Float4 evaluate(const Plane_block<D>& block, const Float_point<D>& y) {
   Float4 r = block.normal[0] * y[0];
   for (int i = 1; i < D; ++i) r = r + block.normal[i] * y[i];
   return r + block.offset;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The snapshot: an environment compiled into flat arrays for walking. See docs/architecture.md.
 //
-// Layout. Facets are stored in blocks of four lanes. A cell owns ceil(facets/4) consecutive blocks and is named by its
-// first one, so that facet i of cell c is half-facet 4c+i. One block of float planes is one cache line (3D). Blocks lie
-// in the order of a space-filling curve through the cells.
+// Layout. Facets are stored in blocks of four lanes. A cell owns ceil(facets/4) consecutive blocks and is
+// named by its first one, so that facet i of cell c is half-facet 4c+i. One block of float planes is one
+// cache line (3D). Blocks lie in the order of a space-filling curve through the cells.
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_H
-
-#include <cellwalk/environment/cell_shape.h>
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/environment/planes.h>
-#include <cellwalk/records/cell_soup.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/environment/planes.h>
+#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk {
 
@@ -35,10 +35,12 @@ class Snapshot {
  public:
   Snapshot() = default;
 
-  /// Compiles a glued soup whose cells are convex and positively oriented. In each facet loop the first D vertices not
-  /// on one line are found; a facet whose vertices all lie on one line is kept (certification refuses it).
-  /// Cost: about 1 us a cell and core; O(cells) memory for the sort.
-  static Snapshot compile(const Cell_soup<D>& soup, const Gluing& gluing);
+  /// Compiles a glued soup whose cells are convex and positively oriented. In each facet loop the first D
+  /// vertices not on one line are found; a facet whose vertices all lie on one line is kept (certification
+  /// refuses it). Cost: about 1 us a cell and core; O(cells) memory for the sort. `slots`, if given, receives
+  /// the half-facet of each facet of the soup.
+  static Snapshot compile(const Cell_soup<D>& soup, const Gluing& gluing,
+                          std::vector<Half_facet>* slots = nullptr);
 
   // --- cells
   std::size_t cell_count() const { return cell_of_index_.size(); }
@@ -75,7 +77,8 @@ class Snapshot {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
-  /// The other side of the facet; Half_facet::none on the boundary. Cost: a search over the neighbour's facets.
+  /// The other side of the facet; Half_facet::none on the boundary. Cost: a search over the neighbour's
+  /// facets.
   Half_facet opposite(Half_facet f) const;
   /// Point indices of facet `facet` of cell c, counterclockwise seen from outside.
   std::vector<std::uint32_t> loop(Half_facet f) const;
@@ -88,6 +91,8 @@ class Snapshot {
   /// The planes of the facets in lanes, and the box in which their error bound holds.
   const Plane_frame<D>& frame() const { return frame_; }
   const Plane_block<D>* blocks(Cell c) const { return planes_.data() + to_index(c); }
+  /// Neighbours of the facets of a cell with the wall and convex-pair bits, four a block.
+  const std::uint32_t* links(Cell c) const { return links_.data() + 4 * std::size_t{to_index(c)}; }
   /// Blocks of a cell: ceil(facets/4).
   std::size_t block_count(Cell c) const { return has_single_blocks_ ? 1 : (facet_count(c) + 3) / 4; }
   bool has_single_blocks() const { return has_single_blocks_; }
@@ -99,18 +104,23 @@ class Snapshot {
   void set_impassable(Half_facet f, bool wall);
   /// Moves a point; call update_geometry for every cell that has it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
+  /// Appends a point and returns its index.
+  std::uint32_t add_point(const Point<D>& position) {
+    points_.push_back(position);
+    return static_cast<std::uint32_t>(points_.size() - 1);
+  }
   /// Recomputes planes and convex-pair bits of a cell whose points moved.
   void update_geometry(Cell c);
-  /// Replaces cells by others: `removed` cells go, the cells of `soup` come (its points are this snapshot's points,
-  /// longer by those appended). gluing.opposite of a half-facet is a half-facet of `soup`, or no_facet; those left open
-  /// are matched to the facets that the removed cells leave open. Returns the new cells in order.
-  std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup, const Gluing& gluing);
+  /// Replaces cells by others: `removed` cells go, the cells of `soup` come (its vertices are indices of
+  /// this snapshot's points; soup.points is not looked at). gluing.opposite of a half-facet is a half-facet
+  /// of `soup`, or no_facet; those left open are matched to the facets that the removed cells leave open.
+  /// Returns the new cells in order: they take the indices of the removed ones first, then new ones. `slots`,
+  /// if given, receives the half-facet of each facet of `soup`. \pre at least as many cells come as go
+  std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
+                                  const Gluing& gluing, std::vector<Half_facet>* slots = nullptr);
 
   /// Bytes held by the arrays.
   std::size_t bytes() const;
-
-  /// Slot of each half-facet of the compiled soup, in order: filled by compile on request of the environment only.
-  static Snapshot compile(const Cell_soup<D>& soup, const Gluing& gluing, std::vector<Half_facet>& slot_of_soup_facet);
 
  private:
   static constexpr std::uint32_t wall_bit = 1u << 31;
@@ -120,20 +130,21 @@ class Snapshot {
   static constexpr std::uint32_t continuation_bit = 1u << 30;
   static constexpr std::uint32_t shape_mask = continuation_bit - 1;
 
-  std::vector<Plane_block<D>> planes_;         // per block
-  std::vector<std::uint32_t> links_;           // per lane: neighbouring cell, wall and convex-pair bits
-  std::vector<std::uint32_t> vertex_begin_;    // per block: start of the cell's vertices
-  std::vector<std::uint32_t> shape_;           // per block: shape of the cell, or distance to its first block
-  std::vector<std::uint32_t> index_;           // per block: index of the cell in the input
-  std::vector<std::uint32_t> vertices_;        // point indices, cell after cell
-  std::vector<std::uint32_t> cell_of_index_;   // per input cell: its first block
-  std::vector<Cell_shape> shapes_;             // few
+  std::vector<Plane_block<D>> planes_;        // per block
+  std::vector<std::uint32_t> links_;          // per lane: neighbouring cell, wall and convex-pair bits
+  std::vector<std::uint32_t> vertex_begin_;   // per block: start of the cell's vertices
+  std::vector<std::uint32_t> shape_;          // per block: shape of the cell, or distance to its first block
+  std::vector<std::uint32_t> index_;          // per block: index of the cell in the input
+  std::vector<std::uint32_t> vertices_;       // point indices, cell after cell
+  std::vector<std::uint32_t> cell_of_index_;  // per input cell: its first block
+  std::vector<Cell_shape> shapes_;            // few
   std::vector<Point<D>> points_;
   Plane_frame<D> frame_;
   std::size_t uncertified_planes_ = 0;
   bool has_single_blocks_ = true;
 
-  friend class Snapshot_compiler_access;
+  template <int>
+  friend class Snapshot_compiler;
 };
 
 extern template class Snapshot<2>;

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_H
 #define CELLWALK_ENVIRONMENT_SPLIT_H
 
-#include <cellwalk/records/cell_soup.h>
-
 #include <cstddef>
+
+#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk {
 
@@ -19,10 +19,10 @@ struct Split_report {
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
 };
 
-/// Splits every cell that is not exactly convex with exactly planar convex facets, and, so that facets match on both
-/// sides, those neighbours that share a facet cut by it. The cells of the result that replace cell c keep its solidity,
-/// and its walls. `origin`, if given, receives the input cell of each result cell.
-/// \throw Error(not_certified) naming the cell that cannot be split, and why
+/// Splits every cell that is not exactly convex with exactly planar convex facets, and, so that facets match
+/// on both sides, those neighbours that share a facet cut by it. The cells of the result that replace cell c
+/// keep its solidity, and its walls. `origin`, if given, receives the input cell of each result cell. \throw
+/// Error(not_certified) naming the cell that cannot be split, and why
 template <int D>
 Cell_soup<D> split(Cell_soup<D> soup, Split_report& report, std::vector<std::uint32_t>* origin = nullptr);
 

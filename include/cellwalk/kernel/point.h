@@ -5,16 +5,19 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace cellwalk {
 
-/// A point of D-space in the units of the environment. Every value is exact input: nothing is rounded on the way in.
+/// A point of D-space in the units of the environment. Every value is exact input: nothing is rounded on the
+/// way in. (The cast keeps D out of argument deduction, where int and the size type of an array would
+/// contradict each other.)
 template <int D>
-using Point = std::array<double, D>;
+using Point = std::array<double, static_cast<std::size_t>(D)>;
 
 /// A direction or displacement in D-space.
 template <int D>
-using Vector = std::array<double, D>;
+using Vector = std::array<double, static_cast<std::size_t>(D)>;
 
 /// a - b, rounded.
 template <std::size_t D>

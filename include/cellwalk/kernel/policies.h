@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Number policies. Every predicate of the library is the sign of an orientation of input points, asked of one of these:
+// Number policies. Every predicate of the library is the sign of an orientation of input points, asked of one
+// of these:
 //
 //   Exact   double arithmetic with a forward error bound, then interval, then exact arithmetic: always right
 //   Lazy    CGAL's lazy exact kernel: always right, the reference for the cost of exactness
@@ -12,10 +13,10 @@
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
-#include <cellwalk/kernel/point.h>
-
 #include <cmath>
 #include <cstdint>
+
+#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 
@@ -28,8 +29,8 @@ int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, co
 int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
 
-/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075, which
-/// 16u times this allowance covers whatever the outer factor is.
+/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075,
+/// which 16u times this allowance covers whatever the outer factor is.
 inline constexpr double underflow_allowance = 1e-290;
 
 /// The rounded determinant of a 2D orientation, and the sum of the magnitudes of its terms.
@@ -48,7 +49,8 @@ inline Determinant<T> determinant(const Point<2>& p, const Point<2>& q, const Po
 }
 
 template <class T>
-inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r,
+                                  const Point<3>& s) {
   const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]), az = T(q[2]) - T(p[2]);
   const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]), bz = T(r[2]) - T(p[2]);
   const T cx = T(s[0]) - T(p[0]), cy = T(s[1]) - T(p[1]), cz = T(s[2]) - T(p[2]);
@@ -66,12 +68,13 @@ inline int sign_of(T x) {
   return (x > T(0)) - (x < T(0));
 }
 
-/// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each coordinate
-/// difference carries a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in 2D before the
-/// magnitude, itself rounded down by as many, is compared. 16u covers both with room to spare.
+/// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
+/// coordinate difference carries a factor (1+u), each product and sum another: at most 7 factors in 3D and 4
+/// in 2D before the magnitude, itself rounded down by as many, is compared. 16u covers both with room to
+/// spare.
 inline constexpr double orientation_error = 16 * 0x1p-53;
-/// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by 2^-1075,
-/// far less than 16u times 1e-250); above it a term may have overflowed.
+/// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by
+/// 2^-1075, far less than 16u times 1e-250); above it a term may have overflowed.
 inline constexpr double smallest_magnitude = 1e-250;
 inline constexpr double largest_magnitude = 1e+300;
 

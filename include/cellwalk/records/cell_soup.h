@@ -3,22 +3,24 @@
 #ifndef CELLWALK_RECORDS_CELL_SOUP_H
 #define CELLWALK_RECORDS_CELL_SOUP_H
 
-#include <cellwalk/kernel/point.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <vector>
 
+#include <cellwalk/kernel/point.h>
+
 namespace cellwalk {
 
 /// Cells as lists of facets, facets as loops of point indices, all in flat arrays (compressed rows).
 ///
 /// 3D: a facet is a polygon, its loop counterclockwise seen from outside the cell.
-/// 2D: a cell is a polygon; its facets are its edges, two vertices each, in counterclockwise order round the cell.
+/// 2D: a cell is a polygon; its facets are its edges, two vertices each, in counterclockwise order round the
+/// cell.
 ///
-/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either says so.
+/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either says
+/// so.
 template <int D>
 struct Cell_soup {
   std::vector<Point<D>> points;
@@ -26,7 +28,7 @@ struct Cell_soup {
   std::vector<std::uint32_t> facet_begin{0};  ///< vertices of facet f: [facet_begin[f], facet_begin[f+1])
   std::vector<std::uint32_t> vertices;        ///< point indices
   std::vector<std::uint8_t> impassable;       ///< per half-facet: 1 = wall
-  std::vector<std::uint8_t> solid;            ///< per cell: 1 = not free space (kept in the complex, walled off)
+  std::vector<std::uint8_t> solid;  ///< per cell: 1 = not free space (kept in the complex, walled off)
 
   std::size_t cell_count() const { return cell_begin.size() - 1; }
   std::size_t facet_count() const { return facet_begin.size() - 1; }  ///< half-facets
@@ -62,7 +64,8 @@ inline std::size_t add_tetrahedron(Cell_soup<3>& soup, std::uint32_t a, std::uin
   return soup.end_cell();
 }
 
-/// Appends a hexahedron in the VTK order: v[0..3] counterclockwise seen from above (inside), v[4..7] above them.
+/// Appends a hexahedron in the VTK order: v[0..3] counterclockwise seen from above (inside), v[4..7] above
+/// them.
 inline std::size_t add_hexahedron(Cell_soup<3>& soup, const std::array<std::uint32_t, 8>& v) {
   soup.add_facet({v[0], v[3], v[2], v[1]});
   soup.add_facet({v[4], v[5], v[6], v[7]});

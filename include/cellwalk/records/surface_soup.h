@@ -3,15 +3,15 @@
 #ifndef CELLWALK_RECORDS_SURFACE_SOUP_H
 #define CELLWALK_RECORDS_SURFACE_SOUP_H
 
-#include <cellwalk/kernel/point.h>
-
 #include <cstdint>
 #include <vector>
 
+#include <cellwalk/kernel/point.h>
+
 namespace cellwalk {
 
-/// A polygon soup in space. A facet is a loop of point indices; a closed surface has them counterclockwise seen
-/// from outside.
+/// A polygon soup in space. A facet is a loop of point indices; a closed surface has them counterclockwise
+/// seen from outside.
 struct Surface_soup {
   std::vector<Point<3>> points;
   std::vector<std::vector<std::uint32_t>> facets;

@@ -3,11 +3,11 @@
 #ifndef CELLWALK_WALK_LOCATE_H
 #define CELLWALK_WALK_LOCATE_H
 
-#include <cellwalk/environment/snapshot.h>
-#include <cellwalk/walk/particle.h>
-
 #include <memory>
 #include <vector>
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/walk/particle.h>
 
 namespace cellwalk {
 
@@ -24,12 +24,14 @@ struct Location {
   Cell cell = Cell::none;       ///< the free cell of lowest index whose closure holds the point
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex it lies on: D inside, .. 0 on a vertex
   std::vector<Cell> cells;      ///< all free cells whose closure holds the point, by index
-  /// Sides: classes of `cells` linked at the point (joined by passable facets that contain it). More than one: the
-  /// point lies on a wall or pinch with free space on several sides, and `cell` is an arbitrary but fixed choice.
+  /// Sides: classes of `cells` linked at the point (joined by passable facets that contain it). More than
+  /// one: the point lies on a wall or pinch with free space on several sides, and `cell` is an arbitrary but
+  /// fixed choice.
   int sides = 0;
 };
 
-/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it and not be edited.
+/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it and not be
+/// edited.
 template <int D>
 class Locator {
  public:

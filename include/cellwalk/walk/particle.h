@@ -3,15 +3,15 @@
 #ifndef CELLWALK_WALK_PARTICLE_H
 #define CELLWALK_WALK_PARTICLE_H
 
-#include <cellwalk/environment/snapshot.h>
-
 #include <cstdint>
+
+#include <cellwalk/environment/snapshot.h>
 
 namespace cellwalk {
 
-/// Position, cell, dimension of the lowest cell it lies on, and the facet it aims at (a half-facet names the aimed-at
-/// dart; with the position it spans the predictive simplex).
-/// Invariant I1: the position lies in the closure of the cell.
+/// Position, cell, dimension of the lowest cell it lies on, and the facet it aims at (a half-facet names the
+/// aimed-at dart; with the position it spans the predictive simplex). Invariant I1: the position lies in the
+/// closure of the cell.
 template <int D>
 struct Particle {
   Point<D> position;

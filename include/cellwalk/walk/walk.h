@@ -3,12 +3,12 @@
 #ifndef CELLWALK_WALK_WALK_H
 #define CELLWALK_WALK_WALK_H
 
+#include <cstdint>
+#include <vector>
+
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/particle.h>
-
-#include <cstdint>
-#include <vector>
 
 namespace cellwalk {
 
@@ -16,7 +16,8 @@ namespace cellwalk {
 enum class Walk_strategy {
   certified,          ///< planes with an error bound first, exact signs where they leave doubt (needs Exact)
   exit_rule,          ///< exact signs of all facets, then of the ridges
-  predictive_simplex  ///< the paper's: turn from facet to facet until the target lies in the cone of the aimed one
+  predictive_simplex  ///< the paper's: turn from facet to facet until the target lies in the cone of the
+                      ///< aimed one
 };
 
 struct Walk_options {
@@ -54,9 +55,9 @@ enum class Contact_kind : std::uint8_t { vertex, edge, facet };
 /// Where and by what a motion is blocked.
 template <int D>
 struct Wall_contact {
-  double time = 0;          ///< parameter of the motion in [0,1]; the exact fraction, rounded to within 4 ulp
-  Point<D> point{};         ///< from + time (to - from), rounded
-  Vector<D> normal{};       ///< unit normal of the blocking wall, towards the free side
+  double time = 0;     ///< parameter of the motion in [0,1]; the exact fraction, rounded to within 4 ulp
+  Point<D> point{};    ///< from + time (to - from), rounded
+  Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
   Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; names its dart
   Cell cell = Cell::none;               ///< the cell in which the motion ends
@@ -72,20 +73,21 @@ struct Walk_result {
   Wall_contact<D> contact;      ///< if status is contact
 };
 
-/// Walks from a particle's position to a target. Touching a wall is no contact, crossing one is; passing exactly
-/// through passable edges and vertices works.
-/// \pre particle.position lies in the closure of particle.cell; the target is finite
-/// Degenerate cases: an exit on a ridge or vertex is continued through its star along passable facets; where several
-/// cells qualify the first in breadth-first order is taken. Zero motion arrives.
-/// Cost: about 5 ns if the target lies in the same cell, plus 20 to 35 ns a crossed facet.
+/// Walks from a particle's position to a target. Touching a wall is no contact, crossing one is; passing
+/// exactly through passable edges and vertices works. \pre particle.position lies in the closure of
+/// particle.cell; the target is finite Degenerate cases: an exit on a ridge or vertex is continued through
+/// its star along passable facets; where several cells qualify the first in breadth-first order is taken.
+/// Zero motion arrives. Cost: about 5 ns if the target lies in the same cell, plus 20 to 35 ns a crossed
+/// facet.
 template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
 
-/// Moves a particle: to the target if the walk arrives; otherwise leaves it where it was and returns the contact.
+/// Moves a particle: to the target if the walk arrives; otherwise leaves it where it was and returns the
+/// contact.
 template <class Kernel = Exact, int D>
-Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target, Walk_counts& counts,
-                    const Walk_options& options = {});
+Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
+                    Walk_counts& counts, const Walk_options& options = {});
 
 }  // namespace cellwalk
 

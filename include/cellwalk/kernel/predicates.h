@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Predicates and rounded exact values beyond a plain orientation. All exact.
+#ifndef CELLWALK_KERNEL_PREDICATES_H
+#define CELLWALK_KERNEL_PREDICATES_H
+
+#include <cellwalk/kernel/point.h>
+
+namespace cellwalk {
+
+/// True if p, q and r lie on one line (or two of them coincide).
+bool are_collinear(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+bool are_collinear(const Point<3>& p, const Point<3>& q, const Point<3>& r);
+
+/// True if x lies on the closed segment uv.
+template <int D>
+bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x);
+
+/// The parameter t at which the line a + t (b - a) meets the line uv (2D) or the plane uvw (3D).
+/// \pre a and b do not lie on the same side strictly, and not both on it
+/// Returns the exact fraction clamped to [0,1] and rounded: within 4 ulp, 0 and 1 only if exact.
+double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b);
+double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& a,
+                     const Point<3>& b);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_KERNEL_PREDICATES_H

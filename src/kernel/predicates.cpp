@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Interval_nt.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/predicates.h>
+
+namespace cellwalk {
+namespace {
+
+Point<2> drop(const Point<3>& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+/// Sign of an orientation where the filter is certain, 0 where it is not.
+int filtered_sign(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  const auto d = detail::determinant<double>(p, q, r);
+  const double bound = detail::orientation_error * d.magnitude;
+  if (!(d.magnitude > detail::smallest_magnitude && d.magnitude < detail::largest_magnitude)) return 0;
+  return d.value > bound ? 1 : d.value < -bound ? -1 : 0;
+}
+
+/// Plane or line value at x, in any ordered field.
+template <class T>
+T value(const Point<2>& u, const Point<2>& v, const Point<2>& x) {
+  const T ux(u[0]), uy(u[1]);
+  return (T(v[0]) - ux) * (T(x[1]) - uy) - (T(v[1]) - uy) * (T(x[0]) - ux);
+}
+
+template <class T>
+T value(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& x) {
+  const T ux(u[0]), uy(u[1]), uz(u[2]);
+  const T ax = T(v[0]) - ux, ay = T(v[1]) - uy, az = T(v[2]) - uz;
+  const T bx = T(w[0]) - ux, by = T(w[1]) - uy, bz = T(w[2]) - uz;
+  return (ay * bz - az * by) * (T(x[0]) - ux) + (az * bx - ax * bz) * (T(x[1]) - uy) +
+         (ax * by - ay * bx) * (T(x[2]) - uz);
+}
+
+/// 4 ulp of 1/2 relative: the widest interval whose midpoint is reported.
+constexpr double report_width = 4 * 0x1p-53;
+
+/// The time from values va at a and vb at b: va / (va - vb). Intervals first, rationals where they are too
+/// wide.
+template <class... P>
+double time_of(const Point<sizeof...(P)>& a, const Point<sizeof...(P)>& b, const P&... plane) {
+  {
+    using Interval = CGAL::Interval_nt<true>;
+    const Interval va = value<Interval>(plane..., a), vb = value<Interval>(plane..., b);
+    const Interval difference = va - vb;
+    if (difference.inf() > 0 || difference.sup() < 0) {
+      const Interval t = va / difference;
+      if (t.inf() > 0 && t.sup() < 1 && t.sup() - t.inf() <= report_width * t.inf())
+        return t.inf() + (t.sup() - t.inf()) / 2;
+    }
+  }
+  using Rational = CGAL::Exact_rational;
+  const Rational va = value<Rational>(plane..., a), vb = value<Rational>(plane..., b);
+  if (va == vb) return 0;
+  const Rational t = va / (va - vb);
+  if (t <= 0) return 0;
+  if (t >= 1) return 1;
+  const double rounded = CGAL::to_double(t);
+  return std::clamp(rounded, std::numeric_limits<double>::denorm_min(), std::nextafter(1.0, 0.0));
+}
+
+}  // namespace
+
+bool are_collinear(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return filtered_sign(p, q, r) == 0 && detail::orientation_cgal(p, q, r) == 0;
+}
+
+bool are_collinear(const Point<3>& p, const Point<3>& q, const Point<3>& r) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (filtered_sign(drop(p, axis), drop(q, axis), drop(r, axis)) != 0) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (detail::orientation_cgal(drop(p, axis), drop(q, axis), drop(r, axis)) != 0) return false;
+  return true;
+}
+
+template <int D>
+bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
+  for (int i = 0; i < D; ++i)
+    if (x[i] < std::min(u[i], v[i]) || x[i] > std::max(u[i], v[i])) return false;
+  return are_collinear(u, v, x);
+}
+
+template bool on_segment<2>(const Point<2>&, const Point<2>&, const Point<2>&);
+template bool on_segment<3>(const Point<3>&, const Point<3>&, const Point<3>&);
+
+double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b) {
+  return time_of(a, b, u, v);
+}
+
+double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& a,
+                     const Point<3>& b) {
+  return time_of(a, b, u, v, w);
+}
+
+}  // namespace cellwalk
