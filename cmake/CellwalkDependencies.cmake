@@ -1,9 +1,24 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Every third-party package is found here, once, with its licence and what it turns on.
 find_package(Threads REQUIRED)
-find_package(CGAL 5.5 REQUIRED)            # LGPL part: Linear_cell_complex, kernels
-find_package(Boost 1.74 REQUIRED)          # BSL: R-tree, exact integers
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)# MPL2: linear algebra of simulation
-find_package(TBB REQUIRED)                 # Apache 2: parallel compilation of snapshots
-find_package(fmt 9 REQUIRED)               # MIT: text output
-find_package(nlohmann_json 3.11 REQUIRED)  # MIT: scenes, reports
+find_package(CGAL 5.5 REQUIRED)             # LGPL part: Linear_cell_complex, kernels
+find_package(Boost 1.74 REQUIRED)           # BSL: R-tree, exact integers
+find_package(Eigen3 3.4 REQUIRED NO_MODULE) # MPL2: linear algebra of simulation
+find_package(TBB REQUIRED)                  # Apache 2: parallel compilation of snapshots
+find_package(fmt 9 REQUIRED)                # MIT: text output
+find_package(nlohmann_json 3.11 REQUIRED)   # MIT: scenes, reports
+if(CELLWALK_BUILD_CLI)
+  find_package(CLI11 2.1 REQUIRED)          # BSD: command line
+endif()
+
+# Optional parts: sought where wanted, used where found; `cellwalk --version` tells.
+if(CELLWALK_WITH_MESHING)
+  find_package(TetGen)                      # AGPL: closed surfaces to tetrahedra, boundary kept
+endif()
+if(CELLWALK_WITH_GMSH)
+  find_package(Gmsh)                        # GPL: .msh of every version, .mesh, .unv
+endif()
+if(CELLWALK_WITH_VTK)
+  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOLegacy IOXML)  # BSD: .vtk, .vtu
+  message(STATUS "VTK: ${VTK_FOUND} ${VTK_VERSION}")
+endif()

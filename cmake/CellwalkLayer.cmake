@@ -1,20 +1,31 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# cellwalk_layer(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...): one static library per layer, linked downward only.
+# cellwalk_layer(NAME [COMPONENT core|io|meshing] SOURCES ... LINKS ... PRIVATE_LINKS ...)
+#
+# One static library per layer, linked downward only, installed and exported with its component. The compiler refuses
+# GPL headers of CGAL in every component but meshing, however deep they are included.
 function(cellwalk_layer name)
-  cmake_parse_arguments(LAYER "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(LAYER "" "COMPONENT" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(NOT LAYER_COMPONENT)
+    set(LAYER_COMPONENT core)
+  endif()
   set(target cellwalk_${name})
   if(LAYER_SOURCES)
     add_library(${target} STATIC ${LAYER_SOURCES})
     target_include_directories(${target} PUBLIC
-      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} PUBLIC cellwalk::options ${LAYER_LINKS}
       PRIVATE $<BUILD_INTERFACE:cellwalk_warnings> ${LAYER_PRIVATE_LINKS})
+    if(NOT LAYER_COMPONENT STREQUAL meshing)
+      target_compile_definitions(${target} PRIVATE CGAL_LICENSE_ERROR)
+    endif()
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE
-      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} INTERFACE cellwalk::options ${LAYER_LINKS})
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   add_library(cellwalk::${name} ALIAS ${target})
+  install(TARGETS ${target} EXPORT cellwalk_${LAYER_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  set_property(GLOBAL APPEND PROPERTY CELLWALK_LAYERS_${LAYER_COMPONENT} ${name})
 endfunction()

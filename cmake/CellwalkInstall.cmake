@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
+#   core     LGPL  kernel to simulation                 target cellwalk::core
+#   io       LGPL  readers and writers (GPL with Gmsh)  target cellwalk::io
+#   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cellwalk)
+
+# cellwalk::core stands for all layers of the core.
+get_property(core_layers GLOBAL PROPERTY CELLWALK_LAYERS_core)
+list(TRANSFORM core_layers PREPEND cellwalk::)
+add_library(cellwalk_core INTERFACE)
+add_library(cellwalk::core ALIAS cellwalk_core)
+target_link_libraries(cellwalk_core INTERFACE ${core_layers})
+set_target_properties(cellwalk_core PROPERTIES EXPORT_NAME core)
+install(TARGETS cellwalk_options cellwalk_core EXPORT cellwalk_core)
+
+set(CELLWALK_COMPONENTS core)
+foreach(component io meshing)
+  get_property(layers GLOBAL PROPERTY CELLWALK_LAYERS_${component})
+  if(layers)
+    list(APPEND CELLWALK_COMPONENTS ${component})
+  endif()
+endforeach()
+foreach(component ${CELLWALK_COMPONENTS})
+  install(EXPORT cellwalk_${component} NAMESPACE cellwalk:: DESTINATION ${package_dir}
+          FILE cellwalk-${component}.cmake)
+endforeach()
+
+set(CELLWALK_HAS_TETGEN ${TetGen_FOUND})
+set(CELLWALK_HAS_GMSH ${Gmsh_FOUND})
+set(CELLWALK_HAS_VTK ${VTK_FOUND})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cellwalkConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake
+        DESTINATION ${package_dir})
+
+set(not_installed PATTERN cli EXCLUDE)
+if(NOT "meshing" IN_LIST CELLWALK_COMPONENTS)
+  list(APPEND not_installed PATTERN meshing EXCLUDE)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN *.h ${not_installed})

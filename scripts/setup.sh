@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
+#
+#   scripts/setup.sh [--for demo|test|dev] [--print]
+#
+#   demo  build and run the program            test  also Gmsh, VTK, the test tools and clang-format (default)
+#   dev   also clang, clang-tidy and ccache    --print  only name the packages
+set -euo pipefail
+
+core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
+meshing=(libtet1.5-dev)
+pictures=(libpng-dev)
+io=(libgmsh-dev libvtk9-dev)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format)
+tools=(clang clang-tidy ccache)
+
+purpose=test
+only_print=false
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --for) purpose=${2:-}; shift ;;
+    --for=*) purpose=${1#--for=} ;;
+    --print) only_print=true ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev or --print" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+packages=("${core[@]}" "${meshing[@]}" "${pictures[@]}")
+case "$purpose" in
+  demo) ;;
+  test) packages+=("${io[@]}" "${tests[@]}") ;;
+  dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
+  *) echo "setup.sh: --for takes demo, test or dev, not '$purpose'" >&2; exit 2 ;;
+esac
+
+if $only_print; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "setup.sh: this is not Debian or a relative of it. Install what these Debian packages hold, then go on:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+  [ "$state" = "install ok installed" ] || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: all ${#packages[@]} packages for '$purpose' are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: installing needs root or sudo. As root: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+echo "setup: done"

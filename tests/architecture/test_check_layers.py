@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Plants every breach that check_layers.py knows, one at a time, and expects it to be reported."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_layers
+
+SPDX = "// SPDX-License-Identifier: LGPL-3.0-or-later\n"
+
+
+class Planted(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name) / "project"
+        self.cgal = Path(folder.name) / "cgal"
+        self.header("kernel/sign.h")
+        self.header("walk/walk.h", "#include <cellwalk/kernel/sign.h>\n#include <vector>\n")
+
+    def header(self, name, body=""):
+        guard = "CELLWALK_" + name.upper().replace("/", "_").replace(".", "_")
+        self.write(f"include/cellwalk/{name}", f"{SPDX}#ifndef {guard}\n#define {guard}\n{body}#endif\n")
+
+    def write(self, name, text, folder=None):
+        path = (folder or self.root) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def source(self, name, body):
+        self.write(f"src/{name}", SPDX + body)
+
+    def check(self):
+        return check_layers.check(self.root, self.cgal)
+
+    def assert_caught(self, *parts):
+        breaches = self.check()
+        self.assertEqual(len(breaches), 1, breaches)
+        for part in parts:
+            self.assertIn(part, breaches[0])
+
+    def test_a_clean_tree_passes(self):
+        self.source("walk/walk.cpp", "#include <cellwalk/walk/walk.h>\nint s = Exact::orientation(counts, a, b);\n")
+        self.assertEqual(self.check(), [])
+
+    def test_an_empty_tree_is_an_error(self):
+        with self.assertRaises(ValueError):
+            check_layers.check(self.root / "nowhere")
+
+    def test_upward_include(self):
+        self.source("kernel/sign.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assert_caught("src/kernel/sign.cpp:2", "layer kernel must not include", "layer walk")
+
+    def test_upward_include_of_a_header_that_does_not_exist(self):
+        self.source("kernel/sign.cpp", "#include <cellwalk/body/body.h>\n")
+        self.assert_caught("layer kernel must not include", "layer body")
+
+    def test_upward_include_by_a_relative_path(self):
+        self.source("walk/inner.h", "#ifndef WALK_INNER_H\n#define WALK_INNER_H\n#endif\n")
+        self.source("kernel/sign.cpp", '#include "../walk/inner.h"\n')
+        self.assert_caught("src/kernel/sign.cpp:2", "layer walk")
+
+    def test_sideways_includes(self):
+        self.source("meshing/tet.cpp", "#include <cellwalk/io/read.h>\n")
+        self.assert_caught("layer meshing must not include", "layer io")
+        self.source("meshing/tet.cpp", "")
+        self.source("io/read.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assert_caught("layer io must not include", "layer walk")
+
+    def test_include_cycle_within_a_layer(self):
+        self.header("walk/a.h", "#include <cellwalk/walk/b.h>\n")
+        self.header("walk/b.h", "#include <cellwalk/walk/a.h>\n")
+        self.assert_caught("include cycle: include/cellwalk/walk/a.h -> include/cellwalk/walk/b.h")
+
+    def test_unknown_layer(self):
+        self.source("misc/a.cpp", "int a;\n")
+        self.assert_caught("src/misc/a.cpp:1", "no known layer")
+
+    def test_gpl_header_by_name(self):
+        for header in ("AABB_tree.h", "Mesh_3/C3T3_helpers.h", "Polygon_mesh_processing/repair.h",
+                       "Triangulation_3.h", "Delaunay_triangulation_2.h", "box_intersection_d.h"):
+            self.source("walk/walk.cpp", f"#include <CGAL/{header}>\n")
+            self.assert_caught("src/walk/walk.cpp:2", header, "is GPL")
+
+    def test_gpl_header_by_its_licence(self):
+        self.write("CGAL/new_package.h", "// SPDX-License-Identifier: GPL-3.0-or-later\n", self.cgal)
+        self.write("CGAL/kernel.h", "// SPDX-License-Identifier: LGPL-3.0-or-later\n", self.cgal)
+        self.source("walk/walk.cpp", "#include <CGAL/kernel.h>\n#include <CGAL/new_package.h>\n")
+        self.assert_caught("src/walk/walk.cpp:3", "CGAL/new_package.h is GPL")
+
+    def test_gpl_header_in_meshing_is_fine(self):
+        self.source("meshing/tet.cpp", "#include <CGAL/Mesh_3/C3T3_helpers.h>\n#include <tetgen.h>\n")
+        self.assertEqual(self.check(), [])
+
+    def test_predicate_outside_the_kernel(self):
+        for call in ("CGAL::orientation(a, b, c)", "orientation(a, b, c)", "kernel.orientation_3_object()(a, b, c, d)",
+                     "CGAL::coplanar(a, b, c, d)"):
+            self.source("walk/walk.cpp", f"int s = {call};\n")
+            self.assert_caught("src/walk/walk.cpp:2", "signs are asked of a kernel policy")
+
+    def test_predicate_in_the_kernel_a_comment_or_a_string_is_fine(self):
+        self.source("kernel/sign.cpp", "int s = CGAL::orientation(a, b, c);\n")
+        self.source("walk/walk.cpp", '// orientation(a, b)\n/* CGAL::orientation(a,\nb) */ auto t = "orientation(";\n')
+        self.assertEqual(self.check(), [])
+
+    def test_wrong_include_guard(self):
+        self.write("include/cellwalk/walk/walk.h", SPDX + "#ifndef WALK_H\n#define WALK_H\n#endif\n")
+        self.assert_caught("must be CELLWALK_WALK_WALK_H")
+
+    def test_long_file(self):
+        self.write("experiments/long.cpp", SPDX + "int a;\n" * check_layers.MAX_LINES)
+        self.assert_caught("experiments/long.cpp:401", "has 401 lines")
+
+    def test_missing_licence_line(self):
+        self.write("scripts/run.sh", "#!/bin/sh\necho\n")
+        self.assert_caught("scripts/run.sh:1", "SPDX")
+
+
+if __name__ == "__main__":
+    unittest.main()
