@@ -85,7 +85,8 @@ def check_file(path, root, cgal):
             yield (f"{name}:{line_of(code, match.start())}: {match.group().strip('( ')}: "
                    "signs are asked of a kernel policy, as Exact::orientation(counts, ...)")
     if path.suffix == ".h":
-        guard = re.sub(r"\W", "_", "/".join(name.parts[1:])).upper()
+        inner = name.parts[2:] if name.parts[0] == "include" else name.parts[1:]
+        guard = "CELLWALK_" + re.sub(r"\W", "_", "/".join(inner)).upper()
         if f"#ifndef {guard}\n#define {guard}\n" not in text:
             yield f"{name}:1: the include guard must be {guard}"
 

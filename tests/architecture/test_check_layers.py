@@ -58,7 +58,7 @@ class Planted(unittest.TestCase):
         self.assert_caught("layer kernel must not include", "layer body")
 
     def test_upward_include_by_a_relative_path(self):
-        self.source("walk/inner.h", "#ifndef WALK_INNER_H\n#define WALK_INNER_H\n#endif\n")
+        self.source("walk/inner.h", "#ifndef CELLWALK_WALK_INNER_H\n#define CELLWALK_WALK_INNER_H\n#endif\n")
         self.source("kernel/sign.cpp", '#include "../walk/inner.h"\n')
         self.assert_caught("src/kernel/sign.cpp:2", "layer walk")
 
