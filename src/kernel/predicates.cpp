@@ -88,6 +88,23 @@ bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
 template bool on_segment<2>(const Point<2>&, const Point<2>&, const Point<2>&);
 template bool on_segment<3>(const Point<3>&, const Point<3>&, const Point<3>&);
 
+bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x) {
+  Predicate_counts counts;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Dropping a coordinate is one to one on the plane if the projected polygon has an area.
+    const int turn =
+        Exact::orientation(counts, drop(polygon[0], axis), drop(polygon[1], axis), drop(polygon[2], axis));
+    if (turn == 0) continue;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Point<3>& next = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+      if (turn * Exact::orientation(counts, drop(polygon[k], axis), drop(next, axis), drop(x, axis)) < 0)
+        return false;
+    }
+    return true;
+  }
+  return false;
+}
+
 double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b) {
   return time_of(a, b, u, v);
 }

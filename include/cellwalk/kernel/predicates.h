@@ -3,6 +3,8 @@
 #ifndef CELLWALK_KERNEL_PREDICATES_H
 #define CELLWALK_KERNEL_PREDICATES_H
 
+#include <span>
+
 #include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
@@ -14,6 +16,10 @@ bool are_collinear(const Point<3>& p, const Point<3>& q, const Point<3>& r);
 /// True if x lies on the closed segment uv.
 template <int D>
 bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x);
+
+/// True if x, a point of the plane of a convex polygon, lies in the closed polygon.
+/// \pre the first three vertices of the polygon do not lie on one line
+bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x);
 
 /// The parameter t at which the line a + t (b - a) meets the line uv (2D) or the plane uvw (3D).
 /// \pre a and b do not lie on the same side strictly, and not both on it

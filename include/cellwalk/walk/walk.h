@@ -70,7 +70,7 @@ struct Walk_result {
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex that the target lies on, if arrived
   std::uint16_t aimed = 0;      ///< facet of the last cell that the motion aims at
   std::uint32_t cells = 1;      ///< cells visited
-  Wall_contact<D> contact;      ///< if status is contact
+  Wall_contact<D> contact;      ///< only if status is contact
 };
 
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing one is; passing

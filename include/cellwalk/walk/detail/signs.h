@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The two signs of the walk, asked of a number policy, and what follows from them in one cell.
+#ifndef CELLWALK_WALK_DETAIL_SIGNS_H
+#define CELLWALK_WALK_DETAIL_SIGNS_H
+
+#include <boost/container/small_vector.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/walk.h>
+
+namespace cellwalk::detail {
+
+/// Side of x against facet i: > 0 strictly outside the cell.
+template <class Kernel>
+int side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x, Walk_counts& counts) {
+  ++counts.side_tests;
+  const auto loop = cell.loop(i);
+  return -Kernel::orientation(counts.predicates, cell.point(loop[0]), cell.point(loop[1]), x);
+}
+
+template <class Kernel>
+int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x, Walk_counts& counts) {
+  ++counts.side_tests;
+  const auto loop = cell.loop(i);
+  return Kernel::orientation(counts.predicates, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]),
+                             x);
+}
+
+/// Line ab against ridge k of facet i (3D: edge from loop vertex k to the next; 2D: vertex k). A line that
+/// leaves the cell through the facet has signs >= 0 against all ridges.
+template <class Kernel>
+int along(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Point<2>& a, const Point<2>& b,
+          Walk_counts& counts) {
+  ++counts.along_tests;
+  const int s = Kernel::orientation(counts.predicates, a, b, cell.point(cell.loop(i)[k]));
+  return k == 0 ? -s : s;
+}
+
+template <class Kernel>
+int along(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Point<3>& a, const Point<3>& b,
+          Walk_counts& counts) {
+  ++counts.along_tests;
+  const auto loop = cell.loop(i);
+  const std::uint16_t next = loop[k + 1 == loop.size() ? 0 : k + 1];
+  return Kernel::orientation(counts.predicates, a, b, cell.point(loop[k]), cell.point(next));
+}
+
+/// Where a line leaves a cell.
+struct Exit {
+  enum Kind : std::uint8_t { arrived, facet, ridge, vertex, none } kind = none;
+  std::uint16_t number = 0;    ///< facet left through, or that contains the ridge or vertex
+  std::uint32_t u = 0, v = 0;  ///< point indices: ridge uv (3D), or vertex u
+};
+
+/// Signs of a line against the ridges of a facet, none negative.
+using Ridge_signs = std::span<const std::int8_t>;
+
+/// Refines an exit on facet i that has ridges with sign zero: inside a ridge or at a vertex.
+template <class Kernel>
+Exit exit_on_zero_ridges(const Cell_view<2>& cell, std::size_t i, Ridge_signs signs, const Point<2>&,
+                         const Point<2>&, Walk_counts&) {
+  const std::uint32_t u = cell.point_index(cell.loop(i)[signs[0] == 0 ? 0 : 1]);
+  return {Exit::vertex, static_cast<std::uint16_t>(i), u, u};
+}
+
+template <class Kernel>
+Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs signs, const Point<3>& a,
+                         const Point<3>& b, Walk_counts& counts) {
+  const auto loop = cell.loop(i);
+  const std::size_t n = loop.size();
+  const auto number = static_cast<std::uint16_t>(i);
+  const auto is_zero = [&](std::size_t k) { return signs[k % n] == 0; };
+  const auto at = [&](std::size_t k) { return loop[k % n]; };
+  // The first zero ridge of a run.
+  std::size_t first = 0;
+  while (first < n && !(is_zero(first) && !is_zero(first + n - 1))) ++first;
+  first %= n;
+  std::size_t last = first;  // last zero ridge of the run
+  while (last + 1 < first + n && is_zero(last + 1)) {
+    if (!are_collinear(cell.point(at(last)), cell.point(at(last + 1)), cell.point(at(last + 2)))) {
+      const std::uint32_t common = cell.point_index(at(last + 1));
+      return {Exit::vertex, number, common, common};
+    }
+    ++last;
+  }
+  if (last == first)
+    return {Exit::ridge, number, cell.point_index(at(first)), cell.point_index(at(first + 1))};
+  // Several ridges on one line: the vertices in order, seen against a vertex off the line, tell which.
+  std::size_t off = last + 2;
+  while (are_collinear(cell.point(at(first)), cell.point(at(first + 1)), cell.point(at(off)))) ++off;
+  int previous = 0;
+  for (std::size_t k = first; k <= last + 1; ++k) {
+    ++counts.along_tests;
+    const int s = Kernel::orientation(counts.predicates, a, b, cell.point(at(k)), cell.point(at(off)));
+    const std::uint32_t here = cell.point_index(at(k));
+    if (s == 0) return {Exit::vertex, number, here, here};
+    if (k > first && s != previous) return {Exit::ridge, number, cell.point_index(at(k - 1)), here};
+    previous = s;
+  }
+  return {Exit::none, number, 0, 0};  // inexact policies only
+}
+
+/// Does line ab leave through facet i? If so, where.
+template <class Kernel, int D>
+Exit exit_through(const Cell_view<D>& cell, std::size_t i, const Point<D>& a, const Point<D>& b,
+                  Walk_counts& counts) {
+  boost::container::small_vector<std::int8_t, 16> signs;
+  const std::size_t ridges = cell.loop(i).size();
+  bool inside = true;
+  for (std::size_t k = 0; k < ridges; ++k) {
+    const int s = along<Kernel>(cell, i, k, a, b, counts);
+    if (s < 0) return {};
+    inside &= s > 0;
+    signs.push_back(static_cast<std::int8_t>(s));
+  }
+  if (inside) return {Exit::facet, static_cast<std::uint16_t>(i), 0, 0};
+  return exit_on_zero_ridges<Kernel>(cell, i, {signs.data(), signs.size()}, a, b, counts);
+}
+
+/// True if x, known to lie in the closed cell and on the plane of facet i, lies in the closed facet. Exact,
+/// whatever the policy of the walk: it matters only where a cell has several coplanar facets.
+inline bool in_facet(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
+  const auto loop = cell.loop(i);
+  return on_segment<2>(cell.point(loop[0]), cell.point(loop[1]), x);
+}
+
+inline bool in_facet(const Cell_view<3>& cell, std::size_t i, const Point<3>& x) {
+  const auto loop = cell.loop(i);
+  std::vector<Point<3>> polygon;
+  for (const std::uint16_t v : loop) polygon.push_back(cell.point(v));
+  return in_convex_polygon(polygon, x);
+}
+
+/// Dimension of the lowest cell of the complex that holds x, given that x lies in the closed cell and on the
+/// planes of the facets for which on_plane(i) holds.
+template <int D, class On_plane>
+std::uint16_t lowest_dimension(const Cell_view<D>& cell, const Point<D>& x, const On_plane& on_plane) {
+  for (std::size_t v = 0; v < cell.vertex_count(); ++v)
+    if (cell.point(v) == x) return 0;
+  bool on_facet = false;
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    if (!on_plane(i)) continue;
+    on_facet = true;
+    if constexpr (D == 3) {
+      const auto loop = cell.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        if (on_segment<3>(cell.point(loop[k]), cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]), x))
+          return 1;
+    }
+  }
+  return on_facet ? D - 1 : D;
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_WALK_DETAIL_SIGNS_H

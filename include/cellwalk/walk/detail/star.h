@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The search of the star of a ridge or vertex that a line passes exactly. Rule: docs/walk.md, step 4.
+#ifndef CELLWALK_WALK_DETAIL_STAR_H
+#define CELLWALK_WALK_DETAIL_STAR_H
+
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/walk/detail/signs.h>
+
+namespace cellwalk::detail {
+
+/// Unit normal of a half-facet towards its cell, rounded.
+template <int D>
+Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
+  const auto loop = cell.loop(i);
+  const Vector<D> e = cell.point(loop[1]) - cell.point(loop[0]);
+  Vector<D> n;
+  if constexpr (D == 2)
+    n = {-e[1], e[0]};
+  else
+    n = cross(cell.point(loop[2]) - cell.point(loop[0]), e);
+  // Scaling first keeps the squares of very small or large normals in range.
+  double largest = 0;
+  for (const double x : n) largest = std::max(largest, std::abs(x));
+  if (largest > 0) n = (1 / largest) * n;
+  const double size = length(n);
+  return size > 0 ? (1 / size) * n : n;
+}
+
+/// True if facet i of a cell contains point u, and v too (3D ridge).
+template <int D>
+bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, std::uint32_t v) {
+  bool has_u = false, has_v = false;
+  for (const std::uint16_t w : cell.loop(i)) {
+    has_u |= cell.point_index(w) == u;
+    has_v |= cell.point_index(w) == v;
+  }
+  return has_u && has_v;
+}
+
+struct Star_result {
+  Cell cell = Cell::none;              ///< where the motion goes on; none: blocked
+  Half_facet wall = Half_facet::none;  ///< if blocked: the wall that blocks it
+};
+
+/// Searches the star of ridge uv (or vertex u = v), breadth first from `start` through passable facets, for a
+/// cell in which the motion towards b continues: all its facets at the ridge or vertex have b on their inner
+/// side or on them.
+template <class Kernel, int D>
+Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
+                        const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+  ++counts.star_searches;
+  boost::container::small_vector<Cell, 64> queue{start};
+  Star_result result;
+  double steepest = 0;
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const Cell c = queue[head];
+    const Cell_view<D> cell = snapshot.view(c);
+    ++counts.star_cells;
+    bool accepted = true;
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      if (!facet_contains(cell, i, u, v)) continue;
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      const bool outside = side<Kernel>(cell, i, b, counts) > 0;
+      accepted &= !outside;
+      if (!snapshot.is_impassable(f)) {
+        const Cell next = snapshot.neighbor(f);
+        if (std::find(queue.begin(), queue.end(), next) == queue.end()) queue.push_back(next);
+      } else if (outside) {
+        // Of all walls in the way the one met most head-on is reported; the choice decides nothing.
+        const double slope = dot(inner_normal(cell, i), a - b);
+        if (result.wall == Half_facet::none || slope > steepest) {
+          result.wall = f;
+          steepest = slope;
+        }
+      }
+    }
+    if (accepted) return {c, Half_facet::none};
+  }
+  return result;
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_WALK_DETAIL_STAR_H

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The walk, for any number policy. The shipped policies are compiled once, in src/walk/walk.cpp; include this
+// header only to walk with a policy of your own (static constants is_exact, uses_certificates;
+// orientation(counts, points..)).
+#ifndef CELLWALK_WALK_WALK_IMPL_H
+#define CELLWALK_WALK_WALK_IMPL_H
+
+#include <boost/container/small_vector.hpp>
+
+#include <cellwalk/walk/detail/certified_exit.h>
+#include <cellwalk/walk/detail/signs.h>
+#include <cellwalk/walk/detail/star.h>
+#include <cellwalk/walk/walk.h>
+
+namespace cellwalk {
+namespace detail {
+
+/// One walk in progress.
+template <class Kernel, int D>
+class Walker {
+ public:
+  Walker(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& to, Walk_counts& counts,
+         const Walk_options& options)
+      : snapshot_(snapshot), a_(from.position), b_(to), counts_(counts), options_(options), cell_(from.cell) {
+    result_.aimed = from.aimed;
+    starts_inside_ = from.dimension == D;
+    if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
+      planes_a_ = planes_b_ = snapshot.frame().map(b_, y_b_);
+  }
+
+  Walk_result<D> run() {
+    ++counts_.walks;
+    if (options_.visited) options_.visited->push_back(cell_);
+    // Exact walks end because every accepted cell holds a further piece of the segment; rounded ones need a
+    // limit.
+    const std::size_t limit = Kernel::is_exact ? ~std::size_t{0} : 4 * snapshot_.cell_count() + 64;
+    while (step())
+      if (result_.cells > limit) {
+        result_.status = Walk_status::lost;
+        break;
+      }
+    if (result_.cells == 1 && result_.status == Walk_status::arrived) ++counts_.stays;
+    result_.cell = cell_;
+    return result_;
+  }
+
+ private:
+  /// Leaves the cell or ends the walk; true if the walk goes on.
+  bool step() {
+    const Cell_view<D> cell = snapshot_.view(cell_);
+    const Exit exit = find_exit(cell);
+    switch (exit.kind) {
+      case Exit::arrived:
+        result_.status = Walk_status::arrived;
+        return false;
+      case Exit::none:
+        result_.status = Walk_status::lost;
+        return false;
+      case Exit::facet: {
+        result_.aimed = exit.number;
+        const Half_facet f = Snapshot<D>::half_facet(cell_, exit.number);
+        if (snapshot_.is_impassable(f)) return block(cell, exit, f);
+        return enter(snapshot_.neighbor(f));
+      }
+      default: {
+        result_.aimed = exit.number;
+        const Star_result star = search_star<Kernel>(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
+        if (star.cell == Cell::none) return block(cell, exit, star.wall);
+        return enter(star.cell);
+      }
+    }
+  }
+
+  bool enter(Cell next) {
+    ++counts_.crossings;
+    ++result_.cells;
+    cell_ = next;
+    starts_inside_ = true;
+    result_.aimed = 0;
+    if (options_.visited) options_.visited->push_back(next);
+    return true;
+  }
+
+  bool block(const Cell_view<D>& cell, const Exit& exit, Half_facet wall) {
+    if (wall == Half_facet::none) {  // no wall in the way: signs contradict each other (inexact policies)
+      result_.status = Walk_status::lost;
+      return false;
+    }
+    result_.status = Walk_status::contact;
+    Wall_contact<D>& contact = result_.contact;
+    const auto loop = cell.loop(exit.number);
+    if constexpr (D == 2)
+      contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), a_, b_);
+    else
+      contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), a_, b_);
+    for (int k = 0; k < D; ++k) contact.point[k] = a_[k] + contact.time * (b_[k] - a_[k]);
+    const Cell wall_cell = snapshot_.cell_of(wall);
+    contact.normal = inner_normal(snapshot_.view(wall_cell), snapshot_.facet_of(wall));
+    contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
+                   : exit.kind == Exit::vertex ? Contact_kind::vertex
+                                               : Contact_kind::edge;
+    contact.facet = wall;
+    contact.cell = cell_;
+    return false;
+  }
+
+  Exit find_exit(const Cell_view<D>& cell) {
+    if (planes_b_) return certified_exit(cell);
+    if (options_.strategy == Walk_strategy::predictive_simplex && starts_inside_ && a_ != b_)
+      return predictive_exit(cell);
+    return exit_by_rule(cell);
+  }
+
+  /// The exit by exact signs alone: facets with the target strictly outside, then their ridges.
+  Exit exit_by_rule(const Cell_view<D>& cell) {
+    const std::size_t facets = cell.facet_count();
+    boost::container::small_vector<std::int8_t, 32> sides(facets);
+    bool outside = false;
+    for (std::size_t i = 0; i < facets; ++i) {
+      sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
+      outside |= sides[i] > 0;
+    }
+    return exit_by_sides(cell, sides, outside);
+  }
+
+  template <class Sides>
+  Exit exit_by_sides(const Cell_view<D>& cell, const Sides& sides, bool outside) {
+    if (!outside) {
+      result_.dimension = lowest_dimension(cell, b_, [&](std::size_t i) { return sides[i] == 0; });
+      return {Exit::arrived};
+    }
+    const std::size_t facets = cell.facet_count();
+    const std::size_t forecast = result_.aimed < facets ? result_.aimed : 0;
+    for (std::size_t k = 0; k < facets; ++k) {
+      const std::size_t i = forecast + k < facets ? forecast + k : forecast + k - facets;
+      if (sides[i] <= 0) continue;
+      const Exit exit = exit_through<Kernel>(cell, i, a_, b_, counts_);
+      if (exit.kind != Exit::none) return exit;
+    }
+    return {};
+  }
+
+  /// The exit from planes where they decide; exact signs for the facets they leave in doubt.
+  Exit certified_exit(const Cell_view<D>& cell) {
+    const std::size_t facets = cell.facet_count();
+    const std::size_t blocks = (facets + 3) / 4;
+    const Plane_block<D>* planes = snapshot_.blocks(cell_);
+    counts_.plane_blocks += blocks;
+    if (blocks == 1) {
+      // The common cases of small cells: everything certain, at most one facet to leave through.
+      const Block_sides s = classify(planes[0], y_b_);
+      if (s.inside == 0xf) return arrive_inside();
+      if ((s.inside | s.outside) == 0xf && std::has_single_bit(s.outside) && starts_inside_)
+        return {Exit::facet, static_cast<std::uint16_t>(std::countr_zero(s.outside)), 0, 0};
+    }
+    boost::container::small_vector<std::int8_t, 32> sides(4 * blocks);
+    boost::container::small_vector<float, 32> values_b(4 * blocks);
+    bool outside = false, on_plane = false;
+    for (std::size_t k = 0; k < blocks; ++k) {
+      const Block_sides s = classify(planes[k], y_b_);
+      for (std::size_t lane = 0; lane < 4; ++lane) {
+        const std::size_t i = 4 * k + lane;
+        values_b[i] = s.value[lane];
+        if (s.inside >> lane & 1) {
+          sides[i] = -1;
+        } else if (s.outside >> lane & 1) {
+          sides[i] = 1;
+        } else {
+          ++counts_.uncertain_lanes;
+          sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
+          values_b[i] = 0;  // the plane itself is in doubt: leave comparisons to exact signs
+        }
+        outside |= sides[i] > 0;
+        on_plane |= sides[i] == 0;
+      }
+    }
+    if (!outside) {
+      if (!on_plane) return arrive_inside();
+      return exit_by_sides(cell, sides, false);
+    }
+    const Exit exit = earliest_exit(facets, planes, sides, values_b);
+    return exit.kind == Exit::facet ? exit : exit_by_sides(cell, sides, true);
+  }
+
+  /// The facet certainly met first, strictly inside it; Exit::none if the planes do not decide.
+  template <class Sides, class Values>
+  Exit earliest_exit(std::size_t facets, const Plane_block<D>* planes, const Sides& sides,
+                     const Values& values_b) {
+    if (!mapped_a_) {
+      mapped_a_ = true;
+      planes_a_ = snapshot_.frame().map(a_, y_a_);
+    }
+    if (!planes_a_) return {};
+    counts_.plane_blocks += (facets + 3) / 4;
+    boost::container::small_vector<float, 32> values_a(4 * ((facets + 3) / 4));
+    for (std::size_t k = 0; 4 * k < facets; ++k) {
+      const Float4 value = evaluate(planes[k], y_a_);
+      for (std::size_t lane = 0; lane < 4; ++lane) values_a[4 * k + lane] = value[lane];
+    }
+    // The candidate; then every other facet must certainly be met later, or not at all.
+    std::size_t best = facets;
+    for (std::size_t i = 0; i < facets; ++i) {
+      if (sides[i] < 0) continue;
+      if (values_b[i] == 0) {
+        // In doubt at b. If b is on the plane it must be known that a is strictly inside.
+        if (sides[i] > 0 || !(values_a[i] < -plane_error)) return {};
+        continue;
+      }
+      if (best == facets || values_a[i] * double{values_b[best]} > values_a[best] * double{values_b[i]})
+        best = i;
+    }
+    if (best == facets) return {};
+    if (!starts_inside_ && !(values_a[best] < -plane_error)) return {};
+    for (std::size_t i = 0; i < facets; ++i)
+      if (sides[i] > 0 && i != best && !meets_first(values_a[best], values_b[best], values_a[i], values_b[i]))
+        return {};
+    return {Exit::facet, static_cast<std::uint16_t>(best), 0, 0};
+  }
+
+  Exit arrive_inside() {
+    result_.dimension = D;
+    return {Exit::arrived};
+  }
+
+  /// The paper's forecast: turn from facet to facet across the ridge that the target lies beyond, until it
+  /// lies in the cone of the facet over the start. Crossing a ridge strictly lowers the time at which the
+  /// line meets the plane, so the turns end; among coplanar facets of one cell they need not, and the rule
+  /// takes over after a full round.
+  Exit predictive_exit(const Cell_view<D>& cell) {
+    const std::size_t facets = cell.facet_count();
+    std::size_t i = result_.aimed < facets ? result_.aimed : 0;
+    // The cone of a facet is over the start only if the start lies strictly on its inner side.
+    for (std::size_t k = 0; side<Kernel>(cell, i, a_, counts_) >= 0; ++k) {
+      if (k == facets) return exit_by_rule(cell);
+      i = i + 1 == facets ? 0 : i + 1;
+    }
+    for (std::size_t turns = 0; turns <= 2 * facets; ++turns) {
+      const auto loop = cell.loop(i);
+      std::size_t beyond = loop.size();
+      bool zero = false;
+      for (std::size_t k = 0; k < loop.size() && beyond == loop.size(); ++k) {
+        const int s = along<Kernel>(cell, i, k, a_, b_, counts_);
+        if (s < 0) beyond = k;
+        zero |= s == 0;
+      }
+      if (beyond == loop.size()) {
+        result_.aimed = static_cast<std::uint16_t>(i);
+        const int s = side<Kernel>(cell, i, b_, counts_);
+        if (s < 0 && !zero) return arrive_inside();
+        if (s > 0) return exit_through<Kernel>(cell, i, a_, b_, counts_);
+        return exit_by_rule(cell);  // on the facet, or on the boundary of its cone: which cell is lowest?
+      }
+      ++counts_.turns;
+      const std::size_t next = across(cell, i, beyond);
+      if (next == facets) break;
+      i = next;
+    }
+    return exit_by_rule(cell);
+  }
+
+  /// The other facet at ridge k of facet i.
+  static std::size_t across(const Cell_view<D>& cell, std::size_t i, std::size_t k) {
+    const auto loop = cell.loop(i);
+    for (std::size_t j = 0; j < cell.facet_count(); ++j) {
+      if (j == i) continue;
+      const auto other = cell.loop(j);
+      for (std::size_t m = 0; m < other.size(); ++m) {
+        if constexpr (D == 2) {
+          if (other[m] == loop[k]) return j;
+        } else {
+          if (other[m] == loop[(k + 1) % loop.size()] && other[(m + 1) % other.size()] == loop[k]) return j;
+        }
+      }
+    }
+    return cell.facet_count();
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Point<D> a_, b_;
+  Walk_counts& counts_;
+  const Walk_options& options_;
+  Cell cell_;
+  Walk_result<D> result_;
+  Float_point<D> y_a_, y_b_;
+  bool planes_a_ = false;  ///< a lies in the frame (known once mapped_a_)
+  bool planes_b_ = false;  ///< b lies in the frame, and planes are to be used
+  bool mapped_a_ = false;
+  /// The line holds a point of the cell strictly before any exit: a is in the interior, or a facet was
+  /// crossed.
+  bool starts_inside_;
+};
+
+}  // namespace detail
+
+template <class Kernel, int D>
+Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
+                    Walk_counts& counts, const Walk_options& options) {
+  return detail::Walker<Kernel, D>(snapshot, particle, target, counts, options).run();
+}
+
+template <class Kernel, int D>
+Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
+                    Walk_counts& counts, const Walk_options& options) {
+  const Walk_result<D> result = walk<Kernel>(snapshot, particle, target, counts, options);
+  if (result.status != Walk_status::arrived) return result;
+  particle.position = target;
+  particle.cell = result.cell;
+  particle.dimension = result.dimension;
+  particle.aimed = result.aimed;
+  return result;
+}
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_WALK_WALK_IMPL_H

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/walk/walk_impl.h>
+
+namespace cellwalk {
+
+Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
+  walks += other.walks;
+  stays += other.stays;
+  crossings += other.crossings;
+  plane_blocks += other.plane_blocks;
+  uncertain_lanes += other.uncertain_lanes;
+  side_tests += other.side_tests;
+  along_tests += other.along_tests;
+  turns += other.turns;
+  star_searches += other.star_searches;
+  star_cells += other.star_cells;
+  predicates += other.predicates;
+  return *this;
+}
+
+#define CELLWALK_INSTANTIATE(KERNEL, D)                                                                    \
+  template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,         \
+                                          Walk_counts&, const Walk_options&);                              \
+  template Walk_result<D> move<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, Walk_counts&, \
+                                          const Walk_options&);
+
+CELLWALK_INSTANTIATE(Exact, 2)
+CELLWALK_INSTANTIATE(Exact, 3)
+CELLWALK_INSTANTIATE(Lazy, 2)
+CELLWALK_INSTANTIATE(Lazy, 3)
+CELLWALK_INSTANTIATE(Double, 2)
+CELLWALK_INSTANTIATE(Double, 3)
+CELLWALK_INSTANTIATE(Float, 2)
+CELLWALK_INSTANTIATE(Float, 3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk
