@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Where generators place the points of an integer lattice, so that lattice planes stay exactly planar.
+#ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
+#define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
+
+#include <array>
+#include <cstdint>
+
+#include <cellwalk/kernel/point.h>
+
+namespace cellwalk {
+
+/// The affine map k -> origin + sum of k[i] * columns[i] of lattice points. The default is the identity.
+template <int D>
+struct Lattice_map {
+  std::array<Vector<D>, D> columns = identity();
+  Point<D> origin{};
+
+  static constexpr std::array<Vector<D>, D> identity() {
+    std::array<Vector<D>, D> c{};
+    for (int i = 0; i < D; ++i) c[i][i] = 1;
+    return c;
+  }
+
+  /// The image of a lattice point, each coordinate summed up from the origin in the order of the columns.
+  Point<D> operator()(const Point<D>& k) const {
+    Point<D> p = origin;
+    for (int i = 0; i < D; ++i)
+      for (int row = 0; row < D; ++row) p[row] += k[i] * columns[i][row];
+    return p;
+  }
+};
+
+/// Every axis times `scale`.
+template <int D>
+Lattice_map<D> scaled(double scale);
+
+/// A rotation times 3 `scale` (3D: columns (1,2,2), (2,-2,1), (2,1,-2)) or times 5 `scale` (2D: columns
+/// (3,4),
+/// (-4,3)): no lattice plane stays parallel to an axis plane, and lattice points stay integer for scale 1.
+template <int D>
+Lattice_map<D> rotated(double scale = 1);
+
+/// A shear: axis 0 as it is, every further axis i leans along axis i-1 by half a cell; times `scale`.
+template <int D>
+Lattice_map<D> sheared(double scale = 1);
+
+/// What the image of a lattice must satisfy.
+enum class Placement {
+  planar,   ///< lattice planes stay exactly planar
+  positive  ///< cells keep their orientation: enough for simplices
+};
+
+/// Checks that a map places the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places, as
+/// asked. planar: either no coordinate is rounded, or each coordinate depends on one axis alone (then
+/// rounding moves whole lattice planes) and neighbouring planes stay apart. \throw Error(usage) where this
+/// fails, or where the map is singular or mirrors
+template <int D>
+void check_placement(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& extent, int binary_places,
+                     Placement placement);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Lattice worlds: small complexes full of degeneracies, all of them exactly representable. The playground of
+// the oracle tests: membranes, solid and missing cells (pinched vertices and edges), cells of many shapes,
+// cells with several coplanar facets, cells that share more than one facet, facets with collinear vertices.
+#ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_WORLD_H
+#define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_WORLD_H
+
+#include <array>
+#include <cstdint>
+
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/generate/lattice_map.h>
+#include <cellwalk/records/cell_soup.h>
+
+namespace cellwalk {
+
+/// How a lattice world is made. All shares are probabilities in [0,1], decided by the seed.
+template <int D>
+struct Lattice_world_options {
+  std::array<std::uint32_t, D> cells = Grid_options<D>::filled(4);  ///< lattice cubes along each axis
+  std::uint64_t seed = 1;
+
+  // How cubes become cells. What remains of the shares stays a cube. Where one cube needs the square it
+  // shares with the next cut into two triangles, that one just has two coplanar facets there, so any mixture
+  // conforms.
+  double box_share = 0;  ///< cubes that grow to a box of 2 to 8 cubes: coplanar facets, facets shared twice
+  double simplex_share = 0;  ///< cubes cut into 6 tetrahedra (2D: 2 triangles)
+  double prism_share = 0;    ///< cubes cut into 2 prisms (3D only)
+  double star_share = 0;     ///< cubes cut into pyramids round their centre (2D: 4 triangles)
+  double merge_share = 0;    ///< rectangles of squares between the same two cells that become one facet with
+                           ///< collinear vertices (3D only)
+
+  // What blocks.
+  double membrane_share = 0;  ///< facets that are impassable
+  double solid_share = 0;     ///< cells that are solid
+  double removed_share = 0;   ///< cells that are left out: pinched vertices and edges
+
+  Lattice_map<D> map{};  ///< scaled, rotated or sheared worlds
+};
+
+/// A world with something of everything.
+template <int D>
+Lattice_world_options<D> mixed_lattice_world(std::uint64_t seed);
+
+/// Builds a lattice world. Cells follow the lattice's order; points are those in use. Coordinates are
+/// multiples of 1/2 before the map (integers unless star_share > 0). Boundary facets are not marked
+/// impassable: they are so anyway. \throw Error(usage) for a share outside [0,1], shares of shapes that sum
+/// to more than 1, or a map that rounds Cost: about 1 us a cell.
+template <int D>
+Cell_soup<D> lattice_world(const Lattice_world_options<D>& options);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_GENERATE_LATTICE_WORLD_H

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// How the cubes of a lattice world are grouped and cut.
+#ifndef CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+#define CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/kernel/random.h>
+
+namespace cellwalk::detail {
+
+enum class Lattice_shape : std::uint8_t { box, simplices, prisms, star };
+
+/// A box of cubes that becomes one cell, or a single cube that is cut.
+template <int D>
+struct Lattice_box {
+  std::array<std::uint32_t, D> low, size;
+  Lattice_shape shape;
+  int axis;  ///< prisms: the axis they stand along
+};
+
+template <int D>
+struct Lattice_partition {
+  std::array<std::uint32_t, D> cells;
+  std::vector<Lattice_box<D>> boxes;  ///< in the order of their lowest cubes
+  std::vector<std::uint32_t> box_of;  ///< per cube
+
+  std::size_t cube(const std::array<std::uint32_t, D>& k) const {
+    std::size_t index = 0;
+    for (int a = D - 1; a >= 0; --a) index = index * cells[a] + k[a];
+    return index;
+  }
+};
+
+template <int D>
+Lattice_partition<D> make_lattice_partition(const Lattice_world_options<D>& options);
+
+/// Collects the cells of a lattice world. Points are named by twice their lattice coordinates, so that
+/// centres of cubes have integer names as well.
+template <int D>
+class Lattice_builder {
+ public:
+  using Name = std::array<std::uint32_t, D>;
+
+  explicit Lattice_builder(const Lattice_world_options<D>& options);
+
+  /// Starts a cell; false if it is to be left out.
+  bool begin_cell();
+  void add_facet(const std::vector<Name>& loop);
+  void end_cell();
+
+  Cell_soup<D> take() { return std::move(soup_); }
+
+ private:
+  const Lattice_world_options<D>& options_;
+  Cell_soup<D> soup_;
+  std::vector<std::uint32_t> index_of_;  ///< per name, or no_index
+  std::vector<std::uint32_t> loop_;
+  Random random_;
+  bool solid_ = false;
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
