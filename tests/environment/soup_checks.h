@@ -3,6 +3,9 @@
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/records/cell_soup.h>
+
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -10,9 +13,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <cellwalk/kernel/policies.h>
-#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk::test {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <array>
-#include <gtest/gtest.h>
-
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 
 #include "soup_checks.h"
 

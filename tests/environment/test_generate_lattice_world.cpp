@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <gtest/gtest.h>
-
 #include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "soup_checks.h"
 

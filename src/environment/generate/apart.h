@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Random cells of a grid that touch each other nowhere.
-#ifndef CELLWALK_SRC_ENVIRONMENT_GENERATE_APART_H
-#define CELLWALK_SRC_ENVIRONMENT_GENERATE_APART_H
+#ifndef CELLWALK_ENVIRONMENT_GENERATE_APART_H
+#define CELLWALK_ENVIRONMENT_GENERATE_APART_H
+
+#include <cellwalk/kernel/random.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/kernel/random.h>
 
 namespace cellwalk::detail {
 
@@ -23,4 +23,4 @@ std::vector<std::uint32_t> cells_apart(const std::array<std::uint32_t, D>& cells
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_SRC_ENVIRONMENT_GENERATE_APART_H
+#endif  // CELLWALK_ENVIRONMENT_GENERATE_APART_H

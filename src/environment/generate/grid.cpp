@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "apart.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <cmath>
-
 #include <cellwalk/environment/generate/lattice_map.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cellwalk {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // How the cubes of a lattice world are grouped and cut.
-#ifndef CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
-#define CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+#ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+#define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+
+#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/kernel/random.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/environment/generate/lattice_world.h>
-#include <cellwalk/kernel/random.h>
 
 namespace cellwalk::detail {
 
@@ -65,4 +65,4 @@ class Lattice_builder {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_SRC_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H
+#endif  // CELLWALK_ENVIRONMENT_GENERATE_LATTICE_PARTITION_H

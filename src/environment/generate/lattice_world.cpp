@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <array>
-
 #include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <array>
 
 #include "lattice_partition.h"
 

@@ -5,12 +5,12 @@
 #ifndef CELLWALK_ENVIRONMENT_GENERATE_GRID_H
 #define CELLWALK_ENVIRONMENT_GENERATE_GRID_H
 
+#include <cellwalk/environment/generate/lattice_map.h>
+#include <cellwalk/records/cell_soup.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/environment/generate/lattice_map.h>
-#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk {
 

@@ -3,10 +3,10 @@
 #ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
 #define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <array>
 #include <cstdint>
-
-#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 

@@ -5,12 +5,12 @@
 #ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_WORLD_H
 #define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_WORLD_H
 
-#include <array>
-#include <cstdint>
-
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/generate/lattice_map.h>
 #include <cellwalk/records/cell_soup.h>
+
+#include <array>
+#include <cstdint>
 
 namespace cellwalk {
 
@@ -28,7 +28,7 @@ struct Lattice_world_options {
   double prism_share = 0;    ///< cubes cut into 2 prisms (3D only)
   double star_share = 0;     ///< cubes cut into pyramids round their centre (2D: 4 triangles)
   double merge_share = 0;    ///< rectangles of squares between the same two cells that become one facet with
-                           ///< collinear vertices (3D only)
+                             ///< collinear vertices (3D only)
 
   // What blocks.
   double membrane_share = 0;  ///< facets that are impassable
