@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: which format some bytes are in.
+#ifndef CELLWALK_IO_FORMAT_H
+#define CELLWALK_IO_FORMAT_H
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace cellwalk::io {
+
+enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv, vtk, vtk_xml };
+
+/// By what the bytes begin with; unknown where that does not tell.
+Format format_by_content(std::string_view bytes);
+
+/// By the extension, `.gz` after it left out.
+Format format_by_extension(const std::filesystem::path& path);
+
+/// Such as "Gmsh (.msh)".
+std::string_view format_name(Format format);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_FORMAT_H

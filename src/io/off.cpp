@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// OFF as text. CGAL's reader names no line, refuses `group` lines and takes some broken files for good.
+#include <fmt/format.h>
+
+#include "surface_parsers.h"
+#include "text.h"
+
+namespace cellwalk::io {
+namespace {
+
+struct Header {
+  bool binary = false, colours = false, normals = false;
+};
+
+/// `[ST][C][N][4][n]OFF [BINARY]`, the counts on the same line or the next; the keyword may be missing.
+Header read_header(Line_reader& in, Read_report& report) {
+  in.need_line("'OFF'");
+  std::string_view keyword = in.word();
+  if (keyword.find_first_not_of("0123456789") == std::string_view::npos) {
+    report.notes.push_back("the keyword OFF is missing");
+    in.unread();
+    in.next_line();
+    return {};
+  }
+  if (!keyword.ends_with("OFF")) in.fail(fmt::format("not an OFF file: it begins with '{}'", keyword.substr(0, 20)));
+  keyword.remove_suffix(3);
+  Header header;
+  auto prefix = [&](std::string_view p) {
+    const bool found = keyword.starts_with(p);
+    if (found) keyword.remove_prefix(p.size());
+    return found;
+  };
+  prefix("ST");
+  header.colours = prefix("C");
+  header.normals = prefix("N");
+  if (!keyword.empty())
+    in.fail(fmt::format("'{}OFF' holds points that are not in 3-space: only three coordinates are read", keyword));
+  if (same_word(in.rest().substr(std::min(in.rest().find_first_not_of(" \t"), in.rest().size())), "binary"))
+    header.binary = true;
+  return header;
+}
+
+}  // namespace
+
+Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report) {
+  Line_reader in(name, bytes);
+  const Header header = read_header(in, report);
+  if (header.binary) return parse_binary_off(name, bytes, report);
+  report.format = "OFF";
+  if (in.at_line_end()) in.need_line("the numbers of vertices and facets");
+  const std::uint64_t point_count = in.count("the number of vertices");
+  const std::uint64_t facet_count = in.count("the number of facets");
+
+  Surface_soup soup;
+  soup.points.reserve(in.plausible(point_count, 6));
+  std::size_t groups = 0, degenerate = 0;
+  bool extra = false;
+  auto next_row = [&](const std::string& what) {
+    in.need_line(what);
+    while (in.rest().starts_with("group")) {
+      ++groups;
+      in.need_line(what);
+    }
+  };
+  for (std::uint64_t i = 0; i < point_count; ++i) {
+    next_row(fmt::format("vertex {} of {}", i + 1, point_count));
+    Point<3> p;
+    for (double& x : p) x = in.number("a coordinate");
+    extra |= !in.at_line_end();
+    soup.points.push_back(p);
+  }
+  soup.facets.reserve(in.plausible(facet_count, 4));
+  for (std::uint64_t i = 0; i < facet_count; ++i) {
+    next_row(fmt::format("facet {} of {}", i + 1, facet_count));
+    const std::uint64_t n = in.count("the number of vertices of a facet");
+    std::vector<std::uint32_t> loop;
+    loop.reserve(in.plausible(n, 2));
+    for (std::uint64_t k = 0; k < n; ++k) loop.push_back(in.index("vertex", soup.points.size()));
+    if (n >= 3)
+      soup.facets.push_back(std::move(loop));
+    else
+      ++degenerate;
+  }
+  if (extra && !header.colours && !header.normals)
+    report.notes.push_back("values after the three coordinates of vertices ignored");
+  if (groups > 0) report.notes.push_back(fmt::format("{} 'group' lines ignored", groups));
+  if (degenerate > 0) report.notes.push_back(fmt::format("{} facets of fewer than 3 vertices ignored", degenerate));
+  return soup;
+}
+
+}  // namespace cellwalk::io
