@@ -6,6 +6,7 @@ find_package(Boost 1.74 REQUIRED)           # BSL: R-tree, exact integers
 find_package(Eigen3 3.4 REQUIRED NO_MODULE) # MPL2: linear algebra of simulation
 find_package(TBB REQUIRED)                  # Apache 2: parallel compilation of snapshots
 find_package(fmt 9 REQUIRED)                # MIT: text output
+find_package(ZLIB REQUIRED)                 # zlib: input compressed with gzip
 find_package(nlohmann_json 3.11 REQUIRED)   # MIT: scenes, reports
 if(CELLWALK_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)          # BSD: command line

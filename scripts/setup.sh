@@ -8,7 +8,8 @@
 #   dev   also clang, clang-tidy and ccache    --print  only name the packages
 set -euo pipefail
 
-core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
+core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
+      zlib1g-dev)
 meshing=(libtet1.5-dev)
 pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/kernel/error.h>
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -9,9 +12,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/kernel/error.h>
 
 namespace cellwalk::io {
 namespace {

@@ -10,7 +10,8 @@
 namespace cellwalk::io {
 
 bool is_flat(const std::vector<Point<3>>& points) {
-  return !points.empty() && std::all_of(points.begin(), points.end(), [](const Point<3>& p) { return p[2] == 0; });
+  return !points.empty() &&
+         std::all_of(points.begin(), points.end(), [](const Point<3>& p) { return p[2] == 0; });
 }
 
 Mesh_file surface_or_plane(Surface_soup surface, Read_report report) {
@@ -29,10 +30,12 @@ Mesh_file surface_or_plane(Surface_soup surface, Read_report report) {
 Mesh_file volumes_or_polygons(const std::string& name, Element_soup elements, Read_report report) {
   if (elements.volumes.cell_count() == 0) {
     if (elements.polygons.empty()) fail(name, "holds neither volume cells nor polygons");
-    return surface_or_plane({std::move(elements.volumes.points), std::move(elements.polygons)}, std::move(report));
+    return surface_or_plane({std::move(elements.volumes.points), std::move(elements.polygons)},
+                            std::move(report));
   }
   if (!elements.polygons.empty())
-    report.notes.push_back(fmt::format("{} polygons beside the volume cells ignored", elements.polygons.size()));
+    report.notes.push_back(
+        fmt::format("{} polygons beside the volume cells ignored", elements.polygons.size()));
   report.points = elements.volumes.points.size();
   report.cells = elements.volumes.cell_count();
   report.facets = elements.volumes.facet_count();

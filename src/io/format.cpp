@@ -11,23 +11,33 @@ namespace {
 
 using Named = std::pair<std::string_view, Format>;
 
-constexpr std::array<Named, 15> extensions{
-    {{".off", Format::off}, {".obj", Format::obj},    {".stl", Format::stl},  {".ply", Format::ply},
-     {".ovm", Format::ovm}, {".poly", Format::poly},  {".wkt", Format::wkt},  {".msh", Format::msh},
-     {".gmsh", Format::msh}, {".mesh", Format::medit}, {".meshb", Format::medit}, {".unv", Format::unv},
-     {".vtk", Format::vtk}, {".vtu", Format::vtk_xml}, {".vtp", Format::vtk_xml}}};
+constexpr std::array<Named, 15> extensions{{{".off", Format::off},
+                                            {".obj", Format::obj},
+                                            {".stl", Format::stl},
+                                            {".ply", Format::ply},
+                                            {".ovm", Format::ovm},
+                                            {".poly", Format::poly},
+                                            {".wkt", Format::wkt},
+                                            {".msh", Format::msh},
+                                            {".gmsh", Format::msh},
+                                            {".mesh", Format::medit},
+                                            {".meshb", Format::medit},
+                                            {".unv", Format::unv},
+                                            {".vtk", Format::vtk},
+                                            {".vtu", Format::vtk_xml},
+                                            {".vtp", Format::vtk_xml}}};
 
 /// Openings that occur in one format only.
 constexpr std::array<Named, 10> openings{{{"OVM", Format::ovm},
-                                         {"$", Format::msh},
-                                         {"MeshVersionFormatted", Format::medit},
-                                         {"# vtk DataFile", Format::vtk},
-                                         {"<?xml", Format::vtk_xml},
-                                         {"<VTKFile", Format::vtk_xml},
-                                         {"ply\n", Format::ply},
-                                         {"ply\r\n", Format::ply},
-                                         {"POLYGON", Format::wkt},
-                                         {"MULTIPOLYGON", Format::wkt}}};
+                                          {"$", Format::msh},
+                                          {"MeshVersionFormatted", Format::medit},
+                                          {"# vtk DataFile", Format::vtk},
+                                          {"<?xml", Format::vtk_xml},
+                                          {"<VTKFile", Format::vtk_xml},
+                                          {"ply\n", Format::ply},
+                                          {"ply\r\n", Format::ply},
+                                          {"POLYGON", Format::wkt},
+                                          {"MULTIPOLYGON", Format::wkt}}};
 
 }  // namespace
 
@@ -53,19 +63,32 @@ Format format_by_extension(const std::filesystem::path& path) {
 
 std::string_view format_name(Format format) {
   switch (format) {
-    case Format::off: return "OFF";
-    case Format::obj: return "OBJ";
-    case Format::stl: return "STL";
-    case Format::ply: return "PLY";
-    case Format::ovm: return "OpenVolumeMesh";
-    case Format::poly: return "Triangle .poly";
-    case Format::wkt: return "WKT";
-    case Format::msh: return "Gmsh";
-    case Format::medit: return "MEDIT";
-    case Format::unv: return "UNV";
-    case Format::vtk: return "VTK legacy";
-    case Format::vtk_xml: return "VTK XML";
-    case Format::unknown: break;
+    case Format::off:
+      return "OFF";
+    case Format::obj:
+      return "OBJ";
+    case Format::stl:
+      return "STL";
+    case Format::ply:
+      return "PLY";
+    case Format::ovm:
+      return "OpenVolumeMesh";
+    case Format::poly:
+      return "Triangle .poly";
+    case Format::wkt:
+      return "WKT";
+    case Format::msh:
+      return "Gmsh";
+    case Format::medit:
+      return "MEDIT";
+    case Format::unv:
+      return "UNV";
+    case Format::vtk:
+      return "VTK legacy";
+    case Format::vtk_xml:
+      return "VTK XML";
+    case Format::unknown:
+      break;
   }
   return "unknown";
 }

@@ -6,8 +6,9 @@
 namespace cellwalk::io {
 
 Mesh_file parse_by_gmsh(const std::string& name, std::string_view, Format) {
-  fail(name, "this build lacks Gmsh, which reads .msh, .mesh and .unv: install libgmsh-dev and configure with "
-             "-DCELLWALK_WITH_GMSH=ON, or convert the file to .ovm");
+  fail(name,
+       "this build lacks Gmsh, which reads .msh, .mesh and .unv: install libgmsh-dev and configure with "
+       "-DCELLWALK_WITH_GMSH=ON, or convert the file to .ovm");
 }
 
 std::string gmsh_version() { return {}; }

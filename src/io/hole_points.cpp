@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hole_points.h"
 
+#include <cellwalk/kernel/policies.h>
+
 #include <algorithm>
 #include <optional>
-
-#include <cellwalk/kernel/policies.h>
 
 namespace cellwalk::io {
 namespace {
@@ -39,7 +39,9 @@ class Search {
   const Point<2>& at(std::size_t i) const { return points_[rings_[hole_][i]]; }
   std::size_t after(std::size_t i) const { return (i + 1) % rings_[hole_].size(); }
   std::size_t before(std::size_t i) const { return (i + rings_[hole_].size() - 1) % rings_[hole_].size(); }
-  int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c) { return Exact::orientation(counts_, a, b, c); }
+  int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+    return Exact::orientation(counts_, a, b, c);
+  }
   int corner_turn(std::size_t i) { return turn(at(before(i)), at(i), at(after(i))); }
 
   bool is_touched() const {
@@ -72,7 +74,8 @@ class Search {
   }
 
   /// A preference only: rounded products will do, the point found is proven.
-  static bool is_farther(const Point<2>& a, const Point<2>& c, const Point<2>& p, const Point<2>& q, int side) {
+  static bool is_farther(const Point<2>& a, const Point<2>& c, const Point<2>& p, const Point<2>& q,
+                         int side) {
     const Vector<2> along = c - a, d = p - q;
     return side * (along[0] * d[1] - along[1] * d[0]) < 0;
   }

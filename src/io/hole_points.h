@@ -18,7 +18,8 @@ using Ring = std::vector<std::uint32_t>;
 /// there. Empty if none is found, which takes rings that cross each other.
 /// \pre a place is in the domain if an odd number of the rings lies round it
 /// Cost: linear in all corners, for each point tried; nearly always the first is good.
-std::vector<Point<2>> hole_points(const std::vector<Point<2>>& points, const std::vector<Ring>& rings, std::size_t hole);
+std::vector<Point<2>> hole_points(const std::vector<Point<2>>& points, const std::vector<Ring>& rings,
+                                  std::size_t hole);
 
 }  // namespace cellwalk::io
 

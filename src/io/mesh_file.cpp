@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <fmt/format.h>
-
-#include <array>
-
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/planar_file.h>
 #include <cellwalk/io/surface_file.h>
+
+#include <fmt/format.h>
+
+#include <array>
 
 #include "element_soup.h"
 #include "format.h"
@@ -31,19 +31,29 @@ Mesh_file domain(const std::string& name, std::string_view bytes, Parse parse) {
 
 Mesh_file parse(const std::string& name, const std::string& bytes, Format format) {
   switch (format) {
-    case Format::off: return surface(name, bytes, Surface_format::off);
-    case Format::obj: return surface(name, bytes, Surface_format::obj);
-    case Format::stl: return surface(name, bytes, Surface_format::stl);
-    case Format::ply: return surface(name, bytes, Surface_format::ply);
-    case Format::ovm: return parse_ovm(name, bytes);
-    case Format::poly: return domain(name, bytes, parse_poly);
-    case Format::wkt: return domain(name, bytes, parse_wkt);
+    case Format::off:
+      return surface(name, bytes, Surface_format::off);
+    case Format::obj:
+      return surface(name, bytes, Surface_format::obj);
+    case Format::stl:
+      return surface(name, bytes, Surface_format::stl);
+    case Format::ply:
+      return surface(name, bytes, Surface_format::ply);
+    case Format::ovm:
+      return parse_ovm(name, bytes);
+    case Format::poly:
+      return domain(name, bytes, parse_poly);
+    case Format::wkt:
+      return domain(name, bytes, parse_wkt);
     case Format::msh:
     case Format::medit:
-    case Format::unv: return parse_by_gmsh(name, bytes, format);
+    case Format::unv:
+      return parse_by_gmsh(name, bytes, format);
     case Format::vtk:
-    case Format::vtk_xml: return parse_by_vtk(name, bytes, format);
-    case Format::unknown: break;
+    case Format::vtk_xml:
+      return parse_by_vtk(name, bytes, format);
+    case Format::unknown:
+      break;
   }
   fail(name, fmt::format("the format is not known, neither by its content nor by its extension; read are {}",
                          supported_formats()));
@@ -77,8 +87,9 @@ std::vector<Build_feature> build_features() {
 std::string supported_formats() {
   std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt";
   for (const Build_feature& feature : build_features())
-    text += feature.present ? std::string(feature.name == "gmsh" ? ", .msh, .mesh, .unv" : ", .vtk, .vtu, .vtp")
-                            : fmt::format(" (this build lacks {}, which {})", feature.name, feature.purpose);
+    text += feature.present
+                ? std::string(feature.name == "gmsh" ? ", .msh, .mesh, .unv" : ", .vtk, .vtu, .vtp")
+                : fmt::format(" (this build lacks {}, which {})", feature.name, feature.purpose);
   return text;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/numbers.h>
+
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 #include <limits>
-
-#include <cellwalk/io/numbers.h>
 
 namespace cellwalk::io {
 namespace {
@@ -62,7 +62,8 @@ std::optional<double> parse_hexadecimal(std::string_view text) {
   text.remove_prefix(2);
   if (text.empty() || text.front() == '-') return std::nullopt;
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return negative ? -value : value;
 }
@@ -89,7 +90,8 @@ std::optional<double> parse_decimal(std::string_view text) noexcept {
 
 Parsed_number parse_number(std::string_view text) {
   if (text.empty()) return {0, "an empty field where a number is expected"};
-  if (const std::size_t slash = text.find('/'); slash != std::string_view::npos) return parse_fraction(text, slash);
+  if (const std::size_t slash = text.find('/'); slash != std::string_view::npos)
+    return parse_fraction(text, slash);
   const std::size_t digits = text.find_first_not_of("+-");
   const std::string_view bare = digits == std::string_view::npos ? text : text.substr(digits);
   const bool hex = digits <= 1 && (bare.starts_with("0x") || bare.starts_with("0X"));

@@ -25,14 +25,16 @@ std::uint32_t corner(Line_reader& in, std::string_view word, std::size_t point_c
     in.fail(fmt::format("'{}' is not a corner of a face: an index counted from 1, or a negative one", word));
   if (index < 0) index += static_cast<std::int64_t>(point_count) + 1;
   constexpr std::int64_t most = 0xfffffffe;
-  if (index < 1 || index > most) in.fail(fmt::format("corner '{}' of a face names a vertex that does not exist", word));
+  if (index < 1 || index > most)
+    in.fail(fmt::format("corner '{}' of a face names a vertex that does not exist", word));
   return static_cast<std::uint32_t>(index - 1);
 }
 
 bool is_keyword(std::string_view word) {
   constexpr std::size_t longest = 16;
   return word.size() <= longest &&
-         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") == std::string_view::npos;
+         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") ==
+             std::string_view::npos;
 }
 
 }  // namespace
@@ -74,13 +76,15 @@ Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_rep
     }
   }
   if (forward && forward->vertex >= soup.points.size())
-    fail(name, forward->line, fmt::format("a face names vertex {}, of {}", forward->vertex + 1, soup.points.size()));
+    fail(name, forward->line,
+         fmt::format("a face names vertex {}, of {}", forward->vertex + 1, soup.points.size()));
   if (!ignored.empty()) {
     std::string list;
     std::size_t n = 0;
     for (const std::string& k : ignored)
       if (n++ < named_keywords) list += (list.empty() ? "" : ", ") + k;
-    report.notes.push_back(fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : ""));
+    report.notes.push_back(
+        fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : ""));
   }
   return soup;
 }

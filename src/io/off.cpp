@@ -22,7 +22,8 @@ Header read_header(Line_reader& in, Read_report& report) {
     in.next_line();
     return {};
   }
-  if (!keyword.ends_with("OFF")) in.fail(fmt::format("not an OFF file: it begins with '{}'", keyword.substr(0, 20)));
+  if (!keyword.ends_with("OFF"))
+    in.fail(fmt::format("not an OFF file: it begins with '{}'", keyword.substr(0, 20)));
   keyword.remove_suffix(3);
   Header header;
   auto prefix = [&](std::string_view p) {
@@ -34,7 +35,8 @@ Header read_header(Line_reader& in, Read_report& report) {
   header.colours = prefix("C");
   header.normals = prefix("N");
   if (!keyword.empty())
-    in.fail(fmt::format("'{}OFF' holds points that are not in 3-space: only three coordinates are read", keyword));
+    in.fail(fmt::format("'{}OFF' holds points that are not in 3-space: only three coordinates are read",
+                        keyword));
   if (same_word(in.rest().substr(std::min(in.rest().find_first_not_of(" \t"), in.rest().size())), "binary"))
     header.binary = true;
   return header;
@@ -84,7 +86,8 @@ Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_rep
   if (extra && !header.colours && !header.normals)
     report.notes.push_back("values after the three coordinates of vertices ignored");
   if (groups > 0) report.notes.push_back(fmt::format("{} 'group' lines ignored", groups));
-  if (degenerate > 0) report.notes.push_back(fmt::format("{} facets of fewer than 3 vertices ignored", degenerate));
+  if (degenerate > 0)
+    report.notes.push_back(fmt::format("{} facets of fewer than 3 vertices ignored", degenerate));
   return soup;
 }
 

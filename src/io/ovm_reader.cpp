@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/ovm.h>
+#include <cellwalk/kernel/error.h>
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
-
-#include <cellwalk/io/ovm.h>
-#include <cellwalk/kernel/error.h>
 
 #include "text.h"
 
@@ -64,7 +65,8 @@ class Reader {
   void section(std::string_view title, std::size_t least_bytes, Row row) {
     in_.need_line(fmt::format("the section '{}'", title));
     const std::string_view found = in_.word();
-    if (!same_word(found, title)) in_.fail(fmt::format("'{}' where the section '{}' should begin", found, title));
+    if (!same_word(found, title))
+      in_.fail(fmt::format("'{}' where the section '{}' should begin", found, title));
     if (in_.at_line_end()) in_.need_line(fmt::format("the number of {}", lower(title)));
     const std::uint64_t count = in_.count(fmt::format("the number of {}", lower(title)));
     in_.expect_line_end("the number");
@@ -92,8 +94,8 @@ class Reader {
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t h = raw_.face_halfedges[first + i], next = raw_.face_halfedges[first + (i + 1) % n];
       if (raw_.head(h) != raw_.tail(next))
-        in_.fail(fmt::format("the halfedges form no loop: {} ends at vertex {}, {} starts at vertex {}", h, raw_.head(h),
-                             next, raw_.tail(next)));
+        in_.fail(fmt::format("the halfedges form no loop: {} ends at vertex {}, {} starts at vertex {}", h,
+                             raw_.head(h), next, raw_.tail(next)));
     }
     raw_.face_begin.push_back(size32(raw_.face_halfedges));
   }
@@ -107,7 +109,8 @@ class Reader {
   }
 
   std::uint32_t size32(const std::vector<std::uint32_t>& v) {
-    if (v.size() > std::numeric_limits<std::uint32_t>::max()) in_.fail("the mesh is too large for 32-bit indices");
+    if (v.size() > std::numeric_limits<std::uint32_t>::max())
+      in_.fail("the mesh is too large for 32-bit indices");
     return static_cast<std::uint32_t>(v.size());
   }
 
@@ -119,7 +122,8 @@ class Reader {
 
   void property() {
     const std::string entity(in_.word()), type(in_.word());
-    if (!is_property(entity)) in_.fail(fmt::format("'{}' where a property or the end of the file should be", entity));
+    if (!is_property(entity))
+      in_.fail(fmt::format("'{}' where a property or the end of the file should be", entity));
     std::string_view name = in_.rest();
     const std::size_t open = name.find('"'), close = name.rfind('"');
     if (open == std::string_view::npos || open == close) in_.fail("a property without a name in quotes");
@@ -134,9 +138,10 @@ class Reader {
     }
     if (same_word(entity, "MProp") && same_word(type, "int") && name == "dimension") return dimension();
     if (name == "impassable" || name == "solid")
-      in_.fail(fmt::format("'{} {} \"{}\"' has a meaning only as 'FProp bool' (walls), 'CProp bool' (solid cells); in 2D "
-                           "'EProp bool' and 'FProp bool': rename or change it",
-                           entity, type, name));
+      in_.fail(fmt::format(
+          "'{} {} \"{}\"' has a meaning only as 'FProp bool' (walls), 'CProp bool' (solid cells); in 2D "
+          "'EProp bool' and 'FProp bool': rename or change it",
+          entity, type, name));
     report_.notes.push_back(fmt::format("property {} \"{}\" ignored", entity, name));
     // Values of unknown types are not understood: skip to the next line that opens a property.
     while (in_.next_line())
@@ -147,7 +152,8 @@ class Reader {
     if (!values.empty()) in_.fail("this property occurs twice");
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (in_.at_line_end() || i == 0) in_.need_line(fmt::format("value {} of {} of the property", i + 1, count));
+      if (in_.at_line_end() || i == 0)
+        in_.need_line(fmt::format("value {} of {} of the property", i + 1, count));
       values.push_back(static_cast<std::uint8_t>(in_.index("a value of 0 or 1:", 2)));
     }
     in_.expect_line_end("the last value of the property");
@@ -167,7 +173,9 @@ class Reader {
     return true;
   }
 
-  static bool flag(const std::vector<std::uint8_t>& values, std::size_t i) { return !values.empty() && values[i]; }
+  static bool flag(const std::vector<std::uint8_t>& values, std::size_t i) {
+    return !values.empty() && values[i];
+  }
 
   Mesh_file spatial() {
     if (raw_.cell_count() == 0)
@@ -183,7 +191,7 @@ class Reader {
         loop.clear();
         for (std::uint32_t j = raw_.face_begin[face]; j < raw_.face_begin[face + 1]; ++j)
           loop.push_back(raw_.tail(raw_.face_halfedges[j]));
-        if (raw_.cell_halffaces[i] % 2) loop.assign(loop.rbegin(), loop.rend());
+        if (raw_.cell_halffaces[i] % 2) std::reverse(loop.begin(), loop.end());
         if (soup.vertices.size() + loop.size() > std::numeric_limits<std::uint32_t>::max())
           fail(in_.file(), "the mesh is too large for 32-bit indices");
         soup.add_facet(loop, flag(raw_.face_impassable, face));
@@ -195,7 +203,8 @@ class Reader {
 
   Mesh_file planar() {
     if (!is_flat())
-      fail(in_.file(), "is said to be of dimension 2, yet has polyhedra or z that are not zero: correct either");
+      fail(in_.file(),
+           "is said to be of dimension 2, yet has polyhedra or z that are not zero: correct either");
     Cell_soup<2> soup;
     soup.points.reserve(raw_.points.size());
     for (const Point<3>& p : raw_.points) soup.points.push_back({p[0], p[1]});

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/ovm.h>
+#include <cellwalk/kernel/error.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,10 +10,6 @@
 #include <compare>
 #include <iterator>
 #include <limits>
-
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/ovm.h>
-#include <cellwalk/kernel/error.h>
 
 namespace cellwalk::io {
 namespace {
@@ -23,7 +23,9 @@ struct Edges {
 };
 
 /// The corner after `i` in the loop [begin, end).
-std::uint32_t next_corner(std::uint32_t i, std::uint32_t begin, std::uint32_t end) { return i + 1 < end ? i + 1 : begin; }
+std::uint32_t next_corner(std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
+  return i + 1 < end ? i + 1 : begin;
+}
 
 /// \pre loops as compressed rows of vertices
 Edges number_edges(const std::vector<std::uint32_t>& loop_begin, const std::vector<std::uint32_t>& vertices) {
@@ -54,7 +56,8 @@ Edges number_edges(const std::vector<std::uint32_t>& loop_begin, const std::vect
         edges.halfedge[i] = static_cast<std::uint32_t>(2 * edges.ends.size());
         edges.ends.push_back({vertices[i], vertices[next_corner(i, loop_begin[f], loop_begin[f + 1])]});
       } else {
-        edges.halfedge[i] = edges.halfedge[first[i]] ^ static_cast<std::uint32_t>(backward[i] != backward[first[i]]);
+        edges.halfedge[i] =
+            edges.halfedge[first[i]] ^ static_cast<std::uint32_t>(backward[i] != backward[first[i]]);
       }
     }
   return edges;
@@ -89,7 +92,7 @@ class Faces {
   }
 
   const std::vector<std::uint32_t>& halfface() const { return halfface_; }  ///< of each half-facet
-  const std::vector<std::uint32_t>& first() const { return first_; }        ///< of each face, its first half-facet
+  const std::vector<std::uint32_t>& first() const { return first_; }  ///< of each face, its first half-facet
   const std::vector<std::uint8_t>& impassable() const { return impassable_; }
 
  private:
@@ -169,7 +172,8 @@ void check(const Cell_soup<D>& soup) {
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
     for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) {
       if (soup.facet(f).size() < static_cast<std::size_t>(D))
-        throw Error(Error_code::input, fmt::format("cell {}: a facet of {} vertices", c, soup.facet(f).size()));
+        throw Error(Error_code::input,
+                    fmt::format("cell {}: a facet of {} vertices", c, soup.facet(f).size()));
       for (std::size_t i = 0; i < soup.facet(f).size(); ++i) {
         const std::uint32_t v = soup.facet(f)[i];
         if (v >= soup.points.size())
@@ -179,7 +183,8 @@ void check(const Cell_soup<D>& soup) {
       }
     }
   // Halfedges and halffaces are numbered with one bit more.
-  if (soup.vertices.size() >= none / 2) throw Error(Error_code::input, "the mesh is too large for 32-bit indices");
+  if (soup.vertices.size() >= none / 2)
+    throw Error(Error_code::input, "the mesh is too large for 32-bit indices");
 }
 
 void write_cells(Writer& out, const Cell_soup<3>& soup) {
@@ -196,7 +201,8 @@ void write_cells(Writer& out, const Cell_soup<3>& soup) {
     out.row(std::span(edges.halfedge).subspan(begin[f], begin[f + 1] - begin[f]));
   out.line("Polyhedra\n{}", soup.cell_count());
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
-    out.row(std::span(faces.halfface()).subspan(soup.cell_begin[c], soup.cell_begin[c + 1] - soup.cell_begin[c]));
+    out.row(
+        std::span(faces.halfface()).subspan(soup.cell_begin[c], soup.cell_begin[c + 1] - soup.cell_begin[c]));
   out.property("FProp", "impassable", faces.impassable());
   out.property("CProp", "solid", soup.solid);
 }
@@ -211,11 +217,13 @@ void write_cells(Writer& out, const Cell_soup<2>& soup) {
         throw Error(Error_code::input, fmt::format("cell {}: its edges are not in order round it", c));
   const Edges edges = number_edges(soup.cell_begin, vertices);
   std::vector<std::uint8_t> impassable(edges.ends.size());
-  for (std::size_t f = 0; f < soup.facet_count(); ++f) impassable[edges.halfedge[f] / 2] |= soup.impassable[f];
+  for (std::size_t f = 0; f < soup.facet_count(); ++f)
+    impassable[edges.halfedge[f] / 2] |= soup.impassable[f];
   out.edges(edges);
   out.line("Faces\n{}", soup.cell_count());
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
-    out.row(std::span(edges.halfedge).subspan(soup.cell_begin[c], soup.cell_begin[c + 1] - soup.cell_begin[c]));
+    out.row(
+        std::span(edges.halfedge).subspan(soup.cell_begin[c], soup.cell_begin[c + 1] - soup.cell_begin[c]));
   out.line("Polyhedra\n0");
   out.property("EProp", "impassable", impassable);
   out.property("FProp", "solid", soup.solid);

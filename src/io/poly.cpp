@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The .poly format of Shewchuk's Triangle.
-#include <fmt/format.h>
-
 #include <cellwalk/io/planar_file.h>
+
+#include <fmt/format.h>
 
 #include "text.h"
 
@@ -31,7 +31,8 @@ Points read_points(Line_reader& in) {
     if (i == 0 && number > 1) in.fail("points are numbered from 0 or 1");
     if (i == 0) result.base = static_cast<std::uint32_t>(number);
     if (number != i + result.base)
-      in.fail(fmt::format("point {} where {} should be: points are numbered in order", number, i + result.base));
+      in.fail(
+          fmt::format("point {} where {} should be: points are numbered in order", number, i + result.base));
     Point<2> p;
     for (double& x : p) x = in.number("a coordinate");
     result.points.push_back(p);

@@ -51,7 +51,9 @@ Surface_soup parse_binary(const std::string& name, std::string_view bytes, Read_
   report.format = "STL (binary)";
   const std::uint64_t n = triangle_count(bytes), whole = (bytes.size() - header_size) / triangle_size;
   if (n > whole)
-    fail(name, fmt::format("a binary STL that announces {} triangles and holds {}: it is cut short, or no STL", n, whole));
+    fail(name,
+         fmt::format("a binary STL that announces {} triangles and holds {}: it is cut short, or no STL", n,
+                     whole));
   if (header_size + n * triangle_size != bytes.size())
     report.notes.push_back(fmt::format("{} bytes after the last triangle ignored",
                                        bytes.size() - header_size - n * triangle_size));
@@ -110,12 +112,13 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
 }  // namespace
 
 Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report) {
-  // Binary files may begin with `solid` too: the size decides.
+  // Binary files may begin with `solid` too: the size decides, then whether there are bytes that no text has.
   const bool sized = bytes.size() >= header_size;
   if (sized && header_size + std::uint64_t{triangle_count(bytes)} * triangle_size == bytes.size())
     return parse_binary(name, bytes, report);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && same_word(bytes.substr(first, 5), "solid"))
+  const bool is_text = bytes.find('\0') == std::string_view::npos;
+  if (is_text && first != std::string_view::npos && same_word(bytes.substr(first, 5), "solid"))
     return parse_text(name, bytes, report);
   if (!sized) fail(name, "too short for an STL file");
   return parse_binary(name, bytes, report);

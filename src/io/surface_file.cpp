@@ -15,15 +15,21 @@ Surface_format format_of(const std::filesystem::path& path) {
   if (extension == ".obj") return Surface_format::obj;
   if (extension == ".stl") return Surface_format::stl;
   if (extension == ".ply") return Surface_format::ply;
-  fail(path.string(), "not a surface by its extension: .off, .obj, .stl and .ply are read, also with .gz after it");
+  fail(path.string(),
+       "not a surface by its extension: .off, .obj, .stl and .ply are read, also with .gz after it");
 }
 
-Surface_soup parse(const std::string& name, std::string_view bytes, Surface_format format, Read_report& report) {
+Surface_soup parse(const std::string& name, std::string_view bytes, Surface_format format,
+                   Read_report& report) {
   switch (format) {
-    case Surface_format::off: return parse_off(name, bytes, report);
-    case Surface_format::obj: return parse_obj(name, bytes, report);
-    case Surface_format::stl: return parse_stl(name, bytes, report);
-    case Surface_format::ply: break;
+    case Surface_format::off:
+      return parse_off(name, bytes, report);
+    case Surface_format::obj:
+      return parse_obj(name, bytes, report);
+    case Surface_format::stl:
+      return parse_stl(name, bytes, report);
+    case Surface_format::ply:
+      break;
   }
   return parse_ply(name, bytes, report);
 }

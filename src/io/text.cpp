@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "text.h"
 
+#include <cellwalk/io/numbers.h>
+#include <cellwalk/kernel/error.h>
+
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -8,9 +11,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-
-#include <cellwalk/io/numbers.h>
-#include <cellwalk/kernel/error.h>
 
 namespace cellwalk::io {
 namespace {
@@ -44,7 +44,8 @@ std::string inflate_all(const std::string& file, const std::string& packed) {
     out.append(chunk.data(), chunk.size() - stream.avail_out);
   }
   inflateEnd(&stream);
-  if (status != Z_STREAM_END) fail(file, "the gzip stream is damaged or cut short: copy or compress the file again");
+  if (status != Z_STREAM_END)
+    fail(file, "the gzip stream is damaged or cut short: copy or compress the file again");
   return out;
 }
 
@@ -89,7 +90,8 @@ bool Line_reader::next_line() {
     position_ = std::min(end + 1, text_.size());
     rest_ = text_.substr(line_begin_, end - line_begin_);
     if (rest_.ends_with('\r')) rest_.remove_suffix(1);
-    if (const std::size_t hash = rest_.find(comment_); hash != std::string_view::npos) rest_ = rest_.substr(0, hash);
+    if (const std::size_t hash = rest_.find(comment_); hash != std::string_view::npos)
+      rest_ = rest_.substr(0, hash);
     if (!at_line_end()) return true;
   }
   line_begin_ = text_.size();
@@ -150,7 +152,8 @@ std::size_t Line_reader::plausible(std::uint64_t announced, std::size_t bytes) c
 
 std::size_t Line_reader::line() const {
   const auto begin = text_.begin();
-  return 1 + static_cast<std::size_t>(std::count(begin, begin + static_cast<std::ptrdiff_t>(line_begin_), '\n'));
+  return 1 +
+         static_cast<std::size_t>(std::count(begin, begin + static_cast<std::ptrdiff_t>(line_begin_), '\n'));
 }
 
 void Line_reader::fail(const std::string& what) const { io::fail(file_, line(), what); }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Well-known text: POLYGON and MULTIPOLYGON. Parsed here, so that errors name the line; Boost.Geometry's reader cannot.
+#include <cellwalk/io/numbers.h>
+#include <cellwalk/io/planar_file.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-
-#include <cellwalk/io/numbers.h>
-#include <cellwalk/io/planar_file.h>
 
 #include "hole_points.h"
 #include "text.h"
@@ -56,6 +56,7 @@ class Parser {
   }
 
   void ring(bool is_hole) {
+    peek();
     ring_lines_.push_back(position_);
     Ring ring;
     list([&] {
@@ -64,7 +65,8 @@ class Parser {
       while (peek() != ',' && peek() != ')') number();
       ring.push_back(index(p));
     });
-    if (ring.size() < 2 || ring.front() != ring.back()) fail("this ring is not closed: its last point is not its first");
+    if (ring.size() < 2 || ring.front() != ring.back())
+      fail("this ring is not closed: its last point is not its first");
     ring.pop_back();
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
@@ -78,7 +80,8 @@ class Parser {
     for (std::size_t hole : holes_) {
       const auto found = hole_points(points_, rings_, hole);
       position_ = ring_lines_[hole];
-      if (found.empty()) fail("no point can be found inside this hole: its ring crosses itself or another one");
+      if (found.empty())
+        fail("no point can be found inside this hole: its ring crosses itself or another one");
       domain.holes.insert(domain.holes.end(), found.begin(), found.end());
     }
     std::set<std::array<std::uint32_t, 2>> seen;
@@ -134,7 +137,8 @@ class Parser {
 
   std::string_view peek_word() {
     peek();
-    return text_.substr(position_, std::min(text_.find_first_of(" \t\r\n,();", position_), text_.size()) - position_);
+    return text_.substr(position_,
+                        std::min(text_.find_first_of(" \t\r\n,();", position_), text_.size()) - position_);
   }
 
   std::string_view word() {
@@ -153,8 +157,9 @@ class Parser {
   }
 
   void expect(char c) {
-    if (peek() != c) fail(at_end() ? fmt::format("the text ends where '{}' should be", c)
-                                   : fmt::format("'{}' where '{}' should be", peek(), c));
+    if (peek() != c)
+      fail(at_end() ? fmt::format("the text ends where '{}' should be", c)
+                    : fmt::format("'{}' where '{}' should be", peek(), c));
     ++position_;
   }
 

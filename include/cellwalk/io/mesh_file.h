@@ -17,10 +17,10 @@ namespace cellwalk::io {
 
 /// What a reader found, and what it left out. Nothing is dropped silently.
 struct Read_report {
-  std::string format;              ///< such as "Gmsh 4.1" or "OFF"
-  std::size_t points = 0;          ///< points of the record
-  std::size_t cells = 0;           ///< cells of a cell soup
-  std::size_t facets = 0;          ///< polygons of a surface, segments of a planar domain, half-facets of cells
+  std::string format;      ///< such as "Gmsh 4.1" or "OFF"
+  std::size_t points = 0;  ///< points of the record
+  std::size_t cells = 0;   ///< cells of a cell soup
+  std::size_t facets = 0;  ///< polygons of a surface, segments of a planar domain, half-facets of cells
   std::vector<std::string> notes;  ///< one sentence for everything ignored or interpreted
 };
 
@@ -45,7 +45,7 @@ Mesh_file read_mesh(const std::filesystem::path& path);
 
 /// A part of the readers that is optional when the library is built.
 struct Build_feature {
-  std::string_view name;     ///< "gmsh", "vtk"
+  std::string_view name;  ///< "gmsh", "vtk"
   bool present = false;
   std::string version;       ///< empty if absent
   std::string_view purpose;  ///< what it reads
