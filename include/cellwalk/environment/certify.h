@@ -4,25 +4,26 @@
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_H
 
-#include <cstddef>
-#include <string>
-
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/snapshot.h>
+
+#include <cstddef>
+#include <string>
 
 namespace cellwalk {
 
 /// Why a cell is not acceptable, with the local facet concerned.
 enum class Cell_defect {
   none,
+  not_finite,        ///< a coordinate is infinite or not a number
+  not_closed,        ///< facets do not form one closed surface (Euler characteristic 2)
   degenerate_facet,  ///< all vertices of a facet on one line
   facet_not_planar,
   facet_not_convex,  ///< not a convex polygon that turns once (collinear vertices are allowed)
-  not_closed,        ///< facets do not form one closed surface (Euler characteristic 2)
   not_convex,        ///< a vertex lies strictly outside a facet
   inverted,          ///< all facets face inwards
   flat,              ///< zero volume
-  wound              ///< coplanar facets overlap
+  wound              ///< coplanar facets overlap: the surface winds over itself
 };
 
 struct Cell_check {

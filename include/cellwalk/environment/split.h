@@ -3,9 +3,9 @@
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_H
 #define CELLWALK_ENVIRONMENT_SPLIT_H
 
-#include <cstddef>
-
 #include <cellwalk/records/cell_soup.h>
+
+#include <cstddef>
 
 namespace cellwalk {
 
@@ -19,10 +19,15 @@ struct Split_report {
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
 };
 
-/// Splits every cell that is not exactly convex with exactly planar convex facets, and, so that facets match
-/// on both sides, those neighbours that share a facet cut by it. The cells of the result that replace cell c
-/// keep its solidity, and its walls. `origin`, if given, receives the input cell of each result cell. \throw
-/// Error(not_certified) naming the cell that cannot be split, and why
+/// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D: triangles).
+/// In 3D the facets of such a cell are cut into triangles alike on both sides; a neighbour that is fine itself is
+/// not split, but has several coplanar facets then. The cells that replace cell c keep its solidity and its walls.
+/// `origin`, if given, receives the input cell of each result cell. Points are only appended.
+/// Result cells are exactly positive, and those of one input cell do not overlap; whether the whole complex is sound
+/// is for certify to say. The choice of facet diagonals, and so the result, depends on the input only.
+/// \throw Error(not_certified) naming the lowest cell that cannot be split, and why; as glue, if a cell is split
+/// \throw Error(input) for a vertex index out of range or a coordinate that is not finite
+/// Cost: about 0.1 us a tetrahedron that is fine (parallel), 20 us a hexahedron that is split.
 template <int D>
 Cell_soup<D> split(Cell_soup<D> soup, Split_report& report, std::vector<std::uint32_t>* origin = nullptr);
 
