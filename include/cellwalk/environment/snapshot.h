@@ -97,6 +97,14 @@ class Snapshot {
   std::size_t block_count(Cell c) const {
     return uniform_blocks_ ? uniform_blocks_ : (facet_count(c) + 3) / 4;
   }
+  /// Asks for the planes of the neighbours across the first four facets: the walk needs one of them next.
+  void prefetch_neighbors(Cell c) const {
+    const std::uint32_t* neighbors = links(c);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t link = neighbors[i] & link_mask;
+      __builtin_prefetch(planes_.data() + (link == link_mask ? to_index(c) : link));
+    }
+  }
   /// Facets whose plane could not be certified (they are always decided exactly).
   std::size_t uncertified_planes() const { return uncertified_planes_; }
 

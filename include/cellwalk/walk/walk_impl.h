@@ -145,7 +145,7 @@ class Walker {
     for (;;) {
       const std::size_t blocks = snapshot_.block_count(cell_);
       const Plane_block<D>* planes = snapshot_.blocks(cell_);
-      __builtin_prefetch(snapshot_.links(cell_));
+      snapshot_.prefetch_neighbors(cell_);
       Certified_exit exit;
       if (blocks == 1)
         exit = certified_exit(planes, 1, y_a_, y_b_, starts_inside_);
