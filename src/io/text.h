@@ -36,6 +36,9 @@ class Line_reader {
   /// Makes the next call of next_line() return the current line again.
   void unread() { position_ = line_begin_; }
 
+  /// The text after the current line.
+  std::string_view remaining() const { return text_.substr(position_); }
+
   /// Words of the current line, separated by blanks and tabs. Empty at its end.
   std::string_view word();
   bool at_line_end();
