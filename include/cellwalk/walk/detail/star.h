@@ -3,12 +3,11 @@
 #ifndef CELLWALK_WALK_DETAIL_STAR_H
 #define CELLWALK_WALK_DETAIL_STAR_H
 
-#include <cellwalk/environment/snapshot.h>
-#include <cellwalk/walk/detail/signs.h>
-
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/walk/detail/signs.h>
 
 namespace cellwalk::detail {
 

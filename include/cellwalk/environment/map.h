@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The combinatorial map of an environment: the editable truth behind a snapshot. Includes CGAL; nothing that only
+// walks needs this header. Users of it link CGAL::CGAL.
+//
+// A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first of them
+// names it. beta_D joins the two sides of a facet, walls included: passable or not is a mark, not a matter of gluing.
+#ifndef CELLWALK_ENVIRONMENT_MAP_H
+#define CELLWALK_ENVIRONMENT_MAP_H
+
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/kernel/point.h>
+#include <cellwalk/records/cell_soup.h>
+
+#include <CGAL/Cell_attribute_with_point.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
+#include <CGAL/Linear_cell_complex_traits.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace cellwalk {
+
+/// What a dart knows; 8 bytes, which CGAL would spend on padding anyway (679 bytes a tetrahedron all in).
+class Dart_info {
+ public:
+  static constexpr std::uint32_t max_half_facets = 1u << 29;
+
+  Dart_info() = default;
+  /// \pre half_facet < max_half_facets
+  Dart_info(std::uint32_t cell, std::uint32_t half_facet, bool impassable, bool solid)
+      : cell_(cell), half_facet_(half_facet), impassable_(impassable), solid_(solid) {}
+
+  std::uint32_t cell() const { return cell_; }              ///< index of the input cell
+  std::uint32_t half_facet() const { return half_facet_; }  ///< slot in Map_storage::dart_of_half_facet
+  bool is_impassable() const { return impassable_; }        ///< of the facet; equal on both sides
+  bool is_solid() const { return solid_; }                  ///< of the cell
+
+  void set_cell(std::uint32_t cell) { cell_ = cell; }
+  void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet; }
+  void set_impassable(bool impassable) { impassable_ = impassable; }
+
+  bool operator==(const Dart_info&) const = default;
+
+ private:
+  std::uint32_t cell_ = 0;
+  std::uint32_t half_facet_ : 29 = 0;
+  std::uint32_t impassable_ : 1 = 0;
+  std::uint32_t solid_ : 1 = 0;
+};
+static_assert(sizeof(Dart_info) == 8);
+
+/// Darts carry a Dart_info; vertices a point and the index of the point in the soup and snapshot. A pinched vertex
+/// (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with equal indices.
+struct Map_items {
+  template <class Complex>
+  struct Dart_wrapper {
+    using Dart_info = cellwalk::Dart_info;
+    using Vertex_attribute = CGAL::Cell_attribute_with_point<Complex, std::uint32_t>;
+    using Attributes = std::tuple<Vertex_attribute>;
+  };
+};
+
+using Map_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+template <int D>
+using Map =
+    CGAL::Linear_cell_complex_for_combinatorial_map<D, D, CGAL::Linear_cell_complex_traits<D, Map_kernel>,
+                                                    Map_items>;
+
+/// CGAL calls them handles up to 5.5 and descriptors from 5.6 on.
+template <int D>
+using Dart = decltype(std::declval<Map<D>&>().create_dart());
+template <int D>
+using Const_dart = decltype(std::declval<const Map<D>&>().darts().begin());
+template <int D>
+using Map_vertex = decltype(std::declval<Map<D>&>().create_vertex_attribute());
+
+/// The map with what leads into it. Not copied or moved: darts are addresses.
+template <int D>
+struct Map_storage {
+  Map_storage() = default;
+  Map_storage(const Map_storage&) = delete;
+  Map_storage& operator=(const Map_storage&) = delete;
+
+  Map<D> map;
+  std::size_t cell_count = 0;
+  /// First dart of each half-facet of the snapshot; Dart<D>{} for slots that are not used.
+  std::vector<Dart<D>> dart_of_half_facet;
+  /// The vertex of each point: of its lowest cell, if the point is pinched.
+  std::vector<Map_vertex<D>> vertex_of_point;
+  /// The other vertices of pinched points, sorted by point.
+  std::vector<std::pair<std::uint32_t, Map_vertex<D>>> pinched;
+
+  /// Index of the point a dart starts from.
+  std::uint32_t point_of(Const_dart<D> d) const { return map.template info<0>(d); }
+  /// All vertices of a point: more than one if it is pinched.
+  std::vector<Map_vertex<D>> vertices_of(std::uint32_t point) const;
+};
+
+/// Calls f on each dart of the half-facet that starts at d.
+template <int D, class Any_map, class Any_dart, class F>
+void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
+  if constexpr (D == 2) {
+    f(d);
+  } else {
+    Any_dart e = d;
+    do {
+      f(e);
+      e = map.template beta<1>(e);
+    } while (e != d);
+  }
+}
+
+/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot replaces
+/// (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and between a solid and
+/// a free cell.
+/// \pre gluing = glue(soup); every point is a vertex of some cell
+/// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell
+/// Cost: about 0.7 us a tetrahedron on one core; memory 679 bytes a tetrahedron.
+template <int D>
+std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing);
+
+/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i], of `slots` in all.
+template <int D>
+void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
+                        std::span<const std::uint32_t> half_facets, std::size_t slots);
+
+/// What a map consists of.
+struct Map_counts {
+  std::size_t cells = 0, facets = 0, boundary_facets = 0, vertices = 0, darts = 0;
+
+  bool operator==(const Map_counts&) const = default;
+};
+
+/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each other, ends
+/// and marks agree) and that darts, half-facets, vertices and points refer to each other; counts the cells.
+/// \throw Error(other) naming the cell at fault: the map was damaged from outside
+template <int D>
+Map_counts check_map(const Map_storage<D>& storage);
+
+extern template struct Map_storage<2>;
+extern template struct Map_storage<3>;
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_MAP_H
