@@ -7,11 +7,11 @@
 #ifndef CELLWALK_TESTS_ORACLE_EXACT_WORLD_H
 #define CELLWALK_TESTS_ORACLE_EXACT_WORLD_H
 
+#include <cellwalk/records/cell_soup.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/records/cell_soup.h>
 
 #include "oracle/trace.h"
 

@@ -6,6 +6,7 @@
 #define CELLWALK_TESTS_ORACLE_NUMBER_H
 
 #include <boost/multiprecision/cpp_int.hpp>
+
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>

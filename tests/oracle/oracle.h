@@ -4,9 +4,9 @@
 #ifndef CELLWALK_TESTS_ORACLE_ORACLE_H
 #define CELLWALK_TESTS_ORACLE_ORACLE_H
 
-#include <memory>
-
 #include <cellwalk/records/cell_soup.h>
+
+#include <memory>
 
 #include "oracle/trace.h"
 

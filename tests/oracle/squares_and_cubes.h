@@ -4,11 +4,11 @@
 #ifndef CELLWALK_TESTS_ORACLE_SQUARES_AND_CUBES_H
 #define CELLWALK_TESTS_ORACLE_SQUARES_AND_CUBES_H
 
+#include <cellwalk/records/cell_soup.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
-
-#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk::oracle {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The oracle against answers known by hand: who guards the guards.
-#include <algorithm>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "oracle/oracle.h"
 #include "oracle/squares_and_cubes.h"
