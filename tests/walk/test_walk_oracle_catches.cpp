@@ -12,7 +12,7 @@
 namespace cellwalk::oracle {
 namespace {
 
-constexpr std::size_t motions = 30'000;
+constexpr std::size_t motions = 12'000;
 
 /// Exact signs, but where the line meets a ridge exactly, it counts as inside the facet: the exit rule without its
 /// second half. The policy knows a test of the line by its first two points.
