@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Scene files: JSON, every key checked. The format is described in docs/scenes.md.
+#ifndef CELLWALK_IO_SCENE_H
+#define CELLWALK_IO_SCENE_H
+
+#include <cellwalk/records/scene.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace cellwalk::io {
+
+/// Reads a scene. Nothing is guessed: unknown, repeated and missing keys, wrong types and values out of range are
+/// refused. A file name of an environment is resolved against the scene's folder.
+/// \throw Error(input) `FILE: key.path[2].key: what is wrong`, or `FILE:LINE: ...` where the file is not JSON
+Any_scene read_scene(const std::filesystem::path& path);
+
+/// The same from text in memory; `name` stands for the file in errors, environment files stay as written.
+Any_scene parse_scene(const std::string& name, std::string_view text);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_SCENE_H

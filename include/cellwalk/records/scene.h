@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a scene file says: an environment, what moves in it, and for how long. See docs/scenes.md.
+#ifndef CELLWALK_RECORDS_SCENE_H
+#define CELLWALK_RECORDS_SCENE_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cellwalk {
+
+/// A generator by name with its numeric options (a single number is a list of one).
+struct Recipe {
+  std::string generator;
+  std::map<std::string, std::vector<double>> options;
+};
+
+/// Where the environment comes from: a mesh file (relative to the scene's folder) or a recipe.
+using Environment_source = std::variant<std::string, Recipe>;
+
+/// One free particle.
+template <int D>
+struct Particle_start {
+  Point<D> position{};
+  Vector<D> velocity{};
+};
+
+/// Free particles at random, uniform in free space, with velocities of one speed in random directions.
+struct Particle_cloud {
+  std::uint32_t count = 0;
+  double speed = 0;
+  std::uint64_t seed = 1;
+};
+
+/// A catheter tip as a chain of particles: the first steers along the path, the others follow.
+template <int D>
+struct Catheter {
+  std::uint32_t particles = 20;  ///< at most so many; they enter one by one at the start of the path
+  double spacing = 1;            ///< largest distance between neighbours that nothing blocks
+  double advance = 0.5;          ///< how far the tip is pushed a step
+  double stiffness = 0.5;        ///< 0: a thread, 1: as straight as the walls allow
+  std::vector<Point<D>> path;    ///< way points, at least two; the first is where the catheter enters
+  bool find_route = false;       ///< join way points through the cells, rather than straight
+};
+
+struct Picture_request {
+  int width = 1600, height = 1000;  ///< pixels
+  std::vector<double> toward, up;   ///< camera: empty or 3 numbers
+};
+
+struct Scene_output {
+  std::uint32_t frame_every = 10;          ///< steps from one VTU frame to the next; 0: none
+  std::optional<Picture_request> picture;  ///< a PNG of the last step
+};
+
+template <int D>
+struct Scene {
+  std::string title;
+  Environment_source environment;
+  std::vector<std::variant<Particle_start<D>, Particle_cloud>> particles;
+  std::optional<Catheter<D>> catheter;
+  Vector<D> gravity{};
+  double restitution = 1;  ///< share of the normal speed that a free particle keeps when it bounces
+  double friction = 0;     ///< share of the tangential speed that it loses
+  double time_step = 0.01;
+  std::uint32_t steps = 100;
+  Scene_output output;
+};
+
+/// A scene of either dimension.
+using Any_scene = std::variant<Scene<2>, Scene<3>>;
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_RECORDS_SCENE_H

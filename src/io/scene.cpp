@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/scene.h>
+#include <cellwalk/kernel/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+
+#include "json_node.h"
+
+namespace cellwalk::io {
+namespace {
+
+using detail::Json_node;
+
+constexpr std::uint64_t max_particles = 10'000'000, max_steps = 100'000'000;
+constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;  // kept exactly by every JSON reader
+
+Environment_source environment_source(const Json_node& node) {
+  if (node.is_string()) {
+    if (node.string().empty()) node.fail("expected the name of a mesh file");
+    return node.string();
+  }
+  if (!node.is_object()) node.fail("expected the name of a mesh file or {\"generate\": ...}");
+  Recipe recipe;
+  recipe.generator = node.at("generate").string();
+  for (const std::string& key : node.keys())
+    if (key != "generate") recipe.options[key] = node.at(key).numbers();
+  return recipe;
+}
+
+template <int D>
+std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node& node) {
+  if (node.has("count")) {
+    node.expect_keys({"count", "seed", "speed"});
+    Particle_cloud cloud;
+    cloud.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, max_particles));
+    if (const auto seed = node.find("seed")) cloud.seed = seed->integer_in(0, max_seed);
+    if (const auto speed = node.find("speed")) cloud.speed = speed->number_in(0, 1e300);
+    return cloud;
+  }
+  node.expect_keys({"position", "velocity", "count", "seed", "speed"});
+  if (!node.has("position")) node.fail("expected \"position\" or \"count\"");
+  for (const char* key : {"seed", "speed"})
+    if (const auto extra = node.find(key)) extra->fail("only for random particles: give \"count\" as well");
+  Particle_start<D> start;
+  start.position = node.at("position").tuple<D>();
+  if (const auto velocity = node.find("velocity")) start.velocity = velocity->tuple<D>();
+  return start;
+}
+
+template <int D>
+Catheter<D> catheter(const Json_node& node) {
+  node.expect_keys({"particles", "spacing", "advance", "stiffness", "path", "find_route"});
+  Catheter<D> result;
+  result.spacing = node.at("spacing").positive();
+  result.advance = result.spacing / 2;
+  if (const auto n = node.find("particles"))
+    result.particles = static_cast<std::uint32_t>(n->integer_in(1, max_particles));
+  if (const auto advance = node.find("advance")) result.advance = advance->positive();
+  if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
+  if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
+  for (const Json_node& point : node.at("path").elements()) {
+    result.path.push_back(point.tuple<D>());
+    if (result.path.size() > 1 && result.path.back() == result.path[result.path.size() - 2])
+      point.fail("the same way point twice in a row");
+  }
+  if (result.path.size() < 2) node.at("path").fail("expected at least 2 way points");
+  return result;
+}
+
+Picture_request picture(const Json_node& node) {
+  node.expect_keys({"width", "height", "toward", "up"});
+  Picture_request request;
+  if (const auto width = node.find("width")) request.width = static_cast<int>(width->integer_in(16, 16384));
+  if (const auto height = node.find("height"))
+    request.height = static_cast<int>(height->integer_in(16, 16384));
+  const auto direction = [&](const char* key, std::vector<double>& to) {
+    const auto given = node.find(key);
+    if (!given) return;
+    const auto v = given->tuple<3>();
+    if (!(length(v) > 0)) given->fail("a direction cannot be zero");
+    to.assign(v.begin(), v.end());
+  };
+  direction("toward", request.toward);
+  direction("up", request.up);
+  return request;
+}
+
+Scene_output output(const Json_node& node) {
+  node.expect_keys({"frame_every", "picture"});
+  Scene_output result;
+  if (const auto every = node.find("frame_every"))
+    result.frame_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+  if (const auto request = node.find("picture")) {
+    if (request->is_object())
+      result.picture = picture(*request);
+    else if (request->boolean())
+      result.picture.emplace();
+  }
+  return result;
+}
+
+template <int D>
+Scene<D> scene(const Json_node& node) {
+  node.expect_keys({"dimension", "title", "environment", "particles", "catheter", "gravity", "restitution",
+                    "friction", "time_step", "steps", "output"});
+  Scene<D> result;
+  result.environment = environment_source(node.at("environment"));
+  if (const auto title = node.find("title")) result.title = title->string();
+  if (const auto particles = node.find("particles"))
+    for (const Json_node& p : particles->elements()) result.particles.push_back(particle_source<D>(p));
+  if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
+  if (result.particles.empty() && !result.catheter)
+    node.fail("nothing moves: give \"particles\" or \"catheter\"");
+  if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();
+  if (const auto restitution = node.find("restitution")) result.restitution = restitution->number_in(0, 1);
+  if (const auto friction = node.find("friction")) result.friction = friction->number_in(0, 1);
+  if (const auto time_step = node.find("time_step")) result.time_step = time_step->positive();
+  result.steps = static_cast<std::uint32_t>(node.at("steps").integer_in(1, max_steps));
+  if (const auto o = node.find("output")) result.output = output(*o);
+  return result;
+}
+
+}  // namespace
+
+Any_scene parse_scene(const std::string& name, std::string_view text) {
+  const auto document = detail::parse_json(name, text);
+  const Json_node root(*document, name);
+  const auto dimension = root.find("dimension");
+  if (dimension && dimension->integer_in(2, 3) == 2) return scene<2>(root);
+  return scene<3>(root);
+}
+
+Any_scene read_scene(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file)
+    throw Error(Error_code::input, path.string() + ": cannot be read; check the name and its permissions");
+  Any_scene result = parse_scene(path.string(), text);
+  std::visit(
+      [&](auto& s) {
+        if (auto* mesh = std::get_if<std::string>(&s.environment))
+          *mesh = (path.parent_path() / *mesh).string();
+      },
+      result);
+  return result;
+}
+
+}  // namespace cellwalk::io

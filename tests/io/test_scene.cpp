@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/scene.h>
+#include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace cellwalk::io {
+namespace {
+
+constexpr const char* complete = R"({
+  "dimension": 3, "title": "A test", "environment": {"generate": "vessel", "radius": 2.5, "size": [1, 2, 3]},
+  "particles": [{"position": [1, 2, 3], "velocity": [0.5, 0, -1e-3]}, {"position": [0, 0, 0]},
+                {"count": 7, "speed": 2, "seed": 9007199254740992}],
+  "catheter": {"particles": 9, "spacing": 0.5, "advance": 0.125, "stiffness": 0.75, "find_route": true,
+               "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0]]},
+  "gravity": [0, 0, -9.81], "restitution": 0.5, "friction": 0.25, "time_step": 0.5, "steps": 12,
+  "output": {"frame_every": 3, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
+})";
+
+TEST(Scene, ReadsEveryKey) {
+  const auto scene = std::get<Scene<3>>(parse_scene("s.json", complete));
+  EXPECT_EQ(scene.title, "A test");
+  const auto& recipe = std::get<Recipe>(scene.environment);
+  EXPECT_EQ(recipe.generator, "vessel");
+  EXPECT_EQ(recipe.options.at("radius"), std::vector<double>{2.5});
+  EXPECT_EQ(recipe.options.at("size"), (std::vector<double>{1, 2, 3}));
+  ASSERT_EQ(scene.particles.size(), 3u);
+  const auto& first = std::get<Particle_start<3>>(scene.particles[0]);
+  EXPECT_EQ(first.position, (Point<3>{1, 2, 3}));
+  EXPECT_EQ(first.velocity, (Vector<3>{0.5, 0, -1e-3}));
+  EXPECT_EQ(std::get<Particle_start<3>>(scene.particles[1]).velocity, (Vector<3>{0, 0, 0}));
+  const auto& cloud = std::get<Particle_cloud>(scene.particles[2]);
+  EXPECT_EQ(cloud.count, 7u);
+  EXPECT_EQ(cloud.speed, 2);
+  EXPECT_EQ(cloud.seed, 9007199254740992u);
+  ASSERT_TRUE(scene.catheter);
+  EXPECT_EQ(scene.catheter->particles, 9u);
+  EXPECT_EQ(scene.catheter->spacing, 0.5);
+  EXPECT_EQ(scene.catheter->advance, 0.125);
+  EXPECT_EQ(scene.catheter->stiffness, 0.75);
+  EXPECT_TRUE(scene.catheter->find_route);
+  EXPECT_EQ(scene.catheter->path.size(), 3u);
+  EXPECT_EQ(scene.gravity, (Vector<3>{0, 0, -9.81}));
+  EXPECT_EQ(scene.restitution, 0.5);
+  EXPECT_EQ(scene.friction, 0.25);
+  EXPECT_EQ(scene.time_step, 0.5);
+  EXPECT_EQ(scene.steps, 12u);
+  EXPECT_EQ(scene.output.frame_every, 3u);
+  ASSERT_TRUE(scene.output.picture);
+  EXPECT_EQ(scene.output.picture->width, 320);
+  EXPECT_EQ(scene.output.picture->height, 200);
+  EXPECT_EQ(scene.output.picture->toward, (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(scene.output.picture->up, (std::vector<double>{0, 1, 0}));
+}
+
+TEST(Scene, HasDefaults) {
+  const auto scene = std::get<Scene<2>>(parse_scene(
+      "s.json", R"({"dimension": 2, "environment": "a.ovm", "particles": [{"count": 1}], "steps": 5})"));
+  EXPECT_EQ(std::get<std::string>(scene.environment), "a.ovm");
+  EXPECT_EQ(scene.restitution, 1);
+  EXPECT_EQ(scene.friction, 0);
+  EXPECT_FALSE(scene.catheter);
+  EXPECT_FALSE(scene.output.picture);
+  const auto tip = std::get<Scene<3>>(parse_scene("s.json", R"({"environment": "a.ovm", "steps": 5,
+    "catheter": {"spacing": 3, "path": [[0,0,0],[1,1,1]]}, "output": {"picture": true}})"));
+  EXPECT_EQ(tip.catheter->advance, 1.5);
+  EXPECT_TRUE(tip.output.picture);
+}
+
+TEST(Scene, ResolvesTheEnvironmentAgainstItsFolder) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "scene_folder";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "s.json")
+      << R"({"environment": "sub/a.ovm", "particles": [{"count": 1}], "steps": 1})";
+  const auto scene = std::get<Scene<3>>(read_scene(folder / "s.json"));
+  EXPECT_EQ(std::get<std::string>(scene.environment), (folder / "sub/a.ovm").string());
+}
+
+struct Refusal {
+  const char* text;
+  const char* message;
+};
+
+/// What goes wrong when a member of a good scene is replaced; the path of the key leads.
+const Refusal refusals[] = {
+    {"",
+     "s.json:1: not valid JSON: syntax error while parsing value - unexpected end of input; expected '[', "
+     "'{', or a "
+     "literal"},
+    {"[]", "s.json: expected an object {...}"},
+    {"{\n\"steps\": 1,\n\"steps\": 2}", "s.json: steps: key given twice in one object"},
+    {R"({"dimension": 4})", "s.json: dimension: expected an integer from 2 to 3, not 4"},
+    {R"({"dimension": "3"})", "s.json: dimension: expected an integer from 2 to 3"},
+    {R"({})", "s.json: key \"environment\" is missing"},
+    {R"({"environment": ""})", "s.json: environment: expected the name of a mesh file"},
+    {R"({"environment": 3})", "s.json: environment: expected the name of a mesh file or {\"generate\": ...}"},
+    {R"({"environment": {}})", "s.json: environment: key \"generate\" is missing"},
+    {R"({"environment": {"generate": 1}})", "s.json: environment.generate: expected a text"},
+    {R"({"environment": {"generate": "x", "a": "b"}})",
+     "s.json: environment.a: expected a number or a list of numbers"},
+    {R"({"environment": {"generate": "x", "a": [1, null]}})", "s.json: environment.a[1]: expected a number"},
+    {R"({"environment": "e", "particle": []})",
+     "s.json: particle: unknown key; known here: catheter, dimension, environment, friction, gravity, "
+     "output, particles, "
+     "restitution, steps, time_step, title"},
+    {R"({"environment": "e", "title": 3})", "s.json: title: expected a text"},
+    {R"({"environment": "e", "steps": 1})", "s.json: nothing moves: give \"particles\" or \"catheter\""},
+    {R"({"environment": "e", "particles": {}})", "s.json: particles: expected a list [...]"},
+    {R"({"environment": "e", "particles": [1]})", "s.json: particles[0]: expected an object {...}"},
+    {R"({"environment": "e", "particles": [{}]})",
+     "s.json: particles[0]: expected \"position\" or \"count\""},
+    {R"({"environment": "e", "particles": [{"position": [1, 2]}]})",
+     "s.json: particles[0].position: expected 3 numbers"},
+    {R"({"environment": "e", "particles": [{"count": 1}, {"position": [1, 2, 3], "velocity": [1, 2, "3"]}]})",
+     "s.json: particles[1].velocity: expected 3 numbers"},
+    {R"({"environment": "e", "particles": [{"position": [1, 2, 3], "speed": 1}]})",
+     "s.json: particles[0].speed: only for random particles: give \"count\" as well"},
+    {R"({"environment": "e", "particles": [{"position": [1, 2, 3], "mass": 1}]})",
+     "s.json: particles[0].mass: unknown key; known here: count, position, seed, speed, velocity"},
+    {R"({"environment": "e", "particles": [{"count": 1, "position": [1, 2, 3]}]})",
+     "s.json: particles[0].position: unknown key; known here: count, seed, speed"},
+    {R"({"environment": "e", "particles": [{"count": 0}]})",
+     "s.json: particles[0].count: expected an integer from 1 to 10000000, not 0"},
+    {R"({"environment": "e", "particles": [{"count": 1.5}]})",
+     "s.json: particles[0].count: expected an integer from 1 to 10000000, not 1.5"},
+    {R"({"environment": "e", "particles": [{"count": 1, "seed": -1}]})",
+     "s.json: particles[0].seed: expected an integer from 0 to 9007199254740992, not -1"},
+    {R"({"environment": "e", "catheter": {"path": [[0,0,0],[1,1,1]]}})",
+     "s.json: catheter: key \"spacing\" is missing"},
+    {R"({"environment": "e", "catheter": {"spacing": 0, "path": []}})",
+     "s.json: catheter.spacing: expected a number greater than 0, not 0"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0]]}})",
+     "s.json: catheter.path: expected at least 2 way points"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0],[0,0,0]]}})",
+     "s.json: catheter.path[1]: the same way point twice in a row"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "stiffness": 1.5, "path": []}})",
+     "s.json: catheter.stiffness: expected a number from 0 to 1, not 1.5"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "find_route": 1, "path": []}})",
+     "s.json: catheter.find_route: expected true or false"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "gravity": 9.81})",
+     "s.json: gravity: expected 3 numbers"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "restitution": 2})",
+     "s.json: restitution: expected a number from 0 to 1, not 2"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "friction": "no"})",
+     "s.json: friction: expected a number"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "time_step": -1})",
+     "s.json: time_step: expected a number greater than 0, not -1"},
+    {R"({"environment": "e", "particles": [{"count": 1}]})", "s.json: key \"steps\" is missing"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": 1}})",
+     "s.json: output.picture: expected true or false"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"width": 5}}})",
+     "s.json: output.picture.width: expected an integer from 16 to 16384, not 5"},
+    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"up": [0, 0, 0]}}})",
+     "s.json: output.picture.up: a direction cannot be zero"},
+};
+
+TEST(Scene, RefusesWithTheKeyThatIsWrong) {
+  for (const Refusal& r : refusals) {
+    try {
+      parse_scene("s.json", r.text);
+      ADD_FAILURE() << "accepted: " << r.text;
+    } catch (const Error& e) {
+      EXPECT_STREQ(e.what(), r.message) << r.text;
+      EXPECT_EQ(e.code(), Error_code::input);
+    }
+  }
+}
+
+TEST(Scene, NamesTheLineOfASyntaxError) {
+  const auto message = [](const char* text) -> std::string {
+    try {
+      parse_scene("s.json", text);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("{\n  \"steps\": 1,\n  oops\n}").rfind("s.json:3: not valid JSON: ", 0), 0u);
+  EXPECT_EQ(message("{\"steps\": 1e999}").rfind("s.json: not valid JSON: ", 0), 0u);
+  EXPECT_NE(message("{\"steps\": 1e999}").find("1e999"), std::string::npos);
+}
+
+TEST(Scene, NamesAFileThatCannotBeRead) {
+  EXPECT_THROW(
+      {
+        try {
+          read_scene("/nowhere/s.json");
+        } catch (const Error& e) {
+          EXPECT_STREQ(e.what(), "/nowhere/s.json: cannot be read; check the name and its permissions");
+          throw;
+        }
+      },
+      Error);
+}
+
+}  // namespace
+}  // namespace cellwalk::io
