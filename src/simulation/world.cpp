@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/simulation/world.h>
+
+#include <fmt/format.h>
+
+namespace cellwalk {
+template <int D>
+void World<D>::step() {
+  ++steps_done_;
+  contacts_.clear();
+  step_free();
+  if (scene_.catheter) step_catheter(*scene_.catheter);
+}
+
+template <int D>
+void World<D>::report(std::size_t particle) {
+  for (const Met_contact<D>& m : met_)
+    contacts_.push_back({steps_done_, static_cast<std::uint32_t>(particle), m.time, m.contact.point,
+                         m.contact.normal, m.contact.kind, snapshot_.index(m.contact.cell)});
+  met_.clear();
+}
+
+template <int D>
+void World<D>::step_free() {
+  const double dt = scene_.time_step;
+  const Wall_response response{scene_.restitution, scene_.friction};
+  for (std::size_t i = 0; i < free_count_; ++i) {
+    const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
+    velocities_[i] = (1 / dt) * advance(snapshot_, particles_[i], displacement, response, met_, counts_);
+    report(i);
+  }
+}
+
+template <int D>
+bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point) {
+  const Cell_view<D> view = snapshot.view(cell);
+  Predicate_counts counts;
+  for (std::size_t f = 0; f < view.facet_count(); ++f) {
+    const auto loop = view.loop(f);
+    if constexpr (D == 2) {
+      if (Exact::orientation(counts, view.point(loop[0]), view.point(loop[1]), point) < 0) return false;
+    } else {
+      // Every triangle of the fan, since the first three vertices may lie on one line.
+      for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        if (Exact::orientation(counts, view.point(loop[0]), view.point(loop[i]), view.point(loop[i + 1]),
+                               point) > 0)
+          return false;
+    }
+  }
+  return true;
+}
+
+template <int D>
+void World<D>::validate() const {
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Particle<D>& p = particles_[i];
+    if (p.cell != Cell::none && !snapshot_.is_solid(p.cell) && in_closure(snapshot_, p.cell, p.position))
+      continue;
+    throw Error(Error_code::other,
+                fmt::format("particle {} is not in the closure of its cell after step {} (position {})", i,
+                            steps_done_, fmt::join(p.position, ", ")));
+  }
+}
+
+template bool in_closure<2>(const Snapshot<2>&, Cell, const Point<2>&);
+template bool in_closure<3>(const Snapshot<3>&, Cell, const Point<3>&);
+
+template void World<2>::step();
+template void World<2>::step_free();
+template void World<2>::report(std::size_t);
+template void World<2>::validate() const;
+template void World<3>::step();
+template void World<3>::step_free();
+template void World<3>::report(std::size_t);
+template void World<3>::validate() const;
+
+}  // namespace cellwalk

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/simulation/verified_stop.h>
+#include <cellwalk/simulation/world.h>
+
+#include <gtest/gtest.h>
+
+#include "simulation/worlds.h"
+
+namespace cellwalk {
+namespace {
+
+using test::rooms;
+
+template <int D>
+Particle<D> particle_at(const Snapshot<D>& snapshot, const Point<D>& p) {
+  return Locator<D>(snapshot).particle_at(p);
+}
+
+TEST(VerifiedStop, StopsInTheWallPlaneWhereThatIsADouble) {
+  const auto snapshot = rooms<3>({2, 1, 1});
+  auto particle = particle_at<3>(snapshot, {0.5, 0.5, 0.5});
+  Walk_counts counts;
+  const Point<3> target{3.5, 0.5, 0.5};
+  const auto result = move<Exact>(snapshot, particle, target, counts);
+  ASSERT_EQ(result.status, Walk_status::contact);
+  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, result.contact, counts));
+  EXPECT_EQ(particle.position, (Point<3>{2, 0.5, 0.5}));
+  EXPECT_EQ(particle.cell, snapshot.cell(1));
+}
+
+TEST(VerifiedStop, ReachesObliqueWallsClosely) {
+  // Jittered tetrahedra: the rounded contact point is mostly not in the plane of the wall, half the time behind it.
+  Simplex_grid_options<3> options;
+  options.cells = {2, 2, 2};
+  options.jitter = 0.15;
+  const auto snapshot = test::compile(tetrahedral_grid(options));
+  const auto start = particle_at<3>(snapshot, {1, 1, 1});
+  ASSERT_NE(start.cell, Cell::none);
+  Random random(5);
+  Walk_counts counts;
+  int stops = 0, stuck = 0;
+  for (int i = 0; i < 5000; ++i) {
+    auto particle = start;
+    Point<3> inside, target;
+    for (double& x : inside) x = random.real(0.5, 1.5);
+    for (double& x : target) x = random.real(-2, 4);
+    ASSERT_EQ(move<Exact>(snapshot, particle, inside, counts).status, Walk_status::arrived);
+    const auto result = move<Exact>(snapshot, particle, target, counts);
+    if (result.status != Walk_status::contact) continue;
+    ++stops;
+    if (!stop_at_contact(snapshot, particle, target, result.contact, counts)) ++stuck;
+    EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
+    EXPECT_LT(length(particle.position - result.contact.point), 1e-12);
+  }
+  EXPECT_GT(stops, 2000);
+  EXPECT_EQ(stuck, 0);
+}
+
+TEST(Advance, ReflectsWithRestitutionAndFriction) {
+  const auto snapshot = rooms<2>({4, 4});
+  const auto start = particle_at<2>(snapshot, {3, 2});
+  const auto run = [&](double restitution, double friction) {
+    auto particle = start;
+    std::vector<Met_contact<2>> met;
+    Walk_counts counts;
+    const auto v = advance(snapshot, particle, Vector<2>{2, 0.5}, {restitution, friction}, met, counts);
+    EXPECT_EQ(met.size(), 1u);
+    EXPECT_EQ(met.at(0).time, 0.5);
+    EXPECT_EQ(met.at(0).contact.normal, (Vector<2>{-1, 0}));
+    return std::pair(particle.position, v);
+  };
+  const auto expect_near = [](const Point<2>& a, const Point<2>& b) { EXPECT_LT(length(a - b), 1e-13); };
+  auto [p, v] = run(1, 0);
+  EXPECT_EQ(v, (Vector<2>{-2, 0.5}));
+  expect_near(p, {3, 2.5});
+  std::tie(p, v) = run(0.5, 0);
+  EXPECT_EQ(v, (Vector<2>{-1, 0.5}));
+  expect_near(p, {3.5, 2.5});
+  std::tie(p, v) = run(0, 0);  // slides
+  EXPECT_EQ(v, (Vector<2>{0, 0.5}));
+  expect_near(p, {4, 2.5});
+  std::tie(p, v) = run(0, 1);  // sticks
+  EXPECT_EQ(v, (Vector<2>{0, 0}));
+  expect_near(p, {4, 2.25});
+}
+
+TEST(Advance, SlidesAlongTheEdgeOfTwoWallsAndRestsInACorner) {
+  const auto snapshot = rooms<3>({4, 4, 4});
+  auto particle = particle_at<3>(snapshot, {3, 3, 1});
+  std::vector<Met_contact<3>> met;
+  Walk_counts counts;
+  auto v = advance(snapshot, particle, Vector<3>{2, 1.5, 1}, {}, met, counts);
+  EXPECT_LT(length(particle.position - Point<3>{4, 4, 2}), 1e-13);
+  EXPECT_LT(length(v - Vector<3>{0, 0, 1}), 1e-13);
+  EXPECT_EQ(met.size(), 2u);
+  met.clear();
+  v = advance(snapshot, particle, Vector<3>{5, 5, 5}, {}, met, counts);
+  EXPECT_LT(length(particle.position - Point<3>{4, 4, 4}), 1e-13);
+  EXPECT_LT(length(v), 1e-13);
+  EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
+}
+
+TEST(Advance, KeepsTheSpeedOfAParticleThatBouncesInAWedge) {
+  // A triangle whose walls meet at a small angle: many contacts in one step, none of which may lose the particle.
+  Cell_soup<2> soup;
+  soup.points = {{0, 0}, {8, 0}, {8, 1}};
+  const std::array<std::uint32_t, 3> triangle{0, 1, 2};
+  add_polygon(soup, triangle);
+  const auto snapshot = test::compile(soup);
+  auto particle = particle_at<2>(snapshot, {6, 0.4});
+  std::vector<Met_contact<2>> met;
+  Walk_counts counts;
+  const Wall_response elastic{1, 0, 200};
+  const auto v = advance(snapshot, particle, Vector<2>{-20, 0.3}, elastic, met, counts);
+  EXPECT_GT(met.size(), 5u);
+  EXPECT_NEAR(length(v), length(Vector<2>{-20, 0.3}), 1e-11);
+  EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
+}
+
+}  // namespace
+}  // namespace cellwalk
