@@ -86,6 +86,7 @@ Line_reader::Line_reader(std::string file, std::string_view text, char comment)
 bool Line_reader::next_line() {
   while (position_ < text_.size()) {
     line_begin_ = position_;
+    ++line_number_;
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     position_ = std::min(end + 1, text_.size());
     rest_ = text_.substr(line_begin_, end - line_begin_);
@@ -94,6 +95,7 @@ bool Line_reader::next_line() {
       rest_ = rest_.substr(0, hash);
     if (!at_line_end()) return true;
   }
+  if (line_number_ == 0 || (line_begin_ < text_.size() && text_.ends_with('\n'))) ++line_number_;
   line_begin_ = text_.size();
   rest_ = {};
   return false;
@@ -148,12 +150,6 @@ void Line_reader::expect_line_end(std::string_view after) {
 
 std::size_t Line_reader::plausible(std::uint64_t announced, std::size_t bytes) const {
   return static_cast<std::size_t>(std::min<std::uint64_t>(announced, (text_.size() - position_) / bytes + 1));
-}
-
-std::size_t Line_reader::line() const {
-  const auto begin = text_.begin();
-  return 1 +
-         static_cast<std::size_t>(std::count(begin, begin + static_cast<std::ptrdiff_t>(line_begin_), '\n'));
 }
 
 void Line_reader::fail(const std::string& what) const { io::fail(file_, line(), what); }

@@ -34,7 +34,7 @@ class Line_reader {
   /// As next_line(), but the end of the text is an error: "ends where `expected` should be".
   void need_line(std::string_view expected);
   /// Makes the next call of next_line() return the current line again.
-  void unread() { position_ = line_begin_; }
+  void unread() { position_ = line_begin_, --line_number_; }
 
   /// The text after the current line.
   std::string_view remaining() const { return text_.substr(position_); }
@@ -57,14 +57,14 @@ class Line_reader {
   std::size_t plausible(std::uint64_t announced, std::size_t bytes) const;
 
   const std::string& file() const { return file_; }
-  std::size_t line() const;  ///< number of the current line, from 1. Cost: linear
+  std::size_t line() const { return line_number_; }  ///< number of the current line, from 1
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
   std::string file_;
   std::string_view text_;
   std::string_view rest_;
-  std::size_t position_ = 0, line_begin_ = 0;
+  std::size_t position_ = 0, line_begin_ = 0, line_number_ = 0;
   char comment_;
 };
 

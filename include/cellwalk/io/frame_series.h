@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A run as ParaView opens it: frames as .vtu files and a collection (.pvd) that gives each its time.
+#ifndef CELLWALK_IO_FRAME_SERIES_H
+#define CELLWALK_IO_FRAME_SERIES_H
+
+#include <cellwalk/io/vtu.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// One file of a collection. Files of the same time and different parts are shown together.
+struct Pvd_entry {
+  double time = 0;
+  std::string part;
+  std::string file;  ///< relative to the collection
+};
+
+/// The text of a .pvd collection.
+std::string pvd_text(const std::vector<Pvd_entry>& entries);
+
+/// Writes `frames/PART_00000.vtu`, ... and a collection beside that folder. All of it appears on commit(), in the place
+/// of an earlier series; destroyed without commit() it leaves nothing behind, and an earlier series as it was.
+class Frame_series {
+ public:
+  /// `collection` is the path of the .pvd file; its directory is made if it is missing.
+  /// \throw Error(usage) if the folder `frames` there holds anything but .vtu files, Error(other) if nothing can be
+  ///        written
+  explicit Frame_series(std::filesystem::path collection);
+  ~Frame_series();
+  Frame_series(const Frame_series&) = delete;
+  Frame_series& operator=(const Frame_series&) = delete;
+
+  /// Writes the next frame of `part`, a word such as "particles". \throw as write_vtu()
+  void add(double time, const std::string& part, const Vtu_grid& grid);
+
+  /// \throw Error(other) if the folder or the collection cannot be put in place
+  void commit();
+
+  std::size_t file_count() const { return entries_.size(); }
+
+ private:
+  std::filesystem::path collection_, frames_, temporary_;
+  std::vector<std::filesystem::path> made_;  ///< directories made for this series, outermost first
+  std::vector<Pvd_entry> entries_;
+  std::map<std::string, std::size_t> count_;  ///< frames of each part
+  bool committed_ = false;
+};
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_FRAME_SERIES_H

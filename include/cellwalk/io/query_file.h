@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Tables of queries into records.
+#ifndef CELLWALK_IO_QUERY_FILE_H
+#define CELLWALK_IO_QUERY_FILE_H
+
+#include <cellwalk/io/csv.h>
+#include <cellwalk/records/queries.h>
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// Points from columns named PREFIXx, PREFIXy and, in 3D, PREFIXz. Other columns are ignored.
+/// Rows with a number that is none, not finite or not exactly a double, or with a field too few or too many, come back
+/// with the reason.
+/// \throw Error(input) where a column is missing, or the table has z and the dimension is 2
+template <int D, std::size_t N>
+std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
+                                        const std::array<std::string_view, N>& prefixes);
+
+/// Motions: columns ax,ay,az,bx,by,bz (in the plane without z). \throw Error(input)
+template <int D>
+std::vector<Move_query<D>> read_moves(const std::filesystem::path& path) {
+  return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
+}
+
+extern template std::vector<Query_row<2, 2>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 2>&);
+extern template std::vector<Query_row<3, 2>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 2>&);
+extern template std::vector<Query_row<2, 3>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 3>&);
+extern template std::vector<Query_row<3, 3>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 3>&);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_QUERY_FILE_H

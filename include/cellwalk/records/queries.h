@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Queries as tables give them, one a row.
+#ifndef CELLWALK_RECORDS_QUERIES_H
+#define CELLWALK_RECORDS_QUERIES_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace cellwalk {
+
+/// Points of one row of a table. A row that cannot be used says why; the others are not affected.
+template <int D, std::size_t N>
+struct Query_row {
+  std::array<Point<D>, N> points{};
+  std::size_t line = 0;  ///< in the file, from 1
+  std::string invalid;   ///< empty, or the reason
+};
+
+/// A motion of a particle: from points[0] to points[1].
+template <int D>
+using Move_query = Query_row<D, 2>;
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_RECORDS_QUERIES_H

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/vtu.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+namespace cellwalk::io {
+namespace {
+
+using Loop = std::vector<std::uint32_t>;
+
+Loop loop_of(const Cell_soup<3>& soup, std::size_t f) { return {soup.facet(f).begin(), soup.facet(f).end()}; }
+
+std::vector<Loop> loops_of(const Cell_soup<3>& soup, std::size_t c) {
+  std::vector<Loop> loops;
+  for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
+    loops.push_back(loop_of(soup, f));
+  return loops;
+}
+
+bool all_of_size(const std::vector<Loop>& loops, std::size_t n) {
+  return std::all_of(loops.begin(), loops.end(), [n](const Loop& loop) { return loop.size() == n; });
+}
+
+/// The only vertex of the cell that is joined to v by an edge and not on the first facet, if there is just one.
+std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t v) {
+  const Loop& base = loops[0];
+  std::optional<std::uint32_t> found;
+  for (std::size_t f = 1; f < loops.size(); ++f)
+    for (std::size_t i = 0; i < loops[f].size(); ++i) {
+      const std::size_t n = loops[f].size();
+      if (loops[f][i] != v) continue;
+      for (std::uint32_t w : {loops[f][(i + 1) % n], loops[f][(i + n - 1) % n]}) {
+        if (std::find(base.begin(), base.end(), w) != base.end()) continue;
+        if (found && *found != w) return std::nullopt;
+        found = w;
+      }
+    }
+  return found;
+}
+
+/// The corners in VTK's order if the cell is a tetrahedron or hexahedron by its combinatorics; else nothing.
+std::optional<Loop> corners_of_known_type(const std::vector<Loop>& loops) {
+  const bool tetrahedron = loops.size() == 4 && all_of_size(loops, 3);
+  const bool hexahedron = loops.size() == 6 && all_of_size(loops, 4);
+  if (!tetrahedron && !hexahedron) return std::nullopt;
+  Loop corners(loops[0].rbegin(), loops[0].rend());  // counterclockwise seen from inside
+  std::rotate(corners.begin(), corners.end() - 1, corners.end());
+  const Loop base = corners;
+  for (std::uint32_t v : base) {
+    const auto top = above(loops, v);
+    if (!top) return std::nullopt;
+    if (tetrahedron && corners.size() == 4) {
+      if (corners.back() != *top) return std::nullopt;
+      continue;
+    }
+    corners.push_back(*top);
+  }
+  Loop sorted = corners;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
+  // Every vertex must be one of the corners.
+  for (const Loop& loop : loops)
+    for (std::uint32_t v : loop)
+      if (!std::binary_search(sorted.begin(), sorted.end(), v)) return std::nullopt;
+  return corners;
+}
+
+void add_cell_of(Vtu_grid& grid, const Cell_soup<3>& soup, std::size_t c) {
+  const std::vector<Loop> loops = loops_of(soup, c);
+  if (const auto corners = corners_of_known_type(loops))
+    grid.add_cell(corners->size() == 4 ? Vtu_cell::tetrahedron : Vtu_cell::hexahedron, *corners);
+  else
+    grid.add_polyhedron(loops);
+}
+
+Vtu_cell polygon_type(std::size_t n) {
+  return n == 3 ? Vtu_cell::triangle : n == 4 ? Vtu_cell::quad : Vtu_cell::polygon;
+}
+
+void add_cell_of(Vtu_grid& grid, const Cell_soup<2>& soup, std::size_t c) {
+  Loop loop;
+  for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
+    loop.push_back(soup.facet(f)[0]);
+  grid.add_cell(polygon_type(loop.size()), loop);
+}
+
+template <int D>
+Vtu_grid points_of(const Cell_soup<D>& soup) {
+  Vtu_grid grid;
+  for (const Point<D>& p : soup.points) grid.points.push_back(in_space(p));
+  return grid;
+}
+
+}  // namespace
+
+template <int D>
+Vtu_grid vtu_of_cells(const Cell_soup<D>& soup) {
+  Vtu_grid grid = points_of(soup);
+  std::vector<std::int64_t> index, solid;
+  for (std::size_t c = 0; c < soup.cell_count(); ++c) {
+    add_cell_of(grid, soup, c);
+    index.push_back(static_cast<std::int64_t>(c));
+    solid.push_back(soup.solid[c]);
+  }
+  grid.cell_data = {{"cell", 1, std::move(index)}, {"solid", 1, std::move(solid)}};
+  return grid;
+}
+
+template <int D>
+Vtu_grid vtu_of_walls(const Cell_soup<D>& soup) {
+  struct Facet {
+    std::size_t first, cell, sides = 0;
+    bool wall = false;
+  };
+  std::map<Loop, Facet> facets;  // by sorted vertices
+  for (std::size_t c = 0; c < soup.cell_count(); ++c)
+    for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) {
+      Loop key(soup.facet(f).begin(), soup.facet(f).end());
+      std::sort(key.begin(), key.end());
+      Facet& facet = facets.try_emplace(std::move(key), Facet{f, c}).first->second;
+      ++facet.sides;
+      facet.wall |= soup.impassable[f] != 0;
+    }
+  std::vector<Facet> walls;
+  for (const auto& [key, facet] : facets)
+    if (facet.wall || facet.sides == 1) walls.push_back(facet);
+  std::sort(walls.begin(), walls.end(), [](const Facet& a, const Facet& b) { return a.first < b.first; });
+  Vtu_grid grid = points_of(soup);
+  std::vector<std::int64_t> cells;
+  for (const Facet& wall : walls) {
+    const auto loop = soup.facet(wall.first);
+    grid.add_cell(D == 2 ? Vtu_cell::line : polygon_type(loop.size()), loop);
+    cells.push_back(static_cast<std::int64_t>(wall.cell));
+  }
+  grid.cell_data = {{"cell", 1, std::move(cells)}};
+  return grid;
+}
+
+template Vtu_grid vtu_of_cells<2>(const Cell_soup<2>&);
+template Vtu_grid vtu_of_cells<3>(const Cell_soup<3>&);
+template Vtu_grid vtu_of_walls<2>(const Cell_soup<2>&);
+template Vtu_grid vtu_of_walls<3>(const Cell_soup<3>&);
+
+}  // namespace cellwalk::io
