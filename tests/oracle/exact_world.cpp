@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace cellwalk::oracle {
 namespace {
@@ -27,13 +28,17 @@ std::array<N, D> difference(const std::array<N, D>& a, const std::array<N, D>& b
   return r;
 }
 
-/// The function that vanishes at x and grows along the normal, with coefficients as small as they go.
+/// The function that vanishes at x and grows along the normal. Its coefficients are made as small as they go where
+/// bits are scarce.
 template <class N, std::size_t D>
 Affine<static_cast<int>(D), N> affine_through(std::array<N, D> normal, const std::array<N, D>& x) {
-  N divisor = 0;
-  for (const N& n : normal) divisor = greatest_common_divisor(divisor, n);
-  if (divisor == 0) throw std::invalid_argument("a facet without extent");
-  for (N& n : normal) n /= divisor;
+  if (std::all_of(normal.begin(), normal.end(), [](const N& n) { return n == 0; }))
+    throw std::invalid_argument("a facet without extent");
+  if constexpr (std::is_same_v<N, Int128>) {
+    N divisor = 0;
+    for (const N& n : normal) divisor = greatest_common_divisor(divisor, n);
+    for (N& n : normal) n /= divisor;
+  }
   return {normal, scalar_product(normal, x)};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "oracle/oracle.h"
+#include "oracle/parity.h"
 #include "oracle/squares_and_cubes.h"
 
 namespace cellwalk::oracle {
@@ -303,6 +304,22 @@ TEST(Oracle, AgreesWithTheArithmeticOfUnitCubes) {
   }
   EXPECT_GT(free, 500);
   EXPECT_GT(blocked, 500);
+}
+
+TEST(Parity, TellsInsideFromOutside) {
+  // A tetrahedron whose vertices and edges lie in the way of axis-parallel rays.
+  Surface_soup surface;
+  surface.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  surface.facets = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  EXPECT_TRUE(is_inside(surface, {1, 1, 1}));
+  EXPECT_TRUE(is_inside(surface, {0x1p-40, 0x1p-40, 0x1p-40}));
+  EXPECT_FALSE(is_inside(surface, {-1, 0, 0}));
+  EXPECT_FALSE(is_inside(surface, {-1, 1, 1}));
+  EXPECT_FALSE(is_inside(surface, {2, 2, 2}));
+  EXPECT_FALSE(is_inside(surface, {5, 0, 0}));
+  EXPECT_TRUE(is_inside(surface, {1, 1, 2 - 0x1p-50}));
+  EXPECT_FALSE(is_inside(surface, {1, 1, 2 + 0x1p-50}));
+  EXPECT_THROW(is_inside(surface, {1, 1, 2}), std::runtime_error);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ template <int D>
 Motion_kind Motion_source<D>::kind(bool generic) {
   const int first_degenerate = static_cast<int>(Motion_kind::to_lattice);
   if (generic) return random_.below(3) == 0 ? Motion_kind::generic : Motion_kind::generic_short;
-  return static_cast<Motion_kind>(random_.between(first_degenerate, motion_kinds - 1));
+  return static_cast<Motion_kind>(between(first_degenerate, motion_kinds - 1));
 }
 
 /// origin + i/8 (u - origin) + j/8 (v - origin)
@@ -138,7 +138,7 @@ Point<D> Motion_source<D>::in_box() {
 template <int D>
 Point<D> Motion_source<D>::in_cell() {
   const Cell_soup<D>& soup = world_.soup;
-  const std::uint32_t c = random_.below(soup.cell_count());
+  const std::size_t c = random_.below(soup.cell_count());
   const std::uint32_t facets = soup.cell_begin[c + 1] - soup.cell_begin[c];
   const int n = 2 << random_.below(3);
   Point<D> sum{};
@@ -155,7 +155,7 @@ Point<D> Motion_source<D>::in_facet(Loop loop) {
     return on_edge(loop);
   } else {
     const std::size_t k = 1 + random_.below(loop.size() - 2);
-    const int i = random_.between(0, 8), j = random_.between(0, 8 - i);
+    const int i = between(0, 8), j = between(0, 8 - i);
     return combine(point(loop[0]), point(loop[k]), i, point(loop[k + 1]), j);
   }
 }
@@ -164,7 +164,7 @@ template <int D>
 Point<D> Motion_source<D>::on_edge(Loop loop) {
   const std::size_t k = random_.below(loop.size());
   const Point<D>& u = point(loop[k]);
-  return combine(u, point(loop[(k + 1) % loop.size()]), random_.between(1, 7), u, 0);
+  return combine(u, point(loop[(k + 1) % loop.size()]), between(1, 7), u, 0);
 }
 
 template <int D>
@@ -201,7 +201,7 @@ Point<D> Motion_source<D>::near(const Point<D>& p, double distance) {
 
 template <int D>
 Point<D> Motion_source<D>::target(Motion_kind kind, const Point<D>& from, const Point<D>& last) {
-  const auto past = [&](const Point<D>& p) { return from + double(random_.between(2, 4)) / 2 * (p - from); };
+  const auto past = [&](const Point<D>& p) { return from + double(between(2, 4)) / 2 * (p - from); };
   // Half of the features are chosen nearby, so that short motions are as common as long ones.
   const auto close_facet = [&](auto&& choose) {
     Loop best = choose();
@@ -241,12 +241,12 @@ Point<D> Motion_source<D>::target(Motion_kind kind, const Point<D>& from, const 
       // Along a combination of two edges of the wall on which it starts.
       const Vector<D> u = point(support_[1]) - point(support_[0]);
       const Vector<D> v = point(support_.back()) - point(support_[0]);
-      return from + (random_.between(-16, 16) / 8.0) * u + (random_.between(-16, 16) / 8.0) * v;
+      return from + (between(-16, 16) / 8.0) * u + (between(-16, 16) / 8.0) * v;
     }
     case Motion_kind::along_edge:
-      return from + (random_.between(-32, 32) / 8.0) * (point(support_[1]) - point(support_[0]));
+      return from + (between(-32, 32) / 8.0) * (point(support_[1]) - point(support_[0]));
     case Motion_kind::backward:
-      return from + (random_.between(2, 12) / 4.0) * (last - from);
+      return from + (between(2, 12) / 4.0) * (last - from);
     default:
       return from;
   }

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_TESTS_WALK_ORACLE_WORLDS_H
 #define CELLWALK_TESTS_WALK_ORACLE_WORLDS_H
 
+#include <cellwalk/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>
@@ -12,24 +13,6 @@
 #include <vector>
 
 namespace cellwalk::oracle {
-
-/// Random numbers that are the same for every compiler and library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 1) {}
-  std::uint64_t bits() {  // splitmix64
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(bits() % n); }
-  int between(int low, int high) { return low + static_cast<int>(below(high - low + 1)); }
-  double real() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-
- private:
-  std::uint64_t state_;
-};
 
 /// A world and what the making of motions needs to know of it.
 template <int D>
@@ -92,6 +75,7 @@ class Motion_source {
   Point<D> in_facet(Loop loop);
   Point<D> on_edge(Loop loop);
   Point<D> near(const Point<D>& p, double distance);
+  int between(int low, int high) { return low + static_cast<int>(random_.below(high - low + 1)); }
 
   const World<D>& world_;
   Random random_;
