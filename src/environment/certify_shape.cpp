@@ -99,8 +99,11 @@ template Cell_check check_cell<2>(const Cell_view<2>&);
 template Cell_check check_cell<3>(const Cell_view<3>&);
 
 std::string describe(const Cell_check& check) {
-  const std::string facet = "facet " + std::to_string(check.facet);
-  switch (check.defect) {
+  return detail::describe(check.defect, "facet " + std::to_string(check.facet));
+}
+
+std::string detail::describe(Cell_defect defect, const std::string& facet) {
+  switch (defect) {
     case Cell_defect::none:
       return "no defect";
     case Cell_defect::not_finite:

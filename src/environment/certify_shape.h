@@ -18,6 +18,9 @@ Cell_check check_shape(const Cell_shape& shape);
 template <int D>
 Cell_check check_geometry(const Cell_view<D>& cell);
 
+/// describe(), with the facet concerned called as the caller likes.
+std::string describe(Cell_defect defect, const std::string& facet);
+
 /// check_cell for many cells in turn: remembers shapes found sound. One per thread; the shapes must stay in place.
 template <int D>
 class Cell_checker {

@@ -55,6 +55,13 @@ inline Sample_cell<3> tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
+/// Positively oriented, whatever the order of its vertices.
+inline Sample_cell<3> tetrahedron_of(const Point<3>& a, const Point<3>& b, const Point<3>& c,
+                                     const Point<3>& d) {
+  const Sample_cell<3> cell{{a, b, c, d}, tetrahedron().loops};
+  return cell.check().defect == Cell_defect::inverted ? cell.reversed() : cell;
+}
+
 /// [0,2]^3, vertices in VTK order: bottom, top, then the four sides.
 inline Sample_cell<3> cube() {
   return {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}},
