@@ -1,10 +1,80 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/kernel/policies.h>
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 namespace cellwalk {
 namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+/// A sign by rationals: shares no arithmetic with the kernel.
+int exact_sign(const std::array<Point<3>, 4>& p) {
+  Rational m[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) m[i][k] = Rational(p[i + 1][k]) - Rational(p[0][k]);
+  const Rational d = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return d.sign();
+}
+
+int exact_sign(const std::array<Point<2>, 3>& p) {
+  const Rational x(p[0][0]), y(p[0][1]);
+  const Rational d =
+      (Rational(p[1][0]) - x) * (Rational(p[2][1]) - y) - (Rational(p[2][0]) - x) * (Rational(p[1][1]) - y);
+  return d.sign();
+}
+
+template <class Kernel>
+int sign(Predicate_counts& counts, const std::array<Point<3>, 4>& p) {
+  return Kernel::orientation(counts, p[0], p[1], p[2], p[3]);
+}
+template <class Kernel>
+int sign(Predicate_counts& counts, const std::array<Point<2>, 3>& p) {
+  return Kernel::orientation(counts, p[0], p[1], p[2]);
+}
+
+/// Points nearly (or exactly) dependent: the last one is a rounded combination of the others, moved by a few ulp.
+template <std::size_t N>
+std::array<Point<N - 1>, N> nearly_dependent(std::mt19937_64& random, double scale) {
+  constexpr int D = N - 1;
+  const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
+  std::array<Point<D>, N> p;
+  for (std::size_t i = 0; i + 1 < N; ++i)
+    for (double& x : p[i]) x = scale * unit();
+  const double s = unit(), t = D == 3 ? unit() : 0;
+  for (int k = 0; k < D; ++k) {
+    p[D][k] = p[0][k] + s * (p[1][k] - p[0][k]);
+    if constexpr (D == 3) p[D][k] += t * (p[2][k] - p[0][k]);
+    for (unsigned steps = random() % 4; steps > 0; --steps)
+      p[D][k] = std::nextafter(p[D][k], random() & 1 ? INFINITY : -INFINITY);
+  }
+  return p;
+}
+
+template <std::size_t N>
+void compare_with_rationals(double scale) {
+  std::mt19937_64 random(7);
+  Predicate_counts counts, rounded;
+  int zeros = 0, wrong = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto p = nearly_dependent<N>(random, scale);
+    const int expected = exact_sign(p);
+    zeros += expected == 0;
+    ASSERT_EQ(sign<Exact>(counts, p), expected) << "case " << i;
+    if (i % 10 == 0) {
+      ASSERT_EQ(sign<Lazy>(counts, p), expected) << "case " << i;
+    }
+    wrong += sign<Double>(rounded, p) != expected;
+  }
+  EXPECT_GT(counts.fallbacks, 1000u);  // the filter was in doubt often enough to be tested
+  EXPECT_GT(wrong, 100);               // and rounding alone would have failed
+}
 
 TEST(Orientation, FollowsTheSignConventionOfCgal) {
   Predicate_counts counts;
@@ -14,6 +84,31 @@ TEST(Orientation, FollowsTheSignConventionOfCgal) {
   EXPECT_EQ(Exact::orientation(counts, Point<2>{0, 0}, Point<2>{1, 0}, Point<2>{0, 1}), 1);
   EXPECT_EQ(counts.orientations, 3u);
   EXPECT_EQ(counts.fallbacks, 0u);
+}
+
+TEST(Orientation, IsExactNearDependence) {
+  compare_with_rationals<3>(1.0);
+  compare_with_rationals<4>(1.0);
+}
+
+TEST(Orientation, IsExactAtSmallAndLargeScales) {
+  for (const double scale : {1e-6, 1e6, 0x1p-100, 0x1p100}) {
+    compare_with_rationals<3>(scale);
+    compare_with_rationals<4>(scale);
+  }
+}
+
+TEST(Orientation, IsExactWhereProductsUnderflowOrOverflow) {
+  Predicate_counts counts;
+  // Products of 1e-160 underflow, the third factor is huge: the sign must not be that of the rounded value.
+  const std::array<Point<3>, 4> small{
+      {{0, 0, 0}, {1e-160, 2e-160, 1}, {2e-160, 4.0001e-160, 2}, {0, 0, 1e200}}};
+  EXPECT_EQ(sign<Exact>(counts, small), exact_sign(small));
+  const std::array<Point<3>, 4> large{{{0, 0, 0}, {1e200, 1, 0}, {1, 1e200, 0}, {0, 0, 1e200}}};
+  EXPECT_EQ(sign<Exact>(counts, large), exact_sign(large));
+  const std::array<Point<3>, 4> flat{{{0, 0, 0}, {5e-324, 0, 0}, {0, 5e-324, 0}, {0, 0, 5e-324}}};
+  EXPECT_EQ(sign<Exact>(counts, flat), 1);
+  EXPECT_GE(counts.fallbacks, 2u);
 }
 
 }  // namespace

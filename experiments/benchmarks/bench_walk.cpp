@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a move costs: staying in a cell, and crossing facets, in tetrahedral grids of 10^4, 10^5 and 10^6 cells, beside
+// point location by CGAL's triangulation with the start as a hint, on the same points and motions in the same run.
+//
+// warm: 200 particles start close together and are moved again and again, so that all they read is in the cache.
+// cold: 100,000 particles all over the grid, moved once each: memory is read from where it lies.
+// "crossing" subtracts nothing: it is the time of a whole move divided by the facets crossed (or tetrahedra visited).
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/walk/locate.h>
+#include <cellwalk/walk/walk.h>
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace cellwalk;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
+
+/// A jittered grid of about n tetrahedra, and the Delaunay triangulation of its points (about as many).
+struct World {
+  std::size_t side;
+  Snapshot<3> snapshot;
+  std::unique_ptr<Locator<3>> locator;
+  Delaunay delaunay;
+};
+
+std::size_t cubes_along_axis(std::size_t tetrahedra) {
+  return static_cast<std::size_t>(std::cbrt(static_cast<double>(tetrahedra) / 6) + 0.5);
+}
+
+World& world(std::size_t tetrahedra) {
+  static std::map<std::size_t, std::unique_ptr<World>> worlds;
+  auto& w = worlds[tetrahedra];
+  if (w) return *w;
+  w = std::make_unique<World>();
+  w->side = cubes_along_axis(tetrahedra);
+  Simplex_grid_options<3> options;
+  options.cells = Grid_options<3>::filled(static_cast<std::uint32_t>(w->side));
+  options.jitter = 0.12;
+  const Cell_soup<3> soup = tetrahedral_grid(options);
+  w->snapshot = Snapshot<3>::compile(soup, glue(soup));
+  w->locator = std::make_unique<Locator<3>>(w->snapshot);
+  std::vector<Kernel::Point_3> points;
+  for (const Point<3>& p : soup.points) points.emplace_back(p[0], p[1], p[2]);
+  w->delaunay.insert(points.begin(), points.end());
+  return *w;
+}
+
+/// Particles and where each goes: `reach` is the largest displacement along an axis, in cubes.
+struct Motions {
+  std::vector<Particle<3>> particles;
+  std::vector<Point<3>> targets;
+  std::vector<Delaunay::Cell_handle> hints;
+};
+
+Motions motions(const World& w, bool warm, double reach) {
+  std::mt19937_64 random(5);
+  const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
+  const double side = static_cast<double>(w.side), spread = warm ? 1 : side - 2;
+  Motions m;
+  const std::size_t count = warm ? 200 : 100000;
+  for (std::size_t i = 0; i < count; ++i) {
+    Point<3> p, t;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = side / 2 + spread * (unit() - 0.5);
+      t[k] = std::clamp(p[k] + reach * (2 * unit() - 1), 0.5, side - 0.5);
+    }
+    m.particles.push_back(w.locator->particle_at(p));
+    m.targets.push_back(t);
+    m.hints.push_back(w.delaunay.locate({p[0], p[1], p[2]}));
+  }
+  return m;
+}
+
+void report(benchmark::State& state, double moves, double crossings) {
+  state.counters["ns_per_move"] =
+      benchmark::Counter(moves * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  if (crossings > 0) {
+    state.counters["ns_per_crossing"] =
+        benchmark::Counter(crossings * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["crossings_per_move"] = crossings / moves;
+  }
+}
+
+/// A displacement of 10^-7 cubes: practically every move stays in its cell.
+constexpr double no_reach = 1e-7;
+constexpr double long_reach = 4;
+
+template <class Policy, Walk_strategy strategy>
+void cellwalk_moves(benchmark::State& state, bool warm, double reach) {
+  World& w = world(static_cast<std::size_t>(state.range(0)));
+  const Motions m = motions(w, warm, reach);
+  Walk_options options;
+  options.strategy = strategy;
+  Walk_counts counts;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < m.particles.size(); ++i) {
+      Particle<3> p = m.particles[i];
+      benchmark::DoNotOptimize(cellwalk::move<Policy>(w.snapshot, p, m.targets[i], counts, options));
+      benchmark::DoNotOptimize(p);
+    }
+  report(state, static_cast<double>(counts.walks), static_cast<double>(counts.crossings));
+  const auto cells = static_cast<double>(counts.crossings + counts.walks);
+  state.counters["signs_per_cell"] = static_cast<double>(counts.predicates.orientations) / cells;
+  state.counters["fallbacks_per_cell"] = static_cast<double>(counts.predicates.fallbacks) / cells;
+  state.counters["bytes_per_tetrahedron"] =
+      static_cast<double>(w.snapshot.bytes()) / static_cast<double>(w.snapshot.cell_count());
+}
+
+void cgal_locate(benchmark::State& state, bool warm, double reach) {
+  World& w = world(static_cast<std::size_t>(state.range(0)));
+  const Motions m = motions(w, warm, reach);
+  double moves = 0;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < m.targets.size(); ++i) {
+      const Point<3>& t = m.targets[i];
+      benchmark::DoNotOptimize(w.delaunay.locate({t[0], t[1], t[2]}, m.hints[i]));
+    }
+    moves += static_cast<double>(m.targets.size());
+  }
+  report(state, moves, 0);
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->Arg(10000)->Arg(100000)->Arg(1000000)->ArgName("tetrahedra");
+}
+
+constexpr auto certified = Walk_strategy::certified;
+constexpr auto rule = Walk_strategy::exit_rule;
+constexpr auto predictive = Walk_strategy::predictive_simplex;
+
+void stay(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, true, no_reach); }
+void stay_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, false, no_reach); }
+void stay_cgal_locate(benchmark::State& s) { cgal_locate(s, true, no_reach); }
+void stay_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, false, no_reach); }
+void cross_warm(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, true, long_reach); }
+void cross_warm_exit_rule(benchmark::State& s) { cellwalk_moves<Exact, rule>(s, true, long_reach); }
+void cross_warm_predictive(benchmark::State& s) { cellwalk_moves<Exact, predictive>(s, true, long_reach); }
+void cross_warm_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, true, long_reach); }
+void cross_warm_lazy(benchmark::State& s) { cellwalk_moves<Lazy, rule>(s, true, long_reach); }
+void cross_warm_cgal_locate(benchmark::State& s) { cgal_locate(s, true, long_reach); }
+void cross_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, false, long_reach); }
+void cross_cold_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, false, long_reach); }
+void cross_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, false, long_reach); }
+
+BENCHMARK(stay)->Apply(sizes);
+BENCHMARK(stay_cgal_locate)->Apply(sizes);
+BENCHMARK(stay_cold)->Apply(sizes);
+BENCHMARK(stay_cold_cgal_locate)->Apply(sizes);
+BENCHMARK(cross_warm)->Apply(sizes);
+BENCHMARK(cross_warm_cgal_locate)->Apply(sizes);
+BENCHMARK(cross_cold)->Apply(sizes);
+BENCHMARK(cross_cold_cgal_locate)->Apply(sizes);
+BENCHMARK(cross_warm_exit_rule)->Apply(sizes);
+BENCHMARK(cross_warm_predictive)->Apply(sizes);
+BENCHMARK(cross_warm_double)->Apply(sizes);
+BENCHMARK(cross_cold_double)->Apply(sizes);
+BENCHMARK(cross_warm_lazy)->Arg(10000)->ArgName("tetrahedra");
+
+}  // namespace

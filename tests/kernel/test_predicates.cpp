@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/predicates.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace cellwalk {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+TEST(Predicates, FindCollinearPoints) {
+  EXPECT_TRUE(are_collinear(Point<3>{0, 0, 0}, Point<3>{1, 2, 3}, Point<3>{-2, -4, -6}));
+  EXPECT_TRUE(are_collinear(Point<3>{1, 1, 1}, Point<3>{1, 1, 1}, Point<3>{7, 8, 9}));
+  EXPECT_FALSE(are_collinear(Point<3>{0, 0, 0}, Point<3>{1, 0, 0}, Point<3>{2, 0, 5e-324}));
+  EXPECT_FALSE(are_collinear(Point<3>{0, 0, 0}, Point<3>{1, 2, 3}, Point<3>{2, 4, std::nextafter(6.0, 7.0)}));
+  EXPECT_TRUE(are_collinear(Point<2>{0, 0}, Point<2>{3, 1}, Point<2>{9, 3}));
+  EXPECT_FALSE(are_collinear(Point<2>{0, 0}, Point<2>{3, 1}, Point<2>{9, std::nextafter(3.0, 4.0)}));
+}
+
+TEST(Predicates, FindPointsOnClosedSegments) {
+  const Point<3> u{0, 0, 0}, v{2, 4, 6};
+  EXPECT_TRUE(on_segment<3>(u, v, {1, 2, 3}));
+  EXPECT_TRUE(on_segment<3>(u, v, u));
+  EXPECT_TRUE(on_segment<3>(u, v, v));
+  EXPECT_FALSE(on_segment<3>(u, v, {3, 6, 9}));
+  EXPECT_FALSE(on_segment<3>(u, v, {1, 2, std::nextafter(3.0, 4.0)}));
+  EXPECT_TRUE(on_segment<2>({0, 0}, {0, 4}, {0, 1}));
+  EXPECT_FALSE(on_segment<2>({0, 0}, {0, 4}, {0, 5}));
+}
+
+TEST(Predicates, FindPointsInConvexPolygonsOfEveryPlane) {
+  // A square in each coordinate plane direction and a slanted one; the first corner angle is never straight.
+  const std::array<std::array<Point<3>, 4>, 4> squares{{{{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}}},
+                                                        {{{1, 0, 0}, {1, 2, 0}, {1, 2, 2}, {1, 0, 2}}},
+                                                        {{{0, 1, 0}, {2, 1, 0}, {2, 1, 2}, {0, 1, 2}}},
+                                                        {{{0, 0, 0}, {2, 0, 2}, {2, 2, 4}, {0, 2, 2}}}}};
+  for (const auto& square : squares) {
+    const Point<3> center = 0.5 * (square[0] + square[2]), outside = 2 * square[2] - square[0];
+    EXPECT_TRUE(in_convex_polygon(square, center));
+    EXPECT_TRUE(in_convex_polygon(square, square[3]));
+    EXPECT_TRUE(in_convex_polygon(square, 0.5 * (square[0] + square[1])));
+    EXPECT_FALSE(in_convex_polygon(square, outside));
+  }
+}
+
+TEST(CrossingTime, IsTheExactFractionWithinFourUlp) {
+  std::mt19937_64 random(11);
+  const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
+  int tested = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Point<3> u{unit(), unit(), 0}, v{unit(), unit(), unit()}, w{unit(), unit(), unit()};
+    const Point<3> a{unit(), unit(), unit()}, b{unit(), unit(), unit()};
+    const auto value = [&](const Point<3>& x) {
+      Rational m[3][3];
+      const Point<3>* rows[3] = {&v, &w, &x};
+      for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k) m[r][k] = Rational((*rows[r])[k]) - Rational(u[k]);
+      return Rational(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+    };
+    const Rational va = value(a), vb = value(b);
+    if (va.sign() * vb.sign() >= 0) continue;
+    ++tested;
+    const Rational exact = va / (va - vb);
+    const double t = crossing_time(u, v, w, a, b);
+    const Rational error = abs(Rational(t) - exact);
+    ASSERT_LE(error, exact * Rational(std::ldexp(1.0, -50))) << "case " << i;
+    ASSERT_GT(t, 0);
+    ASSERT_LT(t, 1);
+  }
+  EXPECT_GT(tested, 1000);
+}
+
+TEST(CrossingTime, IsZeroOrOneOnlyIfExactlySo) {
+  const Point<2> u{0, 0}, v{1, 0};
+  EXPECT_EQ(crossing_time(u, v, {0.5, 0}, {0.5, -1}), 0);
+  EXPECT_EQ(crossing_time(u, v, {0.5, 1}, {0.5, 0}), 1);
+  EXPECT_EQ(crossing_time(u, v, {0.5, 1}, {0.5, -1}), 0.5);
+  EXPECT_LT(crossing_time(u, v, {0.5, 1}, {0.5, -1e-300}), 1);
+  EXPECT_GT(crossing_time(u, v, {0.5, 5e-324}, {0.5, -1e300}), 0);
+}
+
+}  // namespace
+}  // namespace cellwalk
