@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-
 #include <cellwalk/environment/snapshot.h>
+
+#include <algorithm>
 
 #include "canonical_shape.h"
 #include "snapshot_compiler.h"
@@ -89,7 +89,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   for (std::size_t c = 0; c < soup.cell_count(); ++c) {
     canonicalize(soup, points_, c, cell);
     const std::size_t blocks = Snapshot_compiler<D>::blocks_for(cell.shape.facet_count());
-    has_single_blocks_ &= blocks == 1;
+    if (blocks != uniform_blocks_) uniform_blocks_ = 0;
     const auto block = static_cast<std::uint32_t>(planes_.size());
     const auto vertex = static_cast<std::uint32_t>(vertices_.size());
     planes_.resize(block + blocks);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Compilation of a whole soup: order, sizes, cells, links, planes, convex pairs.
-#include <algorithm>
-#include <atomic>
+#include <cellwalk/kernel/error.h>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
-#include <utility>
 
-#include <cellwalk/kernel/error.h>
+#include <algorithm>
+#include <atomic>
+#include <utility>
 
 #include "plane_compiler.h"
 #include "snapshot_compiler.h"
@@ -76,9 +77,11 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
     first_block[c] = static_cast<std::uint32_t>(blocks);
     first_vertex[c] = static_cast<std::uint32_t>(vertices);
     const std::size_t facets = soup.cell_begin[c + 1] - soup.cell_begin[c];
-    blocks += Snapshot_compiler<D>::blocks_for(facets);
+    const std::size_t own_blocks = Snapshot_compiler<D>::blocks_for(facets);
+    if (c == order.front()) s.uniform_blocks_ = own_blocks;
+    if (own_blocks != s.uniform_blocks_) s.uniform_blocks_ = 0;
+    blocks += own_blocks;
     vertices += vertex_count[c];
-    s.has_single_blocks_ &= facets <= 4;
   }
   if (blocks >= link_mask) throw Error(Error_code::input, "more than 10^9 cells: split the environment");
   s.planes_.resize(blocks);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "snapshot_compiler.h"
 
-#include <algorithm>
-
 #include <cellwalk/kernel/policies.h>
+
+#include <algorithm>
 
 #include "plane_compiler.h"
 
@@ -123,8 +123,11 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
         if (s_.neighbor(s_.half_facet(a, ga)) == b &&
             s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
           continue;
-        for (const std::uint16_t w : vb.loop(gb))
-          if (side(va, ga, vb.point(w)) > 0) return false;
+        for (const std::uint16_t w : vb.loop(gb)) {
+          // The ridge itself lies in both facets: exact zeros that need not be computed.
+          const std::uint32_t point = vb.point_index(w);
+          if (point != u && (D == 2 || point != v) && side(va, ga, vb.point(w)) > 0) return false;
+        }
       }
     }
     return true;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
+#include <cellwalk/walk/detail/signs.h>
+#include <cellwalk/walk/locate.h>
+
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-
-#include <cellwalk/walk/detail/signs.h>
-#include <cellwalk/walk/locate.h>
 
 namespace cellwalk {
 namespace {

@@ -18,11 +18,11 @@ Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
   return *this;
 }
 
-#define CELLWALK_INSTANTIATE(KERNEL, D)                                                                    \
-  template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,         \
-                                          Walk_counts&, const Walk_options&);                              \
-  template Walk_result<D> move<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, Walk_counts&, \
-                                          const Walk_options&);
+#define CELLWALK_INSTANTIATE(KERNEL, D)                                                                      \
+  template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,           \
+                                          Walk_counts&, const Walk_options&);                                \
+  template Walk_result<D> detail::move_by_walk<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, \
+                                                          Walk_counts&, const Walk_options&);
 
 CELLWALK_INSTANTIATE(Exact, 2)
 CELLWALK_INSTANTIATE(Exact, 3)

@@ -16,7 +16,12 @@
 #define CELLWALK_ENVIRONMENT_PLANES_H
 
 #include <array>
+#include <bit>
 #include <cmath>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 #include <cellwalk/kernel/point.h>
 
@@ -59,6 +64,15 @@ struct Plane_frame {
     return inside;
   }
 };
+
+/// One bit a lane that is true.
+inline unsigned lane_mask(Int4 lanes) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(lanes)));
+#else
+  return (lanes[0] & 1u) | (lanes[1] & 2u) | (lanes[2] & 4u) | (lanes[3] & 8u);
+#endif
+}
 
 /// Signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
 template <int D>

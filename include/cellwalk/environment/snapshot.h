@@ -7,15 +7,15 @@
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_H
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/planes.h>
 #include <cellwalk/records/cell_soup.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace cellwalk {
 
@@ -94,8 +94,17 @@ class Snapshot {
   /// Neighbours of the facets of a cell with the wall and convex-pair bits, four a block.
   const std::uint32_t* links(Cell c) const { return links_.data() + 4 * std::size_t{to_index(c)}; }
   /// Blocks of a cell: ceil(facets/4).
-  std::size_t block_count(Cell c) const { return has_single_blocks_ ? 1 : (facet_count(c) + 3) / 4; }
-  bool has_single_blocks() const { return has_single_blocks_; }
+  std::size_t block_count(Cell c) const {
+    return uniform_blocks_ ? uniform_blocks_ : (facet_count(c) + 3) / 4;
+  }
+  /// Asks for the planes of the neighbours across the first four facets: the walk needs one of them next.
+  void prefetch_neighbors(Cell c) const {
+    const std::uint32_t* neighbors = links(c);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t link = neighbors[i] & link_mask;
+      __builtin_prefetch(planes_.data() + (link == link_mask ? to_index(c) : link));
+    }
+  }
   /// Facets whose plane could not be certified (they are always decided exactly).
   std::size_t uncertified_planes() const { return uncertified_planes_; }
 
@@ -141,7 +150,7 @@ class Snapshot {
   std::vector<Point<D>> points_;
   Plane_frame<D> frame_;
   std::size_t uncertified_planes_ = 0;
-  bool has_single_blocks_ = true;
+  std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
 
   template <int>
   friend class Snapshot_compiler;

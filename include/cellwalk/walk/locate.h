@@ -3,11 +3,11 @@
 #ifndef CELLWALK_WALK_LOCATE_H
 #define CELLWALK_WALK_LOCATE_H
 
-#include <memory>
-#include <vector>
-
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/walk/particle.h>
+
+#include <memory>
+#include <vector>
 
 namespace cellwalk {
 

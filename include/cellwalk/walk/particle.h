@@ -3,9 +3,9 @@
 #ifndef CELLWALK_WALK_PARTICLE_H
 #define CELLWALK_WALK_PARTICLE_H
 
-#include <cstdint>
-
 #include <cellwalk/environment/snapshot.h>
+
+#include <cstdint>
 
 namespace cellwalk {
 

@@ -3,12 +3,12 @@
 #ifndef CELLWALK_WALK_WALK_H
 #define CELLWALK_WALK_WALK_H
 
-#include <cstdint>
-#include <vector>
-
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/particle.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace cellwalk {
 
@@ -83,11 +83,42 @@ template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
 
-/// Moves a particle: to the target if the walk arrives; otherwise leaves it where it was and returns the
-/// contact.
+namespace detail {
+
+/// True if x is certainly strictly inside a cell of at most four facets.
+template <int D>
+inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point<D>& x, Walk_counts& counts) {
+  Float_point<D> y;
+  if (snapshot.block_count(cell) != 1 || !snapshot.frame().map(x, y)) return false;
+  ++counts.plane_blocks;
+  return lane_mask(evaluate(*snapshot.blocks(cell), y) < -plane_error) == 0xf;
+}
+
+template <class Kernel, int D>
+Walk_result<D> move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
+                            Walk_counts& counts, const Walk_options& options);
+
+}  // namespace detail
+
+/// Moves a particle: to the target if the walk arrives; otherwise leaves it where it was and returns the contact.
 template <class Kernel = Exact, int D>
-Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
-                    Walk_counts& counts, const Walk_options& options = {});
+inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
+                           Walk_counts& counts, const Walk_options& options = {}) {
+  if constexpr (Kernel::uses_certificates) {
+    if (options.strategy == Walk_strategy::certified && !options.visited &&
+        detail::certainly_inside(snapshot, particle.cell, target, counts)) {
+      ++counts.walks;
+      ++counts.stays;
+      particle.position = target;
+      particle.dimension = D;
+      Walk_result<D> result;
+      result.cell = particle.cell;
+      result.aimed = particle.aimed;
+      return result;
+    }
+  }
+  return detail::move_by_walk<Kernel>(snapshot, particle, target, counts, options);
+}
 
 }  // namespace cellwalk
 

@@ -5,12 +5,12 @@
 #ifndef CELLWALK_WALK_WALK_IMPL_H
 #define CELLWALK_WALK_WALK_IMPL_H
 
-#include <boost/container/small_vector.hpp>
-
 #include <cellwalk/walk/detail/certified_exit.h>
 #include <cellwalk/walk/detail/signs.h>
 #include <cellwalk/walk/detail/star.h>
 #include <cellwalk/walk/walk.h>
+
+#include <boost/container/small_vector.hpp>
 
 namespace cellwalk {
 namespace detail {
@@ -25,7 +25,7 @@ class Walker {
     result_.aimed = from.aimed;
     starts_inside_ = from.dimension == D;
     if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
-      planes_a_ = planes_b_ = snapshot.frame().map(b_, y_b_);
+      planes_b_ = snapshot.frame().map(b_, y_b_);
   }
 
   Walk_result<D> run() {
@@ -34,11 +34,14 @@ class Walker {
     // Exact walks end because every accepted cell holds a further piece of the segment; rounded ones need a
     // limit.
     const std::size_t limit = Kernel::is_exact ? ~std::size_t{0} : 4 * snapshot_.cell_count() + 64;
-    while (step())
+    for (;;) {
+      if (planes_b_ && run_certified()) break;
+      if (!step()) break;
       if (result_.cells > limit) {
         result_.status = Walk_status::lost;
         break;
       }
+    }
     if (result_.cells == 1 && result_.status == Walk_status::arrived) ++counts_.stays;
     result_.cell = cell_;
     return result_;
@@ -56,12 +59,8 @@ class Walker {
       case Exit::none:
         result_.status = Walk_status::lost;
         return false;
-      case Exit::facet: {
-        result_.aimed = exit.number;
-        const Half_facet f = Snapshot<D>::half_facet(cell_, exit.number);
-        if (snapshot_.is_impassable(f)) return block(cell, exit, f);
-        return enter(snapshot_.neighbor(f));
-      }
+      case Exit::facet:
+        return pass(exit.number);
       default: {
         result_.aimed = exit.number;
         const Star_result star = search_star<Kernel>(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
@@ -105,7 +104,7 @@ class Walker {
   }
 
   Exit find_exit(const Cell_view<D>& cell) {
-    if (planes_b_) return certified_exit(cell);
+    if (planes_b_) return exit_after_doubt(cell);
     if (options_.strategy == Walk_strategy::predictive_simplex && starts_inside_ && a_ != b_)
       return predictive_exit(cell);
     return exit_by_rule(cell);
@@ -140,81 +139,67 @@ class Walker {
     return {};
   }
 
-  /// The exit from planes where they decide; exact signs for the facets they leave in doubt.
-  Exit certified_exit(const Cell_view<D>& cell) {
-    const std::size_t facets = cell.facet_count();
-    const std::size_t blocks = (facets + 3) / 4;
-    const Plane_block<D>* planes = snapshot_.blocks(cell_);
-    counts_.plane_blocks += blocks;
-    if (blocks == 1) {
-      // The common cases of small cells: everything certain, at most one facet to leave through.
-      const Block_sides s = classify(planes[0], y_b_);
-      if (s.inside == 0xf) return arrive_inside();
-      if ((s.inside | s.outside) == 0xf && std::has_single_bit(s.outside) && starts_inside_)
-        return {Exit::facet, static_cast<std::uint16_t>(std::countr_zero(s.outside)), 0, 0};
-    }
-    boost::container::small_vector<std::int8_t, 32> sides(4 * blocks);
-    boost::container::small_vector<float, 32> values_b(4 * blocks);
-    bool outside = false, on_plane = false;
-    for (std::size_t k = 0; k < blocks; ++k) {
-      const Block_sides s = classify(planes[k], y_b_);
-      for (std::size_t lane = 0; lane < 4; ++lane) {
-        const std::size_t i = 4 * k + lane;
-        values_b[i] = s.value[lane];
-        if (s.inside >> lane & 1) {
-          sides[i] = -1;
-        } else if (s.outside >> lane & 1) {
-          sides[i] = 1;
-        } else {
-          ++counts_.uncertain_lanes;
-          sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
-          values_b[i] = 0;  // the plane itself is in doubt: leave comparisons to exact signs
-        }
-        outside |= sides[i] > 0;
-        on_plane |= sides[i] == 0;
+  /// Follows the walk as far as the planes decide it; true if it ended, false if the cell needs exact signs.
+  bool run_certified() {
+    if (!map_start()) return false;
+    for (;;) {
+      const std::size_t blocks = snapshot_.block_count(cell_);
+      const Plane_block<D>* planes = snapshot_.blocks(cell_);
+      snapshot_.prefetch_neighbors(cell_);
+      Certified_exit exit;
+      if (blocks == 1)
+        exit = certified_exit(planes, 1, y_a_, y_b_, starts_inside_);
+      else if (blocks == 2)
+        exit = certified_exit(planes, 2, y_a_, y_b_, starts_inside_);
+      else if (blocks <= certified_blocks)
+        exit = certified_exit(planes, blocks, y_a_, y_b_, starts_inside_);
+      else
+        return false;
+      counts_.plane_blocks += 2 * blocks;
+      if (exit.verdict == Certified_exit::unknown) return false;
+      if (exit.verdict == Certified_exit::inside) {
+        arrive_inside();
+        return true;
       }
+      if (!pass(static_cast<std::uint16_t>(exit.facet))) return true;
     }
-    if (!outside) {
-      if (!on_plane) return arrive_inside();
-      return exit_by_sides(cell, sides, false);
-    }
-    const Exit exit = earliest_exit(facets, planes, sides, values_b);
-    return exit.kind == Exit::facet ? exit : exit_by_sides(cell, sides, true);
   }
 
-  /// The facet certainly met first, strictly inside it; Exit::none if the planes do not decide.
-  template <class Sides, class Values>
-  Exit earliest_exit(std::size_t facets, const Plane_block<D>* planes, const Sides& sides,
-                     const Values& values_b) {
+  /// Passes the interior of a facet, or ends the walk there: then false.
+  bool pass(std::uint16_t facet) {
+    const Half_facet f = Snapshot<D>::half_facet(cell_, facet);
+    result_.aimed = facet;
+    if (snapshot_.is_impassable(f)) return block(snapshot_.view(cell_), {Exit::facet, facet, 0, 0}, f);
+    return enter(snapshot_.neighbor(f));
+  }
+
+  /// Maps the start into the frame, once.
+  bool map_start() {
     if (!mapped_a_) {
       mapped_a_ = true;
       planes_a_ = snapshot_.frame().map(a_, y_a_);
     }
-    if (!planes_a_) return {};
-    counts_.plane_blocks += (facets + 3) / 4;
-    boost::container::small_vector<float, 32> values_a(4 * ((facets + 3) / 4));
-    for (std::size_t k = 0; 4 * k < facets; ++k) {
-      const Float4 value = evaluate(planes[k], y_a_);
-      for (std::size_t lane = 0; lane < 4; ++lane) values_a[4 * k + lane] = value[lane];
-    }
-    // The candidate; then every other facet must certainly be met later, or not at all.
-    std::size_t best = facets;
+    return planes_a_;
+  }
+
+  /// Exact signs where the planes leave doubt, and for the ridges.
+  Exit exit_after_doubt(const Cell_view<D>& cell) {
+    const std::size_t facets = cell.facet_count();
+    boost::container::small_vector<std::int8_t, 32> sides(4 * ((facets + 3) / 4));
+    bool outside = false;
     for (std::size_t i = 0; i < facets; ++i) {
-      if (sides[i] < 0) continue;
-      if (values_b[i] == 0) {
-        // In doubt at b. If b is on the plane it must be known that a is strictly inside.
-        if (sides[i] > 0 || !(values_a[i] < -plane_error)) return {};
-        continue;
+      if (i % 4 == 0) {
+        const Block_sides s = classify(snapshot_.blocks(cell_)[i / 4], y_b_);
+        for (std::size_t lane = 0; lane < 4; ++lane)
+          sides[i + lane] = static_cast<std::int8_t>(int(s.outside >> lane & 1) - int(s.inside >> lane & 1));
       }
-      if (best == facets || values_a[i] * double{values_b[best]} > values_a[best] * double{values_b[i]})
-        best = i;
+      if (sides[i] == 0) {
+        ++counts_.uncertain_lanes;
+        sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
+      }
+      outside |= sides[i] > 0;
     }
-    if (best == facets) return {};
-    if (!starts_inside_ && !(values_a[best] < -plane_error)) return {};
-    for (std::size_t i = 0; i < facets; ++i)
-      if (sides[i] > 0 && i != best && !meets_first(values_a[best], values_b[best], values_a[i], values_b[i]))
-        return {};
-    return {Exit::facet, static_cast<std::uint16_t>(best), 0, 0};
+    return exit_by_sides(cell, sides, outside);
   }
 
   Exit arrive_inside() {
@@ -299,8 +284,9 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 }
 
 template <class Kernel, int D>
-Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
-                    Walk_counts& counts, const Walk_options& options) {
+Walk_result<D> detail::move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle,
+                                    const Point<D>& target, Walk_counts& counts,
+                                    const Walk_options& options) {
   const Walk_result<D> result = walk<Kernel>(snapshot, particle, target, counts, options);
   if (result.status != Walk_status::arrived) return result;
   particle.position = target;

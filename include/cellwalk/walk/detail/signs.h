@@ -3,15 +3,16 @@
 #ifndef CELLWALK_WALK_DETAIL_SIGNS_H
 #define CELLWALK_WALK_DETAIL_SIGNS_H
 
+#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/walk.h>
+
 #include <boost/container/small_vector.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <cellwalk/environment/cell_shape.h>
-#include <cellwalk/kernel/predicates.h>
-#include <cellwalk/walk/walk.h>
 
 namespace cellwalk::detail {
 

@@ -3,11 +3,12 @@
 #ifndef CELLWALK_WALK_DETAIL_STAR_H
 #define CELLWALK_WALK_DETAIL_STAR_H
 
-#include <algorithm>
-#include <boost/container/small_vector.hpp>
-
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/walk/detail/signs.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
 
 namespace cellwalk::detail {
 
