@@ -77,9 +77,10 @@ inline unsigned lane_mask(Int4 lanes) {
 /// Signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
 template <int D>
 inline Float4 evaluate(const Plane_block<D>& block, const Float_point<D>& y) {
-  Float4 r = block.normal[0] * y[0];
-  for (int i = 1; i < D; ++i) r = r + block.normal[i] * y[i];
-  return r + block.offset;
+  // Two short chains instead of a long one.
+  const Float4 r = block.normal[D - 1] * y[D - 1] + block.offset;
+  if constexpr (D == 3) return (block.normal[0] * y[0] + block.normal[1] * y[1]) + r;
+  return block.normal[0] * y[0] + r;
 }
 
 }  // namespace cellwalk

@@ -142,27 +142,44 @@ class Walker {
   /// Follows the walk as far as the planes decide it; true if it ended, false if the cell needs exact signs.
   bool run_certified() {
     if (!map_start()) return false;
+    // The state of the walk in registers.
+    Cell cell = cell_;
+    bool starts_inside = starts_inside_;
+    std::uint32_t crossed = 0;
+    std::uint64_t evaluated = 0;
+    Certified_exit exit{Certified_exit::unknown, 0};
+    bool ended = false;
     for (;;) {
-      const std::size_t blocks = snapshot_.block_count(cell_);
-      const Plane_block<D>* planes = snapshot_.blocks(cell_);
-      snapshot_.prefetch_neighbors(cell_);
-      Certified_exit exit;
-      if (blocks == 1)
-        exit = certified_exit(planes, 1, y_a_, y_b_, starts_inside_);
-      else if (blocks == 2)
-        exit = certified_exit(planes, 2, y_a_, y_b_, starts_inside_);
-      else if (blocks <= certified_blocks)
-        exit = certified_exit(planes, blocks, y_a_, y_b_, starts_inside_);
-      else
-        return false;
-      counts_.plane_blocks += 2 * blocks;
-      if (exit.verdict == Certified_exit::unknown) return false;
-      if (exit.verdict == Certified_exit::inside) {
-        arrive_inside();
-        return true;
-      }
-      if (!pass(static_cast<std::uint16_t>(exit.facet))) return true;
+      const std::size_t blocks = snapshot_.block_count(cell);
+      if (blocks > certified_blocks) break;
+      snapshot_.prefetch_neighbors(cell);
+      const Plane_block<D>* planes = snapshot_.blocks(cell);
+      exit = blocks == 1   ? certified_exit(planes, 1, y_a_, y_b_, starts_inside)
+             : blocks == 2 ? certified_exit(planes, 2, y_a_, y_b_, starts_inside)
+                           : certified_exit(planes, blocks, y_a_, y_b_, starts_inside);
+      evaluated += 2 * blocks;
+      ended = exit.verdict != Certified_exit::unknown;
+      if (exit.verdict != Certified_exit::leaves) break;
+      const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
+      if (snapshot_.is_impassable(f)) break;
+      cell = snapshot_.neighbor(f);
+      starts_inside = true;
+      ended = false;
+      ++crossed;
+      if (options_.visited) options_.visited->push_back(cell);
     }
+    counts_.plane_blocks += evaluated;
+    counts_.crossings += crossed;
+    result_.cells += crossed;
+    if (crossed) result_.aimed = 0;
+    cell_ = cell;
+    starts_inside_ = starts_inside;
+    if (!ended) return false;
+    if (exit.verdict == Certified_exit::inside)
+      arrive_inside();
+    else
+      pass(static_cast<std::uint16_t>(exit.facet));
+    return true;
   }
 
   /// Passes the interior of a facet, or ends the walk there: then false.

@@ -44,73 +44,87 @@ struct Certified_exit {
 
 inline Float4 broadcast(float x) { return Float4{x, x, x, x}; }
 
-/// The smallest of four lanes.
-inline float smallest(Float4 v) {
+inline Float4 lane_min(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return std::bit_cast<Float4>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#else
+  return a < b ? a : b;
+#endif
+}
+
+/// The smallest of four lanes, in all lanes.
+inline Float4 smallest(Float4 v) {
 #if defined(__SSE2__)
   __m128 m = std::bit_cast<__m128>(v);
   m = _mm_min_ps(m, _mm_shuffle_ps(m, m, _MM_SHUFFLE(2, 3, 0, 1)));
   m = _mm_min_ps(m, _mm_shuffle_ps(m, m, _MM_SHUFFLE(1, 0, 3, 2)));
-  return _mm_cvtss_f32(m);
+  return std::bit_cast<Float4>(m);
 #else
-  return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
+  return broadcast(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])));
 #endif
 }
 
-/// Lanes of the facets that a line, meeting its candidate with values best_a and best_b, certainly meets later.
-///
-/// With A <= 0 < B exact and the same positive factor at both ends of a facet, t_F < t_G is A_G B_F - A_F B_G < 0. The
-/// computed values are off by at most e = plane_error, so the difference by e (|A_F| + B_G + |A_G| + B_F) + 2 e e,
-/// plus three float roundings of the two products; the roundings of the bound itself are in the factor 1 + 2^-10.
-inline unsigned certainly_later(Float4 a, Float4 b, float best_a, float best_b) {
-  constexpr float e = plane_error * (1 + 0x1p-10f), rounding = 4 * 0x1p-24f;
-  const Float4 zero{};
-  const Float4 left = a * best_b, right = b * best_a;
-  const Float4 size_a = a < zero ? -a : a, size_left = left < zero ? -left : left;
-  const Float4 size_right = right < zero ? -right : right;
-  const Float4 error =
-      e * (size_a + b + (std::abs(best_a) + best_b + 2 * e)) + rounding * (size_left + size_right);
-  return lane_mask(left - right < -error);
+/// 1/x to about 12 bits: good enough to choose a candidate, never to prove anything.
+inline Float4 rough_inverse(Float4 x) {
+#if defined(__SSE2__)
+  return std::bit_cast<Float4>(_mm_rcp_ps(std::bit_cast<__m128>(x)));
+#else
+  return broadcast(1.0f) / x;
+#endif
 }
 
 /// The exit of a cell of `blocks` blocks towards b, from the start a of the line. `starts_inside`: the line holds a
-/// point of the cell strictly before any exit. Branches as little as it can: exits are hard to predict.
+/// point of the cell strictly before any exit.
+///
+/// A candidate is chosen by rough times with the facet number in their last bits; the next cell can be fetched from it
+/// while the proof is still under way. Nothing branches but the verdict: exits are hard to predict.
+///
+/// Proof. Let a, b be computed and A <= 0 < B exact values of a facet with b outside, e = plane_error, t = a/(a-b) and
+/// T = A/(A-B) the time sought. With A = a+x, B = b+y, |x|, |y| <= e: t - T = (xB - Ay)/((a-b)(A-B)), and |A| + B = B-A,
+/// so |t - T| <= e/|a-b|. The computed t is off by three float roundings of a value below 2, the computed bound by as
+/// many of itself: time_slack covers the first, the room in plane_error the second. If the upper end of the
+/// candidate's interval lies below the lower ends of all others, the line meets the candidate strictly first.
 template <int D>
 inline Certified_exit certified_exit(const Plane_block<D>* planes, std::size_t blocks,
                                      const Float_point<D>& y_a, const Float_point<D>& y_b,
                                      bool starts_inside) {
   constexpr float never = 4;  // later than any time
-  Float4 values_a[certified_blocks], values_b[certified_blocks];
-  Int4 outside[certified_blocks];
+  constexpr float time_slack = 0x1p-20f;
+  constexpr int number_bits = 31;  // last bits of a rough time: 4 certified_blocks - 1
+  Float4 lower[certified_blocks];
+  unsigned outside[certified_blocks];
   unsigned doubt = 0, leaves = 0;
-  Float4 earliest = broadcast(never);
+  Float4 candidate = broadcast(never), first_upper = broadcast(never);
   for (std::size_t k = 0; k < blocks; ++k) {
     const Float4 b = evaluate(planes[k], y_b), a = evaluate(planes[k], y_a);
-    values_a[k] = a;
-    values_b[k] = b;
-    outside[k] = b > broadcast(plane_error);
-    const unsigned mask = lane_mask(outside[k]);
-    doubt |= (lane_mask(b < broadcast(-plane_error)) | mask) ^ 0xf;
-    leaves |= mask;
-    const Float4 time = outside[k] ? a / (a - b) : broadcast(never);
-    earliest = time < earliest ? time : earliest;
+    const Int4 is_outside = b > broadcast(plane_error);
+    const Float4 gap = b - a;
+    const int base = static_cast<int>(4 * k);
+    const Int4 numbers{base, base + 1, base + 2, base + 3};
+    const Int4 keyed = (std::bit_cast<Int4>(-a * rough_inverse(gap)) & ~number_bits) | numbers;
+    candidate = lane_min(candidate, is_outside ? std::bit_cast<Float4>(keyed) : broadcast(never));
+
+    const Float4 inverse = broadcast(1.0f) / gap;
+    const Float4 time = -a * inverse, width = plane_error * inverse + broadcast(time_slack);
+    lower[k] = time - width;
+    first_upper = lane_min(first_upper, is_outside ? time + width : broadcast(never));
+
+    outside[k] = lane_mask(is_outside);
+    leaves |= outside[k];
+    doubt |= (lane_mask(b < broadcast(-plane_error)) | outside[k]) ^ 0xf;
   }
   if (doubt) return {Certified_exit::unknown, 0};
   if (!leaves) return {Certified_exit::inside, 0};
-  const float first = smallest(earliest);
-  std::size_t best = 4 * blocks;
-  for (std::size_t k = blocks; k-- > 0;) {
-    const Float4 time = values_a[k] / (values_a[k] - values_b[k]);
-    const unsigned mask = lane_mask(outside[k] & (time == broadcast(first)));
-    if (mask) best = 4 * k + static_cast<std::size_t>(std::countr_zero(mask));
-  }
-  if (best == 4 * blocks) return {Certified_exit::unknown, 0};
-  const float best_a = values_a[best / 4][best % 4], best_b = values_b[best / 4][best % 4];
-  unsigned sooner = !starts_inside && !(best_a < -plane_error);
+  const auto best = std::bit_cast<std::uint32_t>(smallest(candidate)[0]) & number_bits;
+  const Float4 bound = smallest(first_upper);
+  unsigned unproved = 0;
   for (std::size_t k = 0; k < blocks; ++k) {
     const unsigned own = k == best / 4 ? 1u << best % 4 : 0;
-    sooner |= lane_mask(outside[k]) & ~(certainly_later(values_a[k], values_b[k], best_a, best_b) | own);
+    unproved |= (lane_mask(lower[k] <= bound) & outside[k]) ^ own;
   }
-  return {sooner ? Certified_exit::unknown : Certified_exit::leaves, static_cast<std::uint32_t>(best)};
+  if (!starts_inside)
+    unproved |= best >= 4 * blocks || !(evaluate(planes[best / 4], y_a)[best % 4] < -plane_error);
+  return {unproved ? Certified_exit::unknown : Certified_exit::leaves, best};
 }
 
 }  // namespace cellwalk::detail
