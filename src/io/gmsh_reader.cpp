@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <mutex>
 #include <numeric>
+#include <unordered_map>
 
 #include "element_soup.h"
 #include "gmsh_text.h"
@@ -92,21 +92,23 @@ std::vector<Element> elements(const std::string& name, Kinds& kinds) {
   return found;
 }
 
+using Node_index = std::unordered_map<std::size_t, std::uint32_t>;
+
 /// Points in the order of their tags, and the index of each tag.
-std::map<std::size_t, std::uint32_t> points(const std::string& name, std::vector<Point<3>>& out) {
+Node_index points(const std::string& name, std::vector<Point<3>>& out) {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(tags, coordinates, parameters);
   std::vector<std::size_t> order(tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  std::map<std::size_t, std::uint32_t> index;
+  Node_index index;
+  index.reserve(tags.size());
   for (std::size_t i : order) {
     const Point<3> p{coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
     if (!is_finite(p)) fail(name, fmt::format("node {} has a coordinate that is not finite", tags[i]));
-    if (!index.empty() && index.rbegin()->first == tags[i]) continue;  // a node of several entities
-    index.emplace_hint(index.end(), tags[i], static_cast<std::uint32_t>(out.size()));
-    out.push_back(p);
+    const bool is_new = index.emplace(tags[i], static_cast<std::uint32_t>(out.size())).second;
+    if (is_new) out.push_back(p);  // else a node of several entities
   }
   return index;
 }
@@ -191,9 +193,7 @@ struct Input {
 Input prepare(const std::string& name, std::string_view bytes, Format format, Read_report& report) {
   if (format == Format::medit) {
     report.format = "MEDIT";
-    if (bytes.find("MeshVersionFormatted") == std::string_view::npos)
-      fail(name, 1, "not an ASCII MEDIT file: it does not begin with 'MeshVersionFormatted'");
-    return {"mesh.mesh", {}, {}};
+    return {"mesh.mesh", {}, check_medit(name, bytes)};
   }
   if (format == Format::unv) {
     report.format = "UNV";

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
 #include <unordered_set>
@@ -65,6 +67,34 @@ Msh_counts announced_counts(std::string_view bytes, const Msh_header& header) {
   const int position = old ? 0 : 1;  // version 4: blocks, then members
   return {integer_at(bytes, line_after(bytes, header.version == "1" ? "$NO" : "$Nodes"), position),
           integer_at(bytes, line_after(bytes, element_keyword(header)), position)};
+}
+
+Msh_counts check_medit(const std::string& name, std::string_view text) {
+  constexpr std::array<std::string_view, 8> read{"Edges",     "Triangles",   "Quadrilaterals", "Tetrahedra",
+                                                 "Hexahedra", "TrianglesP2", "TetrahedraP2",   "EdgesP2"};
+  constexpr std::array<std::string_view, 6> lost{"Prisms",   "Pentahedra", "Pyramids",
+                                                 "PrismsP2", "PyramidsP2", "HexahedraQ2"};
+  Line_reader in(name, text);
+  in.need_line("'MeshVersionFormatted'");
+  if (in.word() != "MeshVersionFormatted")
+    in.fail("not an ASCII MEDIT file: it does not begin with 'MeshVersionFormatted'");
+  Msh_counts counts{std::nullopt, 0};
+  while (in.next_line()) {
+    const std::string keyword(in.word());
+    const bool is_read = std::find(read.begin(), read.end(), keyword) != read.end();
+    const bool is_lost = std::find(lost.begin(), lost.end(), keyword) != lost.end();
+    if (!is_read && !is_lost && keyword != "Vertices") continue;
+    const std::size_t line = in.line();
+    if (in.at_line_end()) in.need_line("the number of " + lower(keyword));
+    const std::uint64_t count = in.count("the number of " + lower(keyword));
+    if (is_lost && count > 0)
+      fail(
+          name, line,
+          fmt::format("'{}' are not read from MEDIT files by Gmsh: write the mesh as .msh or .vtu", keyword));
+    if (is_read) *counts.elements += count;
+    if (keyword == "Vertices") counts.nodes = count;
+  }
+  return counts;
 }
 
 std::optional<std::string> renumbered_elements(std::string_view text, const Msh_header& header) {

@@ -24,6 +24,10 @@ struct Msh_counts {
 };
 Msh_counts announced_counts(std::string_view bytes, const Msh_header& header);
 
+/// Gmsh passes over what it does not know in a MEDIT file.
+/// \throw Error(input) with file and line where that would lose cells, or this is no ASCII MEDIT file
+Msh_counts check_medit(const std::string& name, std::string_view text);
+
 /// Gmsh keeps only one of several elements that have the same number. If numbers repeat in a text of version 1 or 2,
 /// returns the text with all elements numbered in order; else nothing.
 std::optional<std::string> renumbered_elements(std::string_view text, const Msh_header& header);

@@ -73,8 +73,9 @@ std::string essence(const std::string& complaint) {
   static const std::regex head(R"(^(ERROR|Warning|Generic Warning): In [^\n]*\n(\w+ \(0x[0-9a-f]+\): )?)");
   std::string text = std::regex_replace(complaint, head, "", std::regex_constants::format_first_only);
   text = text.substr(0, text.find('\n'));
-  static const std::regex address(R"(\s*\(0x[0-9a-f]+\))");
-  return std::regex_replace(text, address, "");
+  if (text.starts_with("Could not read file")) return "its line DATASET is missing, or names an unknown kind";
+  static const std::regex noise(R"(\s*\(0x[0-9a-f]+\)| for file:? *$)");  // it was read from memory
+  return std::regex_replace(text, noise, "");
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& format, const std::string& complaint) {
