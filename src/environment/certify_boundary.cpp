@@ -50,13 +50,13 @@ Loop loop_of(const Cell_view<D>& cell, std::size_t facet) {
   return loop;
 }
 
-/// Decides whether a cell has interior points right inside a boundary facet.
+/// Decides whether the interior of a cell lies right on the inner side of a boundary facet.
 template <int D>
 class Overlap_test {
  public:
   explicit Overlap_test(std::span<const Point<D>> points) : points_(points) {}
 
-  /// True if some point of the facet's relative interior, moved inwards by next to nothing, lies inside the cell.
+  /// True if an open part of the facet, moved inwards by next to nothing, lies inside the cell.
   bool operator()(const Boundary_facet<D>& facet, const Cell_view<D>& cell) {
     bool has_outer = false, has_inner = false;
     for (const std::uint32_t v : cell.vertices) {

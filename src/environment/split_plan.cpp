@@ -108,15 +108,31 @@ void Split_plan::repair() {
   // A cell mended may let a neighbour be mended that could not be before: until nothing changes.
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::uint32_t slot = 0; slot < stars_.size(); ++slot)
-      if (!stars_[slot].found) changed |= repair(slot);
+    for (std::uint32_t slot = 0; slot < stars_.size(); ++slot) {
+      if (stars_[slot].found) continue;
+      const bool mended = repair(slot);
+      if (!mended && !has_open_neighbor(slot)) refuse(split_cells_[slot]);
+      changed |= mended;
+    }
   }
   for (std::uint32_t slot = 0; slot < stars_.size(); ++slot)
     if (!stars_[slot].found) refuse(split_cells_[slot]);
 }
 
+bool Split_plan::has_open_neighbor(std::uint32_t slot) const {
+  const std::uint32_t cell = split_cells_[slot];
+  for (std::uint32_t f = soup_.cell_begin[cell]; f < soup_.cell_begin[cell + 1]; ++f) {
+    if (!is_cut(f)) continue;
+    for (const std::uint32_t c : cuts_[cut_of_facet_[f]].cells) {
+      const std::uint32_t other = slot_of_cell_[c];
+      if (other != none && other != slot && !stars_[other].found) return true;
+    }
+  }
+  return false;
+}
+
 bool Split_plan::repair(std::uint32_t slot) {
-  // Cells in a row of attempts that is longer are refused: a hexahedron has 63 other ways to cut its facets.
+  // More attempts than this are not made: a hexahedron has 63 other ways to cut its facets.
   constexpr std::size_t most_attempts = 512;
   struct Alternative {
     std::uint32_t cut;

@@ -28,7 +28,7 @@ struct Facet_cut {
 class Split_plan {
  public:
   /// Cuts facets in the preferred way, looks for stars, and tries other cuts where there is none.
-  /// \throw Error(not_certified) naming the lowest cell that cannot be split, and why
+  /// \throw Error(not_certified) naming a cell that cannot be split, and why
   Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks);
 
   bool is_split(std::size_t cell) const { return slot_of_cell_[cell] != none; }
@@ -48,7 +48,10 @@ class Split_plan {
   void cut_facets_of_split_cells();
   void find_stars();
   void repair();
+  /// Looks for other cuts of the facets of one cell that give it a star and leave its neighbours theirs.
   bool repair(std::uint32_t slot);
+  /// True if a neighbour that shares a cut has no star yet: mending it may change the cut.
+  bool has_open_neighbor(std::uint32_t slot) const;
   bool try_cuts(std::uint32_t slot, const std::vector<std::uint32_t>& cuts,
                 const std::vector<const Triangulation*>& triangles);
   Star find_star_of(std::uint32_t slot) const;

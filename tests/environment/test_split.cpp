@@ -283,6 +283,26 @@ TEST(Split, TriesOtherDiagonals) {
   EXPECT_GT(refused, 10);
 }
 
+TEST(Split, TriesOtherDiagonalsBetweenTwoCells) {
+  // Two distorted hexahedra side by side: the diagonal they share must suit both.
+  Random random(5);
+  int cut = 0, mended = 0;
+  for (int i = 0; i < 400; ++i) {
+    Cell_soup<3> pair = hex_grid({.cells = {2, 1, 1}});
+    for (Point<3>& p : pair.points)
+      for (double& x : p) x += random.real(-0.5, 0.5);
+    Split_report report;
+    if (refusal(pair) != "not refused") continue;
+    const Cell_soup<3> result = split(pair, report);
+    expect_sound(result);
+    ++cut;
+    // A cut that no longer starts from the lowest vertex of each facet.
+    mended += report.cells_made != 12;
+  }
+  EXPECT_GT(cut, 100);
+  EXPECT_GT(mended, 20);
+}
+
 TEST(Split, CutsStronglyJitteredGrids) {
   std::size_t other_counts = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
