@@ -72,7 +72,7 @@ World<D> make_world(std::uint64_t i) {
     case 7:
       mixed.box_share = 0.6;
       mixed.simplex_share = mixed.prism_share = 0;
-      mixed.merge_share = D == 3 ? 0.6 : 0;
+      mixed.merge_share = D == 2 ? 0 : large ? 0.6 : 0.1;
       mixed.membrane_share = 0.3;
       return finish("boxes", lattice_world(mixed), true);
     case 8:
