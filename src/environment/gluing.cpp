@@ -2,15 +2,16 @@
 // Half-facets are bucketed by their lowest vertex (counting sort), then sorted in each bucket by their second
 // lowest and highest vertices: for triangles that is the whole vertex set. Buckets are small, and matched in
 // parallel.
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/kernel/error.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
 #include <optional>
 #include <string>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/kernel/error.h>
 
 namespace cellwalk {
 namespace {
@@ -255,9 +256,14 @@ void check_slits(const Cell_soup<D>& soup, const Gluing& gluing) {
 }  // namespace
 
 template <int D>
-Gluing glue(const Cell_soup<D>& soup) {
+void check_soup(const Cell_soup<D>& soup) {
   check_arrays(soup);
   check_loops(soup);
+}
+
+template <int D>
+Gluing glue(const Cell_soup<D>& soup) {
+  check_soup(soup);
   std::vector<std::uint32_t> begin;
   std::vector<Record> records = bucket_by_lowest(soup, begin);
   Gluing gluing{std::vector<std::uint32_t>(soup.facet_count(), no_facet)};
@@ -272,6 +278,8 @@ Gluing glue(const Cell_soup<D>& soup) {
   return gluing;
 }
 
+template void check_soup(const Cell_soup<2>&);
+template void check_soup(const Cell_soup<3>&);
 template Gluing glue(const Cell_soup<2>&);
 template Gluing glue(const Cell_soup<3>&);
 

@@ -248,14 +248,15 @@ std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing
 
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
-                        std::span<const std::uint32_t> half_facets, std::size_t slots) {
+                        std::span<const Half_facet> half_facets, std::size_t slots) {
   if (slots >= Dart_info::max_half_facets)
     throw Error(Error_code::input, "more than 2^29 slots of half-facets: split the environment");
   std::vector<Dart<D>> dart_of_half_facet(slots, Dart<D>{});
   for_each_parallel(darts.size(), [&](std::size_t i) {
-    dart_of_half_facet[half_facets[i]] = darts[i];
+    const std::uint32_t number = to_index(half_facets[i]);
+    dart_of_half_facet[number] = darts[i];
     for_each_dart_of_half_facet<D>(storage.map, darts[i],
-                                   [&](Dart<D> d) { storage.map.info(d).set_half_facet(half_facets[i]); });
+                                   [&](Dart<D> d) { storage.map.info(d).set_half_facet(number); });
   });
   storage.dart_of_half_facet = std::move(dart_of_half_facet);
 }
@@ -264,9 +265,9 @@ template struct Map_storage<2>;
 template struct Map_storage<3>;
 template std::unique_ptr<Map_storage<2>> build_map(const Cell_soup<2>&, const Gluing&);
 template std::unique_ptr<Map_storage<3>> build_map(const Cell_soup<3>&, const Gluing&);
-template void assign_half_facets<2>(Map_storage<2>&, std::span<const Dart<2>>, std::span<const std::uint32_t>,
+template void assign_half_facets<2>(Map_storage<2>&, std::span<const Dart<2>>, std::span<const Half_facet>,
                                     std::size_t);
-template void assign_half_facets<3>(Map_storage<3>&, std::span<const Dart<3>>, std::span<const std::uint32_t>,
+template void assign_half_facets<3>(Map_storage<3>&, std::span<const Dart<3>>, std::span<const Half_facet>,
                                     std::size_t);
 
 }  // namespace cellwalk

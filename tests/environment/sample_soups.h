@@ -29,8 +29,8 @@ inline Cell_soup<2> pinched_squares() {
 /// Tetrahedra a, b that touch in one vertex, and c that touches b in one edge.
 inline Cell_soup<3> pinched_tetrahedra() {
   Cell_soup<3> soup;
-  soup.points = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},  {-1, 0, 0},
-                 {0, -1, 0}, {0, 0, -1}, {-2, 0, 1}, {-2, -1, 3}};
+  soup.points = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0},   {0, 0, 1},  {-1, 0, 0},
+                 {0, -1, 0}, {0, 0, -1}, {-2, 0, -1}, {-1, 1, -1}};
   add_tetrahedron(soup, 0, 1, 2, 3);
   add_tetrahedron(soup, 0, 5, 4, 6);
   add_tetrahedron(soup, 4, 6, 7, 8);

@@ -69,8 +69,8 @@ void expect_renumbering_kept() {
     const auto storage = build_map(soup, glue(soup));
     const Flat_cells<D> before = flatten(*storage);
     // Numbers with gaps, as blocks of a snapshot leave them; their order is kept.
-    std::vector<std::uint32_t> numbers;
-    for (std::uint32_t f = 0; f < soup.facet_count(); ++f) numbers.push_back(3 * f + 1);
+    std::vector<Half_facet> numbers;
+    for (std::uint32_t f = 0; f < soup.facet_count(); ++f) numbers.push_back(Half_facet{3 * f + 1});
     assign_half_facets<D>(*storage, before.darts, numbers, 3 * soup.facet_count() + 5);
     test::expect_map_of(*storage, soup);
     const Flat_cells<D> after = flatten(*storage);

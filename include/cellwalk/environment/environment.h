@@ -5,13 +5,14 @@
 #ifndef CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 
-#include <cstdint>
-#include <memory>
-
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/environment/split.h>
 #include <cellwalk/records/cell_soup.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace cellwalk {
 
@@ -24,7 +25,7 @@ enum class Duplicate_vertices { refuse, merge, keep };
 struct Build_options {
   Duplicate_vertices duplicates = Duplicate_vertices::refuse;
   bool split = true;     ///< split cells that are not exactly convex; otherwise they are refused
-  bool keep_map = true;  ///< false: freeze at once
+  bool keep_map = true;  ///< false: build no map at all; the environment is frozen from the start
 };
 
 /// Everything that building changed or noticed. Nothing is repaired silently.
@@ -34,15 +35,22 @@ struct Build_report {
   std::size_t merged_points = 0;  ///< duplicates merged (Duplicate_vertices::merge)
   bool flipped = false;           ///< every cell was inverted; all were flipped
   Split_report split;
+  std::vector<std::uint32_t>
+      origin;               ///< input cell of each cell, if cells were split; otherwise empty: the same
   Certificate certificate;  ///< counts, volumes, components, walls
 };
 
+/// A certified cell complex. Cells are named by Snapshot's Cell; their indices are those of the soup (after a split, of
+/// the split soup), and point indices those of the soup less the points that were dropped.
 template <int D>
 class Environment {
  public:
-  /// Merges or refuses duplicate points, flips a mesh that is inverted throughout, splits cells that are not
-  /// exactly convex, glues, builds the map, compiles the snapshot and certifies it. \throw Error(input) for a
-  /// malformed soup, Error(not_certified) with the cell and the reason
+  /// Drops unused points, merges or refuses duplicate ones, flips a mesh that is inverted throughout, splits cells that
+  /// are not exactly convex, glues, builds the map, compiles the snapshot from it and certifies that.
+  /// Facets on the boundary and between solid and free cells become impassable. `report` is filled as far as building
+  /// got, also if it throws.
+  /// \throw Error(input) for a malformed soup, Error(not_certified) with the cell and the reason
+  /// Cost: about 2 us a tetrahedron on two cores.
   static Environment build(Cell_soup<D> soup, const Build_options& options = {},
                            Build_report* report = nullptr);
 
@@ -58,25 +66,40 @@ class Environment {
   /// Drops the map: the environment can be walked but no longer edited.
   void freeze();
 
-  /// The cells as a soup, cell indices and walls kept: what an .ovm file holds.
+  /// The cells as a soup, cell indices and walls kept: what an .ovm file holds. Cost: linear.
   Cell_soup<D> soup() const;
 
-  // --- edits: map and snapshot stay in step, only touched cells are recompiled.
-  //     \throw Error(usage) if frozen; Error(not_certified) if the result would not be certified (nothing is
-  //     changed)
+  // Edits keep map and snapshot in step; only touched cells are recompiled. They change nothing if they throw an Error:
+  // Error(usage) if frozen, or for a facet, point or cell that is not there; Error(input) for a position that is not
+  // finite; Error(not_certified) if the result would not be certified, with the reason.
+
+  /// Makes a facet impassable, or passable: not on the boundary, nor between a solid and a free cell.
+  /// Cost: constant.
   void set_impassable(Half_facet facet, bool wall);
-  /// Moves a vertex; every cell of its star must stay exactly convex and positive (facets planar).
+
+  /// Moves a vertex. Every cell that has it must stay exactly convex and positive, its facets exactly planar.
+  /// Cost: that of the cells around it; on the boundary a scan over all cells too, since it may run into any.
   void move_vertex(std::uint32_t point, const Point<D>& position);
-  /// Splits a cell into the star of a new point strictly inside it. Returns the new cells.
+
+  /// Splits a cell into the star of a new point strictly inside it: one cell a facet, the first of which takes the index
+  /// of the old cell, the others new indices. Returns them. Names of other cells and facets stay.
+  /// Cost: constant.
   std::vector<Cell> insert_point(Cell cell, const Point<D>& position);
 
-  /// Certifies again from scratch, map included. \throw Error(not_certified)
+  /// Certifies again from scratch: the map, the snapshot, and that they agree.
+  /// \throw Error(not_certified); Error(other) if map and snapshot disagree
   Certificate certify() const;
 
  private:
   Environment();
+  Map_storage<D>& editable();
+  void check_half_facet(Half_facet facet) const;
+  void check_cell_name(Cell cell) const;
+  void check_moved_star(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary) const;
+
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
+  bool allow_duplicates_ = false;
 };
 
 extern template class Environment<2>;

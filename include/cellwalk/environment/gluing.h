@@ -3,10 +3,10 @@
 #ifndef CELLWALK_ENVIRONMENT_GLUING_H
 #define CELLWALK_ENVIRONMENT_GLUING_H
 
+#include <cellwalk/records/cell_soup.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/records/cell_soup.h>
 
 namespace cellwalk {
 
@@ -18,14 +18,20 @@ struct Gluing {
   std::vector<std::uint32_t> opposite;
 };
 
+/// Checks that the arrays of a soup fit together.
+/// \throw Error(input) where arrays disagree in length, a point index is out of range, a loop has fewer than three
+///        vertices (2D: not two) or a vertex twice
+/// Cost: linear; parallel.
+template <int D>
+void check_soup(const Cell_soup<D>& soup);
+
 /// Matches the half-facets of a soup by their vertex sets.
-/// \pre every vertex index is smaller than soup.points.size()
-/// \throw Error(input) where a vertex index is out of range, a loop has fewer than D vertices or a vertex
-/// twice \throw Error(not_certified) where three or more cells share a facet, two cells lie on the same side
-/// of one
-///        (same order of the loop), or two facets share all vertices in different cyclic order; names the
-///        cells
-/// Cost: linear (hashing); about 0.3 us a half-facet.
+/// \throw Error(input) as check_soup
+/// \throw Error(not_certified) where three or more cells share a facet, two cells lie on the same side of one (same
+///        order of the loop), two facets share all vertices in different cyclic order, or a cell has both sides of
+///        a facet; names the facets and cells
+/// Cost: linear, but for the sorting of facets with equal lowest vertex; parallel. 0.13 s for a million tetrahedra on
+/// one core, 0.27 s if they come in random order.
 template <int D>
 Gluing glue(const Cell_soup<D>& soup);
 

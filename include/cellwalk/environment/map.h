@@ -8,6 +8,7 @@
 #define CELLWALK_ENVIRONMENT_MAP_H
 
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
 
@@ -127,7 +128,7 @@ std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing
 /// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i], of `slots` in all.
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
-                        std::span<const std::uint32_t> half_facets, std::size_t slots);
+                        std::span<const Half_facet> half_facets, std::size_t slots);
 
 /// What a map consists of.
 struct Map_counts {

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Edits of an environment. Each first finds out whether the result would be certified, then changes map and snapshot.
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/environment/flatten.h>
+#include <cellwalk/environment/map.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+
+#include <array>
+#include <string>
+
+#include "edit_map.h"
+
+namespace cellwalk {
+namespace {
+
+template <int D>
+void check_finite(const Point<D>& position) {
+  if (!is_finite(position))
+    throw Error(Error_code::input, "the new position is not finite: correct its coordinates");
+}
+
+/// True if p lies strictly inside facet i of the cell: on the inner side of its plane, and not in it.
+/// \pre the first D vertices of the loop span the facet, as Snapshot has them
+bool is_strictly_inside(const Cell_view<2>& cell, std::size_t i, const Point<2>& p) {
+  Predicate_counts counts;
+  const auto loop = cell.loop(i);
+  return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), p) > 0;
+}
+
+bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>& p) {
+  Predicate_counts counts;
+  const auto loop = cell.loop(i);
+  return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), p) < 0;
+}
+
+template <int D>
+auto to_cgal(const Point<D>& p) {
+  if constexpr (D == 2)
+    return typename Map<2>::Point(p[0], p[1]);
+  else
+    return typename Map<3>::Point(p[0], p[1], p[2]);
+}
+
+}  // namespace
+
+template <int D>
+Map_storage<D>& Environment<D>::editable() {
+  if (!storage_)
+    throw Error(Error_code::usage, "the environment is frozen: build it with its map to edit it");
+  return *storage_;
+}
+
+template <int D>
+void Environment<D>::check_half_facet(Half_facet facet) const {
+  if (to_index(facet) >= storage_->dart_of_half_facet.size() ||
+      storage_->dart_of_half_facet[to_index(facet)] == Dart<D>{})
+    throw Error(Error_code::usage, "there is no half-facet " + std::to_string(to_index(facet)));
+}
+
+template <int D>
+void Environment<D>::check_cell_name(Cell cell) const {
+  if (to_index(cell) < snapshot_.half_facet_slots() / 4) {
+    const std::uint32_t index = snapshot_.index(cell);
+    if (index < snapshot_.cell_count() && snapshot_.cell(index) == cell) return;
+  }
+  throw Error(Error_code::usage, "there is no cell with the name " + std::to_string(to_index(cell)));
+}
+
+template <int D>
+void Environment<D>::set_impassable(Half_facet facet, bool wall) {
+  Map_storage<D>& storage = editable();
+  check_half_facet(facet);
+  Map<D>& map = storage.map;
+  const Dart<D> own = storage.dart_of_half_facet[to_index(facet)];
+  const std::string name = "facet " + std::to_string(snapshot_.facet_of(facet)) + " of cell " +
+                           std::to_string(snapshot_.index(snapshot_.cell_of(facet)));
+  if (map.template is_free<D>(own)) {
+    if (wall) return;
+    throw Error(Error_code::not_certified, name + " lies on the boundary: it must stay impassable");
+  }
+  const Dart<D> other = map.template beta<D>(own);
+  if (!wall && map.info(own).is_solid() != map.info(other).is_solid())
+    throw Error(Error_code::not_certified,
+                name + " parts a solid cell from a free one: it must stay impassable");
+  for (const Dart<D> side : {own, other})
+    for_each_dart_of_half_facet<D>(map, side, [&](Dart<D> d) { map.info(d).set_impassable(wall); });
+  snapshot_.set_impassable(facet, wall);
+}
+
+template <int D>
+void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cell>& star,
+                                      bool on_boundary) const {
+  for (const Cell c : star) {
+    const Cell_check check = check_cell(snapshot_.view(c));
+    if (check.defect != Cell_defect::none)
+      throw Error(Error_code::not_certified, "point " + std::to_string(point) + " cannot move there: cell " +
+                                                 std::to_string(snapshot_.index(c)) + " would be wrong, " +
+                                                 describe(check));
+  }
+  // Inside, the cells of the star keep filling the same space: every sign is affine in the position of the point, so
+  // that the cells are sound all along the way. A boundary facet may run into any other cell.
+  if (on_boundary) cellwalk::certify(snapshot_, allow_duplicates_);
+}
+
+template <int D>
+void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) {
+  Map_storage<D>& storage = editable();
+  if (point >= snapshot_.points().size())
+    throw Error(Error_code::usage, "there is no point " + std::to_string(point));
+  check_finite<D>(position);
+  const Star<D> found = find_star(storage, point);
+  std::vector<Cell> star;
+  for (const Dart<D> d : found.darts)
+    star.push_back(snapshot_.cell_of(Half_facet{storage.map.info(d).half_facet()}));
+
+  const Point<D> old_position = snapshot_.point(point);
+  snapshot_.move_point(point, position);
+  try {
+    check_moved_star(point, star, found.on_boundary);
+    for (const Cell c : star) snapshot_.update_geometry(c);
+  } catch (...) {
+    snapshot_.move_point(point, old_position);
+    for (const Cell c : star) snapshot_.update_geometry(c);
+    throw;
+  }
+  for (const Map_vertex<D> vertex : storage.vertices_of(point))
+    storage.map.point_of_vertex_attribute(vertex) = to_cgal<D>(position);
+}
+
+template <int D>
+std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& position) {
+  Map_storage<D>& storage = editable();
+  Map<D>& map = storage.map;
+  check_cell_name(cell);
+  check_finite<D>(position);
+  const Cell_view<D> view = snapshot_.view(cell);
+  std::vector<Dart<D>> facets;
+  for (std::size_t i = 0; i < view.facet_count(); ++i) {
+    if (!is_strictly_inside(view, i, position))
+      throw Error(Error_code::not_certified, "the new point does not lie strictly inside cell " +
+                                                 std::to_string(snapshot_.index(cell)) + ": facet " +
+                                                 std::to_string(i) + " is in the way");
+    facets.push_back(storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))]);
+  }
+  // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive: nothing is left
+  // to check.
+  const std::uint32_t point = snapshot_.add_point(position);
+  insert_vertex_in_cell<D>(storage, facets, point, position);
+  const Flat_cells<D> flat = flatten_cells<D>(storage, facets);
+  std::vector<Half_facet> slots;
+  const std::array<Cell, 1> removed{cell};
+  std::vector<Cell> added = snapshot_.replace_cells(removed, flat.soup, flat.gluing, &slots);
+
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))] = Dart<D>{};
+  storage.dart_of_half_facet.resize(snapshot_.half_facet_slots(), Dart<D>{});
+  storage.cell_count = snapshot_.cell_count();
+  for (std::size_t f = 0; f < slots.size(); ++f) {
+    storage.dart_of_half_facet[to_index(slots[f])] = flat.darts[f];
+    const std::uint32_t index = snapshot_.index(snapshot_.cell_of(slots[f]));
+    for_each_dart_of_half_facet<D>(map, flat.darts[f], [&](Dart<D> d) {
+      map.info(d).set_cell(index);
+      map.info(d).set_half_facet(to_index(slots[f]));
+    });
+  }
+  return added;
+}
+
+// The class as a whole is instantiated in environment.cpp.
+#define CELLWALK_INSTANTIATE(D)                                                                        \
+  template Map_storage<D>& Environment<D>::editable();                                                 \
+  template void Environment<D>::check_half_facet(Half_facet) const;                                    \
+  template void Environment<D>::check_cell_name(Cell) const;                                           \
+  template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const; \
+  template void Environment<D>::set_impassable(Half_facet, bool);                                      \
+  template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                           \
+  template std::vector<Cell> Environment<D>::insert_point(Cell, const Point<D>&);
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/environment/flatten.h>
+#include <cellwalk/environment/map.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "in_step.h"
+#include "prepare_soup.h"
+
+namespace cellwalk {
+namespace {
+
+/// Drops points, flips and splits.
+template <int D>
+Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_report& report) {
+  report = {};
+  report.cells_read = soup.cell_count();
+  report.points_read = soup.points.size();
+  check_soup(soup);
+  if (soup.cell_count() == 0)
+    throw Error(Error_code::input, "there are no cells: an environment needs at least one");
+  clean_points(soup, options.duplicates, report);
+  if (report.merged_points) check_soup(soup);  // merging may have put a vertex into a facet twice
+  report.flipped = flip_if_inverted(soup);
+  if (!options.split) return soup;
+  std::vector<std::uint32_t> origin;
+  soup = split(std::move(soup), report.split, &origin);
+  if (report.split.cells_split) report.origin = std::move(origin);
+  return soup;
+}
+
+}  // namespace
+
+template <int D>
+Environment<D>::Environment() = default;
+template <int D>
+Environment<D>::Environment(Environment&&) noexcept = default;
+template <int D>
+Environment<D>& Environment<D>::operator=(Environment&&) noexcept = default;
+template <int D>
+Environment<D>::~Environment() = default;
+
+template <int D>
+Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& options, Build_report* report) {
+  Build_report own_report;
+  Build_report& done = report ? *report : own_report;
+  soup = prepare(std::move(soup), options, done);
+  const Gluing gluing = glue(soup);
+  mark_walls(soup, gluing);
+
+  Environment environment;
+  environment.allow_duplicates_ = options.duplicates == Duplicate_vertices::keep;
+  if (options.keep_map) {
+    environment.storage_ = build_map(soup, gluing);
+    soup = {};
+    Map_storage<D>& storage = *environment.storage_;
+    check_map(storage);
+    const Flat_cells<D> flat = flatten(storage);
+    std::vector<Half_facet> slots;
+    environment.snapshot_ = Snapshot<D>::compile(flat.soup, flat.gluing, &slots);
+    assign_half_facets<D>(storage, flat.darts, slots, environment.snapshot_.half_facet_slots());
+  } else {
+    // Flattening the map would give back just this soup.
+    environment.snapshot_ = Snapshot<D>::compile(soup, gluing);
+  }
+  done.certificate = cellwalk::certify(environment.snapshot_, environment.allow_duplicates_);
+  return environment;
+}
+
+template <int D>
+const Map_storage<D>& Environment<D>::storage() const {
+  if (!storage_)
+    throw Error(Error_code::usage, "the environment is frozen: build it with its map to use that");
+  return *storage_;
+}
+
+template <int D>
+void Environment<D>::freeze() {
+  storage_.reset();
+}
+
+template <int D>
+Cell_soup<D> Environment<D>::soup() const {
+  Cell_soup<D> soup;
+  soup.points.assign(snapshot_.points().begin(), snapshot_.points().end());
+  for (std::size_t i = 0; i < snapshot_.cell_count(); ++i) {
+    const Cell c = snapshot_.cell(i);
+    const std::size_t n = snapshot_.facet_count(c);
+    std::size_t facet = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Half_facet f = snapshot_.half_facet(c, facet);
+      const std::vector<std::uint32_t> loop = snapshot_.loop(f);
+      soup.add_facet(loop, snapshot_.is_impassable(f));
+      ++facet;
+      if constexpr (D == 2) {
+        // The snapshot may hold the edges of a cell in any order, a soup holds them in their order round it.
+        for (std::size_t j = 0; j < n; ++j)
+          if (snapshot_.loop(snapshot_.half_facet(c, j))[0] == loop[1]) facet = j;
+      }
+    }
+    soup.end_cell(snapshot_.is_solid(c));
+  }
+  return soup;
+}
+
+template <int D>
+Certificate Environment<D>::certify() const {
+  if (storage_) {
+    check_map(*storage_);
+    check_in_step(*storage_, snapshot_);
+  }
+  return cellwalk::certify(snapshot_, allow_duplicates_);
+}
+
+template class Environment<2>;
+template class Environment<3>;
+
+}  // namespace cellwalk
