@@ -174,6 +174,7 @@ Point<D> Motion_source<D>::start(Motion_kind kind) {
     support_ = world_.soup.facet(walls_[random_.below(walls_.size())]);
     return in_facet(support_);
   }
+  if (kind == Motion_kind::nearly) return next_to(start(Motion_kind::to_lattice));
   if (kind == Motion_kind::along_edge) {
     const Loop loop = any_facet();
     const std::size_t k = random_.below(loop.size() - 1);
@@ -196,6 +197,14 @@ template <int D>
 Point<D> Motion_source<D>::near(const Point<D>& p, double distance) {
   Point<D> q = p;
   for (int i = 0; i < D; ++i) q[i] += distance * (2 * random_.real() - 1) * (high_[i] - low_[i]);
+  return q;
+}
+
+/// p moved along some axes by 2^-18 to 2^-52 of the world's size.
+template <int D>
+Point<D> Motion_source<D>::next_to(const Point<D>& p) {
+  Point<D> q = p;
+  for (int i = 0; i < D; ++i) q[i] += between(-1, 1) * std::ldexp(high_[i] - low_[i], -between(18, 52));
   return q;
 }
 
@@ -245,6 +254,11 @@ Point<D> Motion_source<D>::target(Motion_kind kind, const Point<D>& from, const 
     }
     case Motion_kind::along_edge:
       return from + (between(-32, 32) / 8.0) * (point(support_[1]) - point(support_[0]));
+    case Motion_kind::nearly: {
+      const int first = static_cast<int>(Motion_kind::to_lattice),
+                last_kind = static_cast<int>(Motion_kind::through_facet);
+      return next_to(target(static_cast<Motion_kind>(between(first, last_kind)), from, last));
+    }
     case Motion_kind::backward:
       return from + (between(2, 12) / 4.0) * (last - from);
     default:

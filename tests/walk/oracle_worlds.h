@@ -43,7 +43,8 @@ enum class Motion_kind {
   in_wall_plane,  ///< within the plane of a wall
   along_edge,     ///< along an edge, often beyond it
   backward,       ///< back along the last motion, often beyond its start
-  nowhere,        ///< zero motion
+  nearly,  ///< to a point next to a lattice point, edge or facet, or past one: by 1 ulp up to the error of the planes
+  nowhere,  ///< zero motion
   count
 };
 inline constexpr int motion_kinds = static_cast<int>(Motion_kind::count);
@@ -75,6 +76,7 @@ class Motion_source {
   Point<D> in_facet(Loop loop);
   Point<D> on_edge(Loop loop);
   Point<D> near(const Point<D>& p, double distance);
+  Point<D> next_to(const Point<D>& p);
   int between(int low, int high) { return low + static_cast<int>(random_.below(high - low + 1)); }
 
   const World<D>& world_;
