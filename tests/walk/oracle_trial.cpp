@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <sstream>
+#include <stdexcept>
 
 namespace cellwalk::oracle {
 namespace {
@@ -204,19 +205,23 @@ std::string Tally::first_faults() const {
 
 template <int D>
 Tally run_trial(const std::vector<Walker_under_test<D>>& walkers, const Trial_options<D>& options) {
+  const std::size_t per_world = options.motions_per_world > 0
+                                    ? options.motions_per_world
+                                    : std::clamp<std::size_t>(options.motions / 400, 10, 250);
   Tally tally;
   for (std::uint64_t world = options.seed; tally.motions < options.motions; ++world)
-    Trial<D>(walkers, options, world, tally)
-        .run(std::min(options.motions_per_world, options.motions - tally.motions));
+    Trial<D>(walkers, options, world, tally).run(std::min(per_world, options.motions - tally.motions));
   return tally;
 }
 
 template Tally run_trial(const std::vector<Walker_under_test<2>>&, const Trial_options<2>&);
 template Tally run_trial(const std::vector<Walker_under_test<3>>&, const Trial_options<3>&);
 
-std::size_t test_length() {
+std::size_t scaled_count(std::size_t count_in_ci) {
   const char* length = std::getenv("CELLWALK_TEST_LENGTH");
-  return length ? std::max(1, std::atoi(length)) : 1;
+  const double factor = length ? std::atof(length) : 1;
+  if (!(factor > 0)) throw std::invalid_argument("CELLWALK_TEST_LENGTH must be a positive number");
+  return static_cast<std::size_t>(static_cast<double>(count_in_ci) * factor);
 }
 
 }  // namespace cellwalk::oracle

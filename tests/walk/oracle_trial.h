@@ -72,8 +72,8 @@ template <int D>
 struct Trial_options {
   bool generic = false;
   std::size_t motions = 0;
-  std::size_t motions_per_world = 250;
-  std::uint64_t seed = 0;  ///< number of the first world
+  std::size_t motions_per_world = 0;  ///< 0: as many as give a few hundred worlds, at most 250
+  std::uint64_t seed = 0;             ///< number of the first world
   /// If set, changes the world that is walked, but not the one that the oracle sees.
   std::function<void(Cell_soup<D>&)> tamper{};
 };
@@ -83,8 +83,9 @@ struct Trial_options {
 template <int D>
 Tally run_trial(const std::vector<Walker_under_test<D>>& walkers, const Trial_options<D>& options);
 
-/// How many times the CI length a test is to run: CELLWALK_TEST_LENGTH, 1 if unset.
-std::size_t test_length();
+/// The count of a test of CI length times CELLWALK_TEST_LENGTH, which is 1 if unset: 10 at night, less than 1 under a
+/// sanitizer.
+std::size_t scaled_count(std::size_t count_in_ci);
 
 }  // namespace cellwalk::oracle
 

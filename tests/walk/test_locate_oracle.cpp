@@ -14,7 +14,7 @@ namespace cellwalk::oracle {
 namespace {
 
 constexpr std::size_t points_in_ci = 20'000;
-constexpr std::size_t points_per_world = 200;
+constexpr std::size_t points_per_world = 50;
 
 struct Located {
   std::size_t points = 0, outside = 0, solid = 0, one_side = 0, two_sides = 0, more_sides = 0;
@@ -53,7 +53,7 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
 template <int D>
 Located run(std::uint64_t seed) {
   Located tally;
-  const std::size_t points = points_in_ci * test_length();
+  const std::size_t points = scaled_count(points_in_ci);
   for (std::uint64_t i = seed; tally.points < points && !::testing::Test::HasFatalFailure(); ++i) {
     const World<D> world = make_world<D>(i);
     SCOPED_TRACE(world.name);

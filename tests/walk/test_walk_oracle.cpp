@@ -22,7 +22,7 @@ std::vector<Walker_under_test<D>> exact_walkers() {
 
 template <int D>
 Tally expect_all_right(bool generic, std::uint64_t seed) {
-  const std::size_t motions = motions_in_ci * test_length();
+  const std::size_t motions = scaled_count(motions_in_ci);
   const Tally tally =
       run_trial(exact_walkers<D>(), Trial_options<D>{.generic = generic, .motions = motions, .seed = seed});
   std::cout << tally.summary() << '\n';
