@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inside of a closed surface as well-shaped tetrahedra with the surface approximated, by CGAL's Mesh_3.
+#ifndef CELLWALK_MESHING_MESH3_H
+#define CELLWALK_MESHING_MESH3_H
+
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/surface_soup.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace cellwalk {
+
+/// Lengths in units of the surface; 0 takes the default.
+struct Mesh3_options {
+  double cell_size = 0;       ///< bound of circumradii; default a twentieth of the bounding box's diagonal
+  double facet_size = 0;      ///< bound of surface triangles' radii; default cell_size
+  double facet_distance = 0;  ///< bound of their distance to the surface; default a fiftieth of facet_size
+  double facet_angle = 25;    ///< degrees, at most 30
+  double radius_edge = 2;     ///< bound of circumradius to shortest edge, at least 2
+};
+
+struct Mesh3_report {
+  Surface_report surface;
+  std::vector<Surface_report> obstacles;
+  std::size_t boundary_facets = 0;
+  /// The largest distance found from the mesh's boundary to the surfaces (at its vertices, edge midpoints and facet
+  /// centroids) and from the surfaces' vertices to the mesh's boundary.
+  double distance_to_surface = 0, distance_from_surface = 0;
+};
+
+/// Fills the inside of a closed surface, less that of the obstacles, with tetrahedra.
+/// \throw Error(input) as tetrahedralize; Error(usage) for options out of range
+/// \throw Error(not_certified) if no tetrahedron came out (sizes too large for the surface), or one that is flat
+/// Same input, same mesh. Cost: about 30 us a tetrahedron.
+Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
+                   const Mesh3_options& options = {}, Mesh3_report* report = nullptr);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_MESHING_MESH3_H

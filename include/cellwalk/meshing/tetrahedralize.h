@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inside of a closed surface as tetrahedra with the surface kept exactly, by TetGen.
+#ifndef CELLWALK_MESHING_TETRAHEDRALIZE_H
+#define CELLWALK_MESHING_TETRAHEDRALIZE_H
+
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/surface_soup.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace cellwalk {
+
+struct Tetrahedralize_options {
+  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few tetrahedra as
+  /// possible. Points are added inside only, so that near fine parts of the surface it may not be reached.
+  double quality = 0;
+  double largest_volume = 0;            ///< of a tetrahedron; 0: any
+  std::size_t most_added_points = 1000000;  ///< refinement stops there
+  bool keep_obstacles = false;          ///< true: obstacles stay as solid cells; false: they are left out
+};
+
+struct Tetrahedralize_report {
+  Surface_report surface;
+  std::vector<Surface_report> obstacles;
+  std::size_t added_points = 0;     ///< inside; none on the surface
+  std::size_t boundary_facets = 0;  ///< triangles of the surface and the obstacles, each kept as it is
+  std::size_t solid_cells = 0;      ///< with keep_obstacles
+};
+
+/// True if the library was built with TetGen.
+bool has_tetgen();
+
+/// Fills the inside of a closed surface, less that of the obstacles, with tetrahedra. Every triangle of a surface is a
+/// facet of the result and a wall. Space is inside where an odd number of components of the surface enclose it.
+/// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and apart from
+///        it and from the other obstacles
+/// \throw Error(usage) for options out of range, or where the library was built without TetGen
+/// \throw Error(not_certified) if TetGen gives up, does not keep the surface, or makes a flat tetrahedron
+/// Not thread-safe: TetGen's messages are kept from the standard output of the process while it runs.
+/// Cost: about 20 us a tetrahedron.
+Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
+                            const Tetrahedralize_options& options = {}, Tetrahedralize_report* report = nullptr);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_MESHING_TETRAHEDRALIZE_H

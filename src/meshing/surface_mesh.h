@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces as CGAL's mesh, shared by the sources of this component.
+#ifndef CELLWALK_MESHING_SURFACE_MESH_H
+#define CELLWALK_MESHING_SURFACE_MESH_H
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/surface_soup.h>
+
+namespace cellwalk::detail {
+
+using Mesh_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface_mesh = CGAL::Surface_mesh<Mesh_kernel::Point_3>;
+
+/// Appends a surface to a mesh; faces are numbered in the order of the facets.
+/// \pre the surface is an oriented manifold
+void append(Surface_mesh& mesh, const Surface_soup& surface);
+
+/// Pairs of faces that meet elsewhere than in an edge or vertex they share, each pair ascending, all in order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Surface_mesh& mesh);
+
+/// The surface and then its obstacles, each of them checked, and that they do not meet.
+/// \throw Error(input)
+std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                                      Surface_report& surface_report, std::vector<Surface_report>& obstacle_reports);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_MESHING_SURFACE_MESH_H

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The combinatorial half of checking a surface: points, edges, orientation.
+#ifndef CELLWALK_MESHING_SURFACE_TOPOLOGY_H
+#define CELLWALK_MESHING_SURFACE_TOPOLOGY_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/surface_soup.h>
+
+namespace cellwalk::detail {
+
+/// A surface under repair, with where its parts come from.
+struct Traced_surface {
+  Surface_soup soup;
+  std::vector<std::uint32_t> input_point;  ///< per point: the first of its place in the input
+  std::vector<std::uint32_t> input_facet;  ///< per facet
+};
+
+/// Merges points, drops unused ones and collapsed facets.
+/// \throw Error(input) if the surface is empty or malformed
+Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_report& report);
+
+/// Checks that the surface is closed, manifold and not degenerate, and turns facets so that neighbours agree.
+/// \throw Error(input)
+void make_oriented_manifold(Traced_surface& surface, const std::string& name, Surface_report& report);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_MESHING_SURFACE_TOPOLOGY_H

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Surfaces of public origin: clean ones are meshed, bad ones are refused for the reason they are bad.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/polygon_soup_io.h>
+
+#include "environment/soup_checks.h"
+#include "meshing/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/meshing/tetrahedralize.h>
+
+namespace cellwalk {
+namespace {
+
+using test::refusal;
+
+/// Reads a surface apart from the library's own readers.
+Surface_soup read(const std::string& file) {
+  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  if (!CGAL::IO::read_polygon_soup(CELLWALK_TEST_DATA "/" + file, points, polygons))
+    throw Error(Error_code::input, "cannot read " + file);
+  Surface_soup s;
+  for (const auto& p : points) s.points.push_back({p.x(), p.y(), p.z()});
+  for (const auto& f : polygons) s.facets.emplace_back(f.begin(), f.end());
+  return s;
+}
+
+std::string why(const std::string& file) {
+  const auto surface = read(file);
+  return refusal([&] { check_surface(surface); });
+}
+
+class CleanSurface : public testing::TestWithParam<const char*> {};
+
+TEST_P(CleanSurface, IsFilledWithItsBoundaryKept) {
+  const auto surface = read(std::string("surface/") + GetParam());
+  Tetrahedralize_report report;
+  const auto soup = tetrahedralize(surface, {}, {}, &report);
+  EXPECT_TRUE(describe(report.surface).empty());
+  Predicate_counts counts;
+  std::size_t walls = 0;
+  for (std::size_t c = 0; c < soup.cell_count(); ++c) {
+    const auto v = soup.facet(soup.cell_begin[c]), w = soup.facet(soup.cell_begin[c] + 1);
+    const auto at = [&soup](std::uint32_t i) { return soup.points[i]; };
+    ASSERT_EQ(Lazy::orientation(counts, at(v[0]), at(v[2]), at(v[1]), at(w[2])), 1) << "cell " << c;
+    for (auto f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) walls += soup.impassable[f];
+  }
+  EXPECT_EQ(walls, surface.facets.size());
+  EXPECT_EQ(report.boundary_facets, surface.facets.size());
+  EXPECT_EQ(test::count_facets(soup).boundary, surface.facets.size());
+  EXPECT_EQ(test::count_facets(soup).crowded, 0u);
+  EXPECT_EQ(soup.points.size(), surface.points.size() + report.added_points);
+  EXPECT_NEAR(test::volume(soup), report.surface.volume, 1e-9 * report.surface.volume);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CleanSurface,
+                         testing::Values("aneurysm3D_1.off", "eight.off", "elephant.off", "femur.off", "joint.off",
+                                         "knot2.off", "sofa_liver.obj"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           name.erase(name.find('.'));
+                           return name;
+                         });
+
+TEST(CleanSurfaces, AreApproximatedByMesh3) {
+  Mesh3_report report;
+  const auto surface = read("surface/elephant.off");
+  const auto soup = mesh3(surface, {}, {}, &report);
+  EXPECT_GT(soup.cell_count(), 1000u);
+  EXPECT_EQ(test::count_facets(soup).boundary, report.boundary_facets);
+  EXPECT_GT(report.distance_to_surface, 0);
+  EXPECT_LT(report.distance_to_surface, 0.02);  // of an elephant 1 long
+  EXPECT_LT(report.distance_from_surface, 0.05);
+}
+
+TEST(BadSurfaces, InsideOutIsTurned) {
+  Surface_report report;
+  check_surface(read("bad/aneurysm3d_collis_inward.obj"), "surface", &report);
+  EXPECT_TRUE(report.inside_out);
+  EXPECT_NEAR(report.volume, 65.04, 0.01);
+}
+
+TEST(BadSurfaces, ShuffledOrientationIsRepaired) {
+  for (const char* file : {"bad/blobby-shuffled.off", "bad/tet-shuffled.off"}) {
+    Surface_report report;
+    check_surface(read(file), "surface", &report);
+    EXPECT_GT(report.turned_facets, 0u) << file;
+    EXPECT_GT(report.volume, 0) << file;
+  }
+}
+
+TEST(BadSurfaces, AreRefusedForTheirReason) {
+  EXPECT_EQ(why("bad/cube-ouvert.off"), "");
+  EXPECT_EQ(why("bad/diplodocus.off"), "");
+  EXPECT_EQ(why("bad/cow.off"), "");
+}
+
+}  // namespace
+}  // namespace cellwalk
