@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/meshing/mesh3.h>
+
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -10,16 +14,12 @@
 #include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
 
-#include "surface_mesh.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
-#include <cellwalk/meshing/mesh3.h>
+#include "surface_mesh.h"
 
 namespace cellwalk {
 namespace {
@@ -32,17 +32,19 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 using Triangle_3 = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle_3>;
-using Triangle_tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+using Triangle_tree = CGAL::AABB_tree<
+    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
 Criteria criteria(const Mesh3_options& options, double diagonal) {
   // NaN fails every comparison.
   if (!(options.cell_size >= 0 && options.facet_size >= 0 && options.facet_distance >= 0))
     throw Error(Error_code::usage, "Mesh_3: sizes and distances must not be negative");
   if (!(options.facet_angle >= 0 && options.facet_angle <= 30))
-    throw Error(Error_code::usage, "Mesh_3: the facet angle must lie in [0,30] degrees; above, meshing may not end");
+    throw Error(Error_code::usage,
+                "Mesh_3: the facet angle must lie in [0,30] degrees; above, meshing may not end");
   if (!(options.radius_edge >= 2))
-    throw Error(Error_code::usage, "Mesh_3: the radius-edge bound must be at least 2; below, meshing may not end");
+    throw Error(Error_code::usage,
+                "Mesh_3: the radius-edge bound must be at least 2; below, meshing may not end");
   const double cell = options.cell_size > 0 ? options.cell_size : diagonal / 20;
   const double facet = options.facet_size > 0 ? options.facet_size : cell;
   const double distance = options.facet_distance > 0 ? options.facet_distance : facet / 50;
@@ -65,7 +67,8 @@ Cell_soup<3> collect(const Complex& complex) {
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
     std::array<std::uint32_t, 4> t;
     for (int i = 0; i < 4; ++i) {
-      const auto [it, is_new] = number.insert({cell->vertex(i), static_cast<std::uint32_t>(soup.points.size())});
+      const auto [it, is_new] =
+          number.insert({cell->vertex(i), static_cast<std::uint32_t>(soup.points.size())});
       t[i] = it->second;
       const auto& p = cell->vertex(i)->point();
       if (is_new) soup.points.push_back({p.x(), p.y(), p.z()});
@@ -76,7 +79,8 @@ Cell_soup<3> collect(const Complex& complex) {
     add_tetrahedron(soup, t[0], t[1], t[2], t[3]);
   }
   if (soup.cell_count() == 0)
-    throw Error(Error_code::not_certified, "Mesh_3 made no tetrahedron; give a smaller cell size and facet size");
+    throw Error(Error_code::not_certified,
+                "Mesh_3 made no tetrahedron; give a smaller cell size and facet size");
   return soup;
 }
 
@@ -98,7 +102,8 @@ void measure(const Triangles& mesh, const std::vector<Surface_soup>& surfaces, M
   Triangles input;
   const auto at = [](const Point<3>& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
   for (const auto& s : surfaces)
-    for (const auto& f : s.facets) input.emplace_back(at(s.points[f[0]]), at(s.points[f[1]]), at(s.points[f[2]]));
+    for (const auto& f : s.facets)
+      input.emplace_back(at(s.points[f[0]]), at(s.points[f[1]]), at(s.points[f[2]]));
   const Triangle_tree input_tree(input.begin(), input.end()), mesh_tree(mesh.begin(), mesh.end());
   double to_surface = 0, from_surface = 0;  // squared
   for (const Triangle_3& t : mesh)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
-#include "surface_mesh.h"
-#include "surface_topology.h"
-
 #include <algorithm>
 #include <iterator>
 
-#include <cellwalk/kernel/error.h>
+#include "surface_mesh.h"
+#include "surface_topology.h"
 
 namespace cellwalk {
 namespace {
@@ -61,7 +61,8 @@ void append(Surface_mesh& mesh, const Surface_soup& surface) {
     loop.clear();
     for (std::uint32_t v : facet) loop.push_back(vertices[v]);
     if (mesh.add_face(loop) == Surface_mesh::null_face())
-      throw Error(Error_code::other, "surface mesh: CGAL refused a facet of a surface that was found manifold");
+      throw Error(Error_code::other,
+                  "surface mesh: CGAL refused a facet of a surface that was found manifold");
   }
 }
 
@@ -85,7 +86,8 @@ std::vector<std::string> describe(const Surface_report& report) {
   say(report.unused_points, "unused vertex dropped", "unused vertices dropped");
   say(report.collapsed_facets, "collapsed facet dropped", "collapsed facets dropped");
   say(report.triangulated_facets, "polygon cut into triangles", "polygons cut into triangles");
-  say(report.turned_facets, "facet turned to agree with its neighbours", "facets turned to agree with their neighbours");
+  say(report.turned_facets, "facet turned to agree with its neighbours",
+      "facets turned to agree with their neighbours");
   if (report.inside_out) lines.push_back("the surface was inside out: all facets turned");
   return lines;
 }
@@ -105,20 +107,23 @@ Surface_soup check_surface(const Surface_soup& soup, const std::string& name, Su
   Source_visitor visitor;
   visitor.source = &source;
   if (!PMP::triangulate_faces(mesh, CGAL::parameters::visitor(visitor)))
-    throw Error(Error_code::input, name + " has a polygon that cannot be cut into triangles; triangulate it beforehand");
+    throw Error(Error_code::input,
+                name + " has a polygon that cannot be cut into triangles; triangulate it beforehand");
 
   const auto pairs = detail::intersecting_faces(mesh);
   if (!pairs.empty()) {
     auto first = std::minmax(source[Face(pairs[0].first)], source[Face(pairs[0].second)]);
     throw Error(Error_code::input, name + " intersects itself: " + std::to_string(pairs.size()) +
                                        (pairs.size() == 1 ? " pair" : " pairs") + " of facets, the first " +
-                                       pair_of(first.first, first.second) + "; repair it, or mesh a wrapped copy");
+                                       pair_of(first.first, first.second) +
+                                       "; repair it, or mesh a wrapped copy");
   }
   orient_outwards(mesh, r);
   r.volume = CGAL::to_double(PMP::volume(mesh));
 
   Surface_soup result;
-  for (auto v : mesh.vertices()) result.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
+  for (auto v : mesh.vertices())
+    result.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
   for (Face face : mesh.faces()) result.facets.push_back(loop_of(mesh, face));
   return result;
 }

@@ -3,15 +3,15 @@
 #ifndef CELLWALK_MESHING_SURFACE_MESH_H
 #define CELLWALK_MESHING_SURFACE_MESH_H
 
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/surface_soup.h>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include <cellwalk/meshing/surface_check.h>
-#include <cellwalk/records/surface_soup.h>
 
 namespace cellwalk::detail {
 
@@ -28,7 +28,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Su
 /// The surface and then its obstacles, each of them checked, and that they do not meet.
 /// \throw Error(input)
 std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
-                                      Surface_report& surface_report, std::vector<Surface_report>& obstacle_reports);
+                                      Surface_report& surface_report,
+                                      std::vector<Surface_report>& obstacle_reports);
 
 }  // namespace cellwalk::detail
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_topology.h"
 
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
 #include <optional>
-
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
 
 namespace cellwalk::detail {
 namespace {
@@ -65,8 +65,8 @@ void check_edges(const Traced_surface& surface, const std::vector<Edge_use>& use
     refuse(name, "is open: " + counted(open, "boundary edge") + ", the first " + between(*first_open) +
                      "; close its holes so that it bounds a volume");
   if (crowded > 0)
-    refuse(name, "is not manifold: more than two facets meet at " + counted(crowded, "edge") + ", the first " +
-                     between(*first_crowded) + "; separate the sheets that meet there");
+    refuse(name, "is not manifold: more than two facets meet at " + counted(crowded, "edge") +
+                     ", the first " + between(*first_crowded) + "; separate the sheets that meet there");
 }
 
 /// Facets given twice: they bound nothing.
@@ -78,7 +78,8 @@ void check_repeated_facets(const Traced_surface& surface, const std::string& nam
     const auto [it, is_new] = facets.insert({std::move(points), f});
     if (!is_new)
       refuse(name, "has a facet twice: facets " + std::to_string(surface.input_facet[it->second]) + " and " +
-                       std::to_string(surface.input_facet[f]) + " have the same vertices; remove one or both");
+                       std::to_string(surface.input_facet[f]) +
+                       " have the same vertices; remove one or both");
   }
 }
 
@@ -86,7 +87,8 @@ bool is_on_one_line(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   Predicate_counts counts;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    if (Exact::orientation(counts, Point<2>{a[i], a[j]}, Point<2>{b[i], b[j]}, Point<2>{c[i], c[j]}) != 0) return false;
+    if (Exact::orientation(counts, Point<2>{a[i], a[j]}, Point<2>{b[i], b[j]}, Point<2>{c[i], c[j]}) != 0)
+      return false;
   }
   return true;
 }
@@ -112,7 +114,8 @@ void check_degenerate_facets(const Traced_surface& surface, const std::string& n
 void orient(Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name,
             Surface_report& report) {
   const std::size_t facets = surface.soup.facets.size();
-  std::vector<std::vector<std::pair<std::uint32_t, bool>>> neighbours(facets);  // facet, and whether they agree
+  std::vector<std::vector<std::pair<std::uint32_t, bool>>> neighbours(
+      facets);  // facet, and whether they agree
   for (std::size_t i = 0; i < uses.size(); i += 2) {
     const bool agree = uses[i].forward != uses[i + 1].forward;
     neighbours[uses[i].facet].push_back({uses[i + 1].facet, agree});
@@ -151,7 +154,8 @@ void orient(Traced_surface& surface, const std::vector<Edge_use>& uses, const st
 }
 
 /// Vertices at which several fans of facets meet.
-void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name) {
+void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& uses,
+                    const std::string& name) {
   const auto& facets = surface.soup.facets;
   std::vector<std::uint32_t> first_corner(facets.size() + 1, 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
@@ -166,7 +170,8 @@ void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& 
   const auto corner_at = [&](const Edge_use& use, std::uint32_t point) {
     const auto& loop = facets[use.facet];
     const bool here = (use.forward ? use.low : use.high) == point;
-    return first_corner[use.facet] + (here ? use.corner : (use.corner + 1) % static_cast<std::uint32_t>(loop.size()));
+    return first_corner[use.facet] +
+           (here ? use.corner : (use.corner + 1) % static_cast<std::uint32_t>(loop.size()));
   };
   for (std::size_t i = 0; i < uses.size(); i += 2)
     for (std::uint32_t point : {uses[i].low, uses[i].high})
@@ -181,8 +186,9 @@ void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& 
     if (fans[v] > 1 && pinched++ == 0) first = v;
   if (pinched > 0)
     refuse(name, "is not manifold: separate sheets meet at " +
-                     (pinched == 1 ? "1 vertex" : std::to_string(pinched) + " vertices") + ", the first vertex " +
-                     std::to_string(surface.input_point[first]) + "; pull the sheets apart there");
+                     (pinched == 1 ? "1 vertex" : std::to_string(pinched) + " vertices") +
+                     ", the first vertex " + std::to_string(surface.input_point[first]) +
+                     "; pull the sheets apart there");
 }
 
 /// New number of each point: points of equal coordinates get the same one. Numbers follow the first of each place.
@@ -204,7 +210,8 @@ Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_
   report.facets_read = soup.facets.size();
   if (soup.facets.empty()) refuse(name, "is empty: it has no facets; give a closed surface");
   for (std::size_t v = 0; v < soup.points.size(); ++v)
-    if (!is_finite(soup.points[v])) refuse(name, "has a vertex that is not finite: vertex " + std::to_string(v));
+    if (!is_finite(soup.points[v]))
+      refuse(name, "has a vertex that is not finite: vertex " + std::to_string(v));
   const auto first = merged_numbers(soup.points);
   for (std::size_t v = 0; v < first.size(); ++v) report.merged_points += first[v] != v;
 
@@ -213,8 +220,8 @@ Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_
     std::vector<std::uint32_t> loop;
     for (std::uint32_t v : soup.facets[f]) {
       if (v >= soup.points.size())
-        refuse(name, "is malformed: facet " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
-                         std::to_string(soup.points.size()));
+        refuse(name, "is malformed: facet " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                         " of " + std::to_string(soup.points.size()));
       if (loop.empty() || loop.back() != first[v]) loop.push_back(first[v]);
     }
     if (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();

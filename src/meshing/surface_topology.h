@@ -3,12 +3,12 @@
 #ifndef CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 #define CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 
+#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/records/surface_soup.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <cellwalk/meshing/surface_check.h>
-#include <cellwalk/records/surface_soup.h>
 
 namespace cellwalk::detail {
 

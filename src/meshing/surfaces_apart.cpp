@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/Side_of_triangle_mesh.h>
+#include <cellwalk/kernel/error.h>
 
-#include "surface_mesh.h"
+#include <CGAL/Side_of_triangle_mesh.h>
 
 #include <string>
 
-#include <cellwalk/kernel/error.h>
+#include "surface_mesh.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -21,10 +21,10 @@ void check_disjoint(const std::vector<Surface_soup>& surfaces, const std::vector
   }
   const auto pairs = intersecting_faces(mesh);
   if (!pairs.empty())
-    throw Error(Error_code::input,
-                names[owner[pairs[0].second]] + " meets " + names[owner[pairs[0].first]] + ": " +
-                    std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
-                    " of facets intersect; move it, or join the surfaces beforehand");
+    throw Error(Error_code::input, names[owner[pairs[0].second]] + " meets " + names[owner[pairs[0].first]] +
+                                       ": " + std::to_string(pairs.size()) +
+                                       (pairs.size() == 1 ? " pair" : " pairs") +
+                                       " of facets intersect; move it, or join the surfaces beforehand");
 }
 
 /// How many points of `points` the closed surface encloses.
@@ -40,7 +40,8 @@ std::size_t enclosed(const Surface_soup& surface, const Surface_soup& points) {
 }  // namespace
 
 std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
-                                      Surface_report& surface_report, std::vector<Surface_report>& obstacle_reports) {
+                                      Surface_report& surface_report,
+                                      std::vector<Surface_report>& obstacle_reports) {
   std::vector<std::string> names{"surface"};
   std::vector<Surface_soup> checked{check_surface(surface, names[0], &surface_report)};
   obstacle_reports.resize(obstacles.size());

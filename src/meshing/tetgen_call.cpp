@@ -21,7 +21,8 @@ bool has_tetgen() { return false; }
 
 detail::Tetgen_result detail::call_tetgen(const std::vector<Surface_soup>&, const Tetrahedralize_options&) {
   throw Error(Error_code::usage,
-              "this build has no TetGen, which keeps surfaces exactly; install it (libtet1.5-dev) and build again, or "
+              "this build has no TetGen, which keeps surfaces exactly; install it (libtet1.5-dev) and build "
+              "again, or "
               "mesh with Mesh_3, which approximates them");
 }
 
@@ -60,13 +61,20 @@ class Quiet {
 /// What the numbers mean that TetGen throws (terminatetetgen in tetgen.h).
 const char* meaning(int code) {
   switch (code) {
-    case 1: return "ran out of memory; give a smaller surface or less refinement";
-    case 2: return "failed inside; try a quality bound, or Mesh_3, which approximates the surface";
-    case 3: return "found that the surfaces intersect; repair them, or try Mesh_3";
-    case 4: return "found two features too close for its tolerance; simplify the surface there, or try Mesh_3";
-    case 5: return "found two facets too close to each other; simplify the surface there, or try Mesh_3";
-    case 10: return "found its input malformed; check the surface";
-    default: return "could not keep the boundary; simplify the surface, or try Mesh_3";
+    case 1:
+      return "ran out of memory; give a smaller surface or less refinement";
+    case 2:
+      return "failed inside; try a quality bound, or Mesh_3, which approximates the surface";
+    case 3:
+      return "found that the surfaces intersect; repair them, or try Mesh_3";
+    case 4:
+      return "found two features too close for its tolerance; simplify the surface there, or try Mesh_3";
+    case 5:
+      return "found two facets too close to each other; simplify the surface there, or try Mesh_3";
+    case 10:
+      return "found its input malformed; check the surface";
+    default:
+      return "could not keep the boundary; simplify the surface, or try Mesh_3";
   }
 }
 
@@ -75,7 +83,8 @@ std::string switches(const Tetrahedralize_options& options) {
   std::string text = "pYnQ";
   if (options.quality > 0) text += fmt::format("q{:.6f}", options.quality);
   if (options.largest_volume > 0) text += fmt::format("a{:.17g}", options.largest_volume);
-  if (options.quality > 0 || options.largest_volume > 0) text += fmt::format("S{}", options.most_added_points);
+  if (options.quality > 0 || options.largest_volume > 0)
+    text += fmt::format("S{}", options.most_added_points);
   return text;
 }
 
@@ -104,7 +113,8 @@ void fill(tetgenio& in, const std::vector<Surface_soup>& surfaces) {
       tetgenio::init(f.polygonlist);
       f.polygonlist->numberofvertices = static_cast<int>(loop.size());
       f.polygonlist->vertexlist = new int[loop.size()];
-      for (std::size_t k = 0; k < loop.size(); ++k) f.polygonlist->vertexlist[k] = static_cast<int>(first + loop[k]);
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        f.polygonlist->vertexlist[k] = static_cast<int>(first + loop[k]);
       in.facetmarkerlist[facet++] = static_cast<int>(i) + 1;
     }
   }

@@ -3,11 +3,11 @@
 #ifndef CELLWALK_MESHING_TETGEN_CALL_H
 #define CELLWALK_MESHING_TETGEN_CALL_H
 
+#include <cellwalk/meshing/tetrahedralize.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/meshing/tetrahedralize.h>
 
 namespace cellwalk::detail {
 

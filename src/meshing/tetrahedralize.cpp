@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surface_mesh.h"
-#include "tetgen_call.h"
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <algorithm>
 #include <array>
 #include <string>
 #include <unordered_map>
 
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
-#include <cellwalk/meshing/tetrahedralize.h>
+#include "surface_mesh.h"
+#include "tetgen_call.h"
 
 namespace cellwalk {
 namespace {
@@ -128,15 +128,16 @@ std::array<std::uint32_t, 4> positive(const Tetgen_result& mesh, std::array<std:
   const auto& p = mesh.points;
   const int sign = Exact::orientation(counts, p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
   if (sign == 0)
-    throw Error(Error_code::not_certified,
-                "TetGen made a flat tetrahedron; try a quality bound, or Mesh_3, which approximates the surface");
+    throw Error(
+        Error_code::not_certified,
+        "TetGen made a flat tetrahedron; try a quality bound, or Mesh_3, which approximates the surface");
   if (sign < 0) std::swap(t[0], t[1]);
   return t;
 }
 
 /// The tetrahedra inside, with the surfaces as walls.
-Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_t surfaces, bool keep_obstacles,
-                     Tetrahedralize_report& report) {
+Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_t surfaces,
+                     bool keep_obstacles, Tetrahedralize_report& report) {
   const Sides sides(mesh, owners, surfaces);
   Cell_soup<3> soup;
   std::vector<std::uint32_t> number(mesh.points.size(), 0xffffffffu);
@@ -152,8 +153,8 @@ Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_
         soup.points.push_back(mesh.points[v]);
       }
     // The facets as add_tetrahedron would make them, each with its wall.
-    for (const Triangle& f : {Triangle{t[0], t[2], t[1]}, Triangle{t[0], t[1], t[3]}, Triangle{t[1], t[2], t[3]},
-                              Triangle{t[2], t[0], t[3]}}) {
+    for (const Triangle& f : {Triangle{t[0], t[2], t[1]}, Triangle{t[0], t[1], t[3]},
+                              Triangle{t[1], t[2], t[3]}, Triangle{t[2], t[0], t[3]}}) {
       const bool wall = owners.count(sorted(f)) > 0;
       report.boundary_facets += wall && !in_obstacle;
       soup.add_facet({number[f[0]], number[f[1]], number[f[2]]}, wall || in_obstacle);

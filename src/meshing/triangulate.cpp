@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/meshing/triangulate.h>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -8,10 +12,6 @@
 #include <map>
 #include <set>
 #include <string>
-
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
-#include <cellwalk/meshing/triangulate.h>
 
 namespace cellwalk {
 namespace {
@@ -23,13 +23,17 @@ constexpr std::uint32_t unnumbered = 0xffffffffu;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Face_base =
-    CGAL::Triangulation_face_base_with_info_2<Region, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+    CGAL::Triangulation_face_base_with_info_2<Region, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex_base, Face_base>,
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+                                               CGAL::Triangulation_data_structure_2<Vertex_base, Face_base>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Segment = std::array<std::uint32_t, 2>;
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::input, "planar domain: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(Error_code::input, "planar domain: " + what);
+}
 
 /// True if the open segments cross in one point.
 bool cross(const Planar_domain& domain, const Segment& s, const Segment& t) {
@@ -87,7 +91,8 @@ Triangulation constrain(const Planar_domain& domain, Triangulate_report& report)
     }
   }
   for (const auto& v : vertices) report.unused_points += v == nullptr;
-  if (triangulation.dimension() < 2) refuse("its segments lie on one line and enclose nothing; close its boundary");
+  if (triangulation.dimension() < 2)
+    refuse("its segments lie on one line and enclose nothing; close its boundary");
   return triangulation;
 }
 
@@ -155,7 +160,8 @@ Cell_soup<2> collect(Triangulation& triangulation, bool keep_holes, Triangulate_
 
 }  // namespace
 
-Cell_soup<2> triangulate(const Planar_domain& domain, const Triangulate_options& options, Triangulate_report* report) {
+Cell_soup<2> triangulate(const Planar_domain& domain, const Triangulate_options& options,
+                         Triangulate_report* report) {
   Triangulate_report own;
   Triangulate_report& r = report ? *report : own;
   r = {};

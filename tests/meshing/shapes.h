@@ -3,13 +3,13 @@
 #ifndef CELLWALK_TESTS_MESHING_SHAPES_H
 #define CELLWALK_TESTS_MESHING_SHAPES_H
 
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/records/surface_soup.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/records/surface_soup.h>
 
 namespace cellwalk::test {
 

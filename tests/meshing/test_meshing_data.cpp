@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Surfaces of public origin: clean ones are meshed, bad ones are refused for the reason they are bad.
+#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/meshing/tetrahedralize.h>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
+#include <gtest/gtest.h>
 
 #include "environment/soup_checks.h"
 #include "meshing/shapes.h"
-
-#include <gtest/gtest.h>
-
-#include <cellwalk/meshing/mesh3.h>
-#include <cellwalk/meshing/tetrahedralize.h>
 
 namespace cellwalk {
 namespace {
@@ -39,7 +38,8 @@ TEST_P(CleanSurface, IsFilledWithItsBoundaryKept) {
   const auto surface = read(std::string("surface/") + GetParam());
   Tetrahedralize_report report;
   const auto soup = tetrahedralize(surface, {}, {}, &report);
-  EXPECT_TRUE(describe(report.surface).empty());
+  // The liver comes with vertices of no facet.
+  EXPECT_EQ(describe(report.surface).size(), report.surface.unused_points > 0 ? 1u : 0u);
   Predicate_counts counts;
   std::size_t walls = 0;
   for (std::size_t c = 0; c < soup.cell_count(); ++c) {
@@ -52,15 +52,15 @@ TEST_P(CleanSurface, IsFilledWithItsBoundaryKept) {
   EXPECT_EQ(report.boundary_facets, surface.facets.size());
   EXPECT_EQ(test::count_facets(soup).boundary, surface.facets.size());
   EXPECT_EQ(test::count_facets(soup).crowded, 0u);
-  EXPECT_EQ(soup.points.size(), surface.points.size() + report.added_points);
+  EXPECT_EQ(soup.points.size(), surface.points.size() - report.surface.unused_points + report.added_points);
   EXPECT_NEAR(test::volume(soup), report.surface.volume, 1e-9 * report.surface.volume);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, CleanSurface,
-                         testing::Values("aneurysm3D_1.off", "eight.off", "elephant.off", "femur.off", "joint.off",
-                                         "knot2.off", "sofa_liver.obj"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         testing::Values("aneurysm3D_1.off", "eight.off", "elephant.off", "femur.off",
+                                         "joint.off", "knot2.off", "sofa_liver.obj"),
+                         [](const auto& file) {
+                           std::string name = file.param;
                            name.erase(name.find('.'));
                            return name;
                          });
@@ -93,9 +93,19 @@ TEST(BadSurfaces, ShuffledOrientationIsRepaired) {
 }
 
 TEST(BadSurfaces, AreRefusedForTheirReason) {
-  EXPECT_EQ(why("bad/cube-ouvert.off"), "");
-  EXPECT_EQ(why("bad/diplodocus.off"), "");
-  EXPECT_EQ(why("bad/cow.off"), "");
+  EXPECT_EQ(
+      why("bad/cube-ouvert.off"),
+      "3: surface is open: 4 boundary edges, the first between vertices 1 and 2; close its holes so that it "
+      "bounds a volume");
+  EXPECT_EQ(why("bad/diplodocus.off"),
+            "3: surface is not manifold: more than two facets meet at 2 edges, the first between vertices "
+            "15404 and "
+            "15545; separate the sheets that meet there");
+  // Two of its vertices lie in one place; and it intersects itself elsewhere.
+  EXPECT_EQ(why("bad/cow.off"),
+            "3: surface is not manifold: separate sheets meet at 1 vertex, the first vertex 44; pull the "
+            "sheets apart "
+            "there");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "meshing/shapes.h"
+#include <cellwalk/meshing/surface_check.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include <cellwalk/meshing/surface_check.h>
+#include "meshing/shapes.h"
 
 namespace cellwalk {
 namespace {
@@ -100,8 +100,9 @@ TEST(SurfaceCheck, RefusesEmptyAndMalformedSurfaces) {
 TEST(SurfaceCheck, RefusesOpenSurfaces) {
   auto s = octahedron();
   s.facets.erase(s.facets.begin());
-  EXPECT_EQ(why(s), "3: surface is open: 3 boundary edges, the first between vertices 0 and 1; "
-                    "close its holes so that it bounds a volume");
+  EXPECT_EQ(why(s),
+            "3: surface is open: 3 boundary edges, the first between vertices 0 and 1; "
+            "close its holes so that it bounds a volume");
 }
 
 TEST(SurfaceCheck, RefusesEdgesOfMoreThanTwoFacets) {
@@ -109,15 +110,18 @@ TEST(SurfaceCheck, RefusesEdgesOfMoreThanTwoFacets) {
   Surface_soup s;
   s.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
   s.facets = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}, {0, 4, 1}, {0, 5, 4}, {0, 1, 5}, {1, 4, 5}};
-  EXPECT_EQ(why(s), "3: surface is not manifold: more than two facets meet at 1 edge, the first between vertices 0 "
-                    "and 1; separate the sheets that meet there");
+  EXPECT_EQ(why(s),
+            "3: surface is not manifold: more than two facets meet at 1 edge, the first between vertices 0 "
+            "and 1; separate the sheets that meet there");
 }
 
 TEST(SurfaceCheck, RefusesVerticesOfTwoSheets) {
   auto s = test::join(octahedron(), octahedron());
   for (std::size_t v = 6; v < 12; ++v) s.points[v][0] += 2;  // point 9 falls on point 0
-  EXPECT_EQ(why(s), "3: surface is not manifold: separate sheets meet at 1 vertex, the first vertex 0; pull the sheets "
-                    "apart there");
+  EXPECT_EQ(
+      why(s),
+      "3: surface is not manifold: separate sheets meet at 1 vertex, the first vertex 0; pull the sheets "
+      "apart there");
 }
 
 TEST(SurfaceCheck, RefusesFacetsThatAreRepeatedOrDegenerate) {
@@ -132,15 +136,18 @@ TEST(SurfaceCheck, RefusesFacetsThatAreRepeatedOrDegenerate) {
   s.facets[0] = {0, 6, 2};
   s.facets.push_back({6, 1, 2});
   s.facets.push_back({0, 1, 6});
-  EXPECT_EQ(why(s), "3: surface has 1 degenerate facet, the first facet 9: its vertices lie on one line; collapse its "
-                    "shortest edge or flip its longest");
+  EXPECT_EQ(
+      why(s),
+      "3: surface has 1 degenerate facet, the first facet 9: its vertices lie on one line; collapse its "
+      "shortest edge or flip its longest");
 }
 
 TEST(SurfaceCheck, RefusesOneSidedSurfaces) {
   // The projective plane of six vertices.
   Surface_soup s;
   s.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 2, 3}, {3, 1, 2}};
-  s.facets = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}, {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  s.facets = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+              {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
   EXPECT_NE(why(s).find("3: surface is not orientable: facets "), std::string::npos) << why(s);
 }
 

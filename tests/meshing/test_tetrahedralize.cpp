@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "environment/soup_checks.h"
-#include "meshing/shapes.h"
+#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>
 
-#include <cellwalk/meshing/mesh3.h>
-#include <cellwalk/meshing/tetrahedralize.h>
+#include "environment/soup_checks.h"
+#include "meshing/shapes.h"
 
 namespace cellwalk {
 namespace {
@@ -90,15 +90,22 @@ TEST(Tetrahedralize, RefinesOnRequestWithoutTouchingTheSurface) {
 
 TEST(Tetrahedralize, SaysWhereObstaclesAreWrong) {
   const auto room = box({-2, -2, -2}, {2, 2, 2});
-  EXPECT_EQ(refusal([&] { tetrahedralize(room, {box({3, 3, 3}, {4, 4, 4})}); }),
+  EXPECT_EQ(refusal([&] {
+              tetrahedralize(room, {box({3, 3, 3}, {4, 4, 4})});
+            }),
             "3: obstacle 1 does not lie inside the surface; move it, or leave it out");
-  const auto across = refusal([&] { tetrahedralize(room, {octahedron(), box({1.5, 1, 1}, {2.5, 1.5, 1.5})}); });
+  const auto across = refusal([&] {
+    tetrahedralize(room, {octahedron(), box({1.5, 1, 1}, {2.5, 1.5, 1.5})});
+  });
   EXPECT_NE(across.find("3: obstacle 2 meets surface: "), std::string::npos) << across;
-  EXPECT_EQ(refusal([&] { tetrahedralize(room, {octahedron(), box({-.1, -.1, -.1}, {.1, .1, .1})}); }),
+  EXPECT_EQ(refusal([&] {
+              tetrahedralize(room, {octahedron(), box({-.1, -.1, -.1}, {.1, .1, .1})});
+            }),
             "3: obstacle 2 lies inside obstacle 1; leave it out");
   auto open = octahedron();
   open.facets.pop_back();
-  EXPECT_NE(refusal([&] { tetrahedralize(room, {open}); }).find("3: obstacle 1 is open: "), std::string::npos);
+  EXPECT_NE(refusal([&] { tetrahedralize(room, {open}); }).find("3: obstacle 1 is open: "),
+            std::string::npos);
 }
 
 TEST(Tetrahedralize, RefusesOptionsOutOfRange) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "environment/soup_checks.h"
-#include "meshing/shapes.h"
+#include <cellwalk/meshing/triangulate.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include <cellwalk/meshing/triangulate.h>
+#include "environment/soup_checks.h"
+#include "meshing/shapes.h"
 
 namespace cellwalk {
 namespace {
@@ -15,7 +15,8 @@ using test::refusal;
 
 /// Appends a closed polygon.
 void add(Planar_domain& domain, const std::vector<Point<2>>& polygon) {
-  const auto n = static_cast<std::uint32_t>(domain.points.size()), k = static_cast<std::uint32_t>(polygon.size());
+  const auto n = static_cast<std::uint32_t>(domain.points.size()),
+             k = static_cast<std::uint32_t>(polygon.size());
   domain.points.insert(domain.points.end(), polygon.begin(), polygon.end());
   for (std::uint32_t i = 0; i < k; ++i) domain.segments.push_back({n + i, n + (i + 1) % k});
 }
@@ -125,7 +126,8 @@ TEST(Triangulate, RefusesWhatItCannotUse) {
   Planar_domain line;
   line.points = {{0, 0}, {1, 0}, {2, 0}};
   line.segments = {{0, 1}, {1, 2}};
-  EXPECT_EQ(why(line), "3: planar domain: its segments lie on one line and enclose nothing; close its boundary");
+  EXPECT_EQ(why(line),
+            "3: planar domain: its segments lie on one line and enclose nothing; close its boundary");
 }
 
 }  // namespace

@@ -14,14 +14,14 @@ namespace cellwalk {
 /// Everything that checking a surface changed or noticed. Nothing is repaired silently.
 struct Surface_report {
   std::size_t points_read = 0, facets_read = 0;
-  std::size_t merged_points = 0;       ///< points with the coordinates of another one
-  std::size_t unused_points = 0;       ///< points of no facet, dropped
-  std::size_t collapsed_facets = 0;    ///< dropped: fewer than three different vertices are left
-  std::size_t triangulated_facets = 0; ///< polygons with more than three vertices, cut into triangles
-  std::size_t turned_facets = 0;       ///< facets that had to be turned to agree with their neighbours
-  bool inside_out = false;             ///< all facets looked inwards; all were turned
-  std::size_t components = 0;          ///< closed surfaces
-  double volume = 0;                   ///< enclosed; rounded
+  std::size_t merged_points = 0;        ///< points with the coordinates of another one
+  std::size_t unused_points = 0;        ///< points of no facet, dropped
+  std::size_t collapsed_facets = 0;     ///< dropped: fewer than three different vertices are left
+  std::size_t triangulated_facets = 0;  ///< polygons with more than three vertices, cut into triangles
+  std::size_t turned_facets = 0;        ///< facets that had to be turned to agree with their neighbours
+  bool inside_out = false;              ///< all facets looked inwards; all were turned
+  std::size_t components = 0;           ///< closed surfaces
+  double volume = 0;                    ///< enclosed; rounded
 };
 
 /// One line for each thing that was changed.

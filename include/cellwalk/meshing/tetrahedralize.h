@@ -16,9 +16,9 @@ struct Tetrahedralize_options {
   /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few tetrahedra as
   /// possible. Points are added inside only, so that near fine parts of the surface it may not be reached.
   double quality = 0;
-  double largest_volume = 0;            ///< of a tetrahedron; 0: any
+  double largest_volume = 0;                ///< of a tetrahedron; 0: any
   std::size_t most_added_points = 1000000;  ///< refinement stops there
-  bool keep_obstacles = false;          ///< true: obstacles stay as solid cells; false: they are left out
+  bool keep_obstacles = false;              ///< true: obstacles stay as solid cells; false: they are left out
 };
 
 struct Tetrahedralize_report {
@@ -41,7 +41,8 @@ bool has_tetgen();
 /// Not thread-safe: TetGen's messages are kept from the standard output of the process while it runs.
 /// Cost: about 20 us a tetrahedron.
 Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
-                            const Tetrahedralize_options& options = {}, Tetrahedralize_report* report = nullptr);
+                            const Tetrahedralize_options& options = {},
+                            Tetrahedralize_report* report = nullptr);
 
 }  // namespace cellwalk
 

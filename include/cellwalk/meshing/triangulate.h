@@ -15,12 +15,12 @@ struct Triangulate_options {
 };
 
 struct Triangulate_report {
-  std::size_t merged_points = 0;   ///< points with the coordinates of another one
-  std::size_t unused_points = 0;   ///< points of no segment, dropped
+  std::size_t merged_points = 0;     ///< points with the coordinates of another one
+  std::size_t unused_points = 0;     ///< points of no segment, dropped
   std::size_t dropped_segments = 0;  ///< both ends in one place, or given twice
-  std::size_t outer_holes = 0;     ///< points of holes that lie outside the domain, without effect
-  std::size_t walls = 0;           ///< inner edges that are walls with free space on both sides
-  std::size_t solid_cells = 0;     ///< with keep_holes
+  std::size_t outer_holes = 0;       ///< points of holes that lie outside the domain, without effect
+  std::size_t walls = 0;             ///< inner edges that are walls with free space on both sides
+  std::size_t solid_cells = 0;       ///< with keep_holes
 };
 
 /// Triangulates what the segments of a domain enclose, less the holes. Every segment becomes a wall; a segment with
