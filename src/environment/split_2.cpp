@@ -28,7 +28,7 @@ std::size_t split_cell(const Cell_soup<2>& soup, std::size_t c, Cell_soup<2>& re
                                                (turn < 0 ? "it is inverted (its vertices run clockwise)"
                                                          : "it crosses or touches itself") +
                                                "; repair or remove the cell");
-  const auto triangles = detail::triangulations(counts, polygon, turn, loop).front();
+  const auto triangles = detail::triangulations(counts, polygon, turn, loop, 1).front();
   for (const detail::Triangle& t : triangles) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t u = t[i], v = t[(i + 1) % 3];

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "split_soup.h"
@@ -60,7 +61,7 @@ void Split_plan::cut_facets_of_split_cells() {
     }
   for_each_index(cuts_.size(), [&](std::size_t i, Predicate_counts& counts) {
     auto options =
-        facet_triangulations(counts, soup_.points, canonical_loop(soup_.facet(cuts_[i].half_facet)));
+        facet_triangulations(counts, soup_.points, canonical_loop(soup_.facet(cuts_[i].half_facet)), 1);
     if (!options.empty()) cuts_[i].triangles = std::move(options.front());
   });
   for (const Facet_cut& cut : cuts_)
@@ -134,6 +135,7 @@ bool Split_plan::has_open_neighbor(std::uint32_t slot) const {
 bool Split_plan::repair(std::uint32_t slot) {
   // More attempts than this are not made: a hexahedron has 63 other ways to cut its facets.
   constexpr std::size_t most_attempts = 512;
+  constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   struct Alternative {
     std::uint32_t cut;
     std::size_t option;
@@ -147,7 +149,7 @@ bool Split_plan::repair(std::uint32_t slot) {
     if (!is_cut(f)) continue;
     const auto index = static_cast<std::uint32_t>(cuts.size());
     cuts.push_back(cut_of_facet_[f]);
-    options.push_back(facet_triangulations(counts, soup_.points, canonical_loop(soup_.facet(f))));
+    options.push_back(facet_triangulations(counts, soup_.points, canonical_loop(soup_.facet(f)), all));
     for (std::size_t o = 0; o < options.back().size(); ++o)
       if (options.back()[o] != cuts_[cuts.back()].triangles) alternatives.push_back({index, o});
   }

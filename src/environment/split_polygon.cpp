@@ -127,14 +127,18 @@ int simple_turn(Predicate_counts& counts, std::span<const Point<2>> polygon) {
 }
 
 std::vector<Triangulation> triangulations(Predicate_counts& counts, std::span<const Point<2>> polygon,
-                                          int sign, std::span<const std::uint32_t> rank) {
+                                          int sign, std::span<const std::uint32_t> rank, std::size_t most) {
   std::vector<std::uint32_t> order(polygon.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return rank[i] < rank[j]; });
   std::vector<Triangulation> list;
-  for (const std::uint32_t apex : order) add(list, fan(counts, polygon, sign, apex));
+  for (const std::uint32_t apex : order) {
+    add(list, fan(counts, polygon, sign, apex));
+    if (list.size() >= most) return list;
+  }
   if (polygon.size() == 4 && !list.empty()) return list;  // a quadrilateral has no others
   add(list, cut_ears(counts, polygon, sign, order));
+  if (list.size() >= most) return list;
   std::reverse(order.begin(), order.end());
   add(list, cut_ears(counts, polygon, sign, order));
   return list;
@@ -150,7 +154,7 @@ std::vector<std::uint32_t> canonical_loop(std::span<const std::uint32_t> loop) {
 }
 
 std::vector<Triangulation> facet_triangulations(Predicate_counts& counts, std::span<const Point<3>> points,
-                                                std::span<const std::uint32_t> loop) {
+                                                std::span<const std::uint32_t> loop, std::size_t most) {
   Polygon<3> polygon;
   for (const std::uint32_t v : loop) polygon.push_back(points[v]);
   const std::span<const Point<3>> corners_of(polygon.data(), polygon.size());
@@ -160,12 +164,13 @@ std::vector<Triangulation> facet_triangulations(Predicate_counts& counts, std::s
     const std::span<const Point<2>> flat_points(flat.data(), flat.size());
     const int sign = simple_turn(counts, flat_points);
     if (sign == 0) continue;
-    list = triangulations(counts, flat_points, sign, loop);
+    list = triangulations(counts, flat_points, sign, loop, most);
     break;
   }
   // Off the plane any fan without flat triangles may be what a cell needs, folded in that projection or not.
   Corners corners;
-  if (!find_corners(counts, corners_of, corners) || is_planar(counts, corners_of, corners)) {
+  if (list.size() >= most || !find_corners(counts, corners_of, corners) ||
+      is_planar(counts, corners_of, corners)) {
     to_points(list, loop);
     return list;
   }

@@ -22,9 +22,9 @@ int simple_turn(Predicate_counts& counts, std::span<const Point<2>> polygon);
 
 /// Triangulations of a simple polygon without flat triangles, as positions that run the way the polygon does, all
 /// different: fans from each vertex that allows one, then by cutting ears. `rank` orders the vertices; the lowest come
-/// first. At least one is found. \pre sign is simple_turn(polygon), not 0
+/// first. At least one is found; the search ends at `most`. \pre sign is simple_turn(polygon), not 0
 std::vector<Triangulation> triangulations(Predicate_counts& counts, std::span<const Point<2>> polygon,
-                                          int sign, std::span<const std::uint32_t> rank);
+                                          int sign, std::span<const std::uint32_t> rank, std::size_t most);
 
 /// A loop begun at its lowest vertex, in the direction of the lower one of its neighbours: the same for both sides.
 std::vector<std::uint32_t> canonical_loop(std::span<const std::uint32_t> loop);
@@ -32,9 +32,9 @@ std::vector<std::uint32_t> canonical_loop(std::span<const std::uint32_t> loop);
 /// Triangulations of a facet into triangles of point indices that run the way `loop` does, the preferred one first.
 /// Planar facets must be simple polygons. Other facets are cut along diagonals that suit their projection along the
 /// main axis of their normal, or failing that into any fan without flat triangles.
-/// Empty if there is none: the facet is planar and crosses or touches itself.
+/// The search ends at `most`. Empty if there is none: the facet is planar and crosses or touches itself.
 std::vector<Triangulation> facet_triangulations(Predicate_counts& counts, std::span<const Point<3>> points,
-                                                std::span<const std::uint32_t> loop);
+                                                std::span<const std::uint32_t> loop, std::size_t most);
 
 }  // namespace cellwalk::detail
 
