@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "certify_complex.h"
@@ -151,19 +152,29 @@ class Overlap_test {
   Predicate_counts counts_;
 };
 
+/// Appends the boundary facets of a cell.
+template <int D>
+void append_boundary_facets(const Snapshot<D>& snapshot, Cell c, std::vector<Boundary_facet<D>>& facets) {
+  Predicate_counts counts;
+  const Cell_view<D> view = snapshot.view(c);
+  for (std::size_t k = 0; k < view.facet_count(); ++k)
+    if (const Half_facet f = snapshot.half_facet(c, k); snapshot.neighbor(f) == Cell::none)
+      facets.push_back({f, plane_of_facet<D>(counts, view, k), loop_of(view, k)});
+}
+
 template <int D>
 std::vector<Boundary_facet<D>> boundary_facets(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   std::vector<Boundary_facet<D>> facets;
-  Predicate_counts counts;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
-    const Cell c = snapshot.cell(i);
-    const Cell_view<D> view = snapshot.view(c);
-    for (std::size_t k = 0; k < view.facet_count(); ++k)
-      if (const Half_facet f = snapshot.half_facet(c, k); complex.opposite(f) == Half_facet::none)
-        facets.push_back({f, plane_of_facet<D>(counts, view, k), loop_of(view, k)});
-  }
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
+    append_boundary_facets(snapshot, snapshot.cell(i), facets);
   return facets;
+}
+
+template <int D>
+[[noreturn]] void refuse_overlap(const Snapshot<D>& snapshot, Half_facet f, Cell c) {
+  refuse(full_name(snapshot, f) + " lies on the boundary, but " + name(snapshot, c) +
+         " reaches across it: cells overlap; repair the mesh, or glue what should be glued");
 }
 
 }  // namespace
@@ -203,11 +214,49 @@ void certify_boundary(const Complex<D>& complex) {
   Overlap_test<D> test(snapshot.points());
   std::vector<Entry> candidates;
   const Half_facet f = facets[lowest_overlap(c, test, candidates)].facet;
-  refuse(full_name(snapshot, f) + " lies on the boundary, but " + name(snapshot, c) +
-         " reaches across it: cells overlap; repair the mesh, or glue what should be glued");
+  refuse_overlap(snapshot, f, c);
+}
+
+template <int D>
+void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star) {
+  std::vector<Boundary_facet<D>> star_facets;
+  Box<D> star_box = box_of<D>(snapshot.points(), snapshot.view(star[0]).vertices);
+  for (const Cell c : star) {
+    append_boundary_facets(snapshot, c, star_facets);
+    boost::geometry::expand(star_box, box_of<D>(snapshot.points(), snapshot.view(c).vertices));
+  }
+  // Of each cell near the star, the first pair that overlaps.
+  const auto find_overlap = [&](Cell c, Overlap_test<D>& test) -> std::optional<std::pair<Half_facet, Cell>> {
+    const Cell_view<D> view = snapshot.view(c);
+    if (!boost::geometry::intersects(star_box, box_of<D>(snapshot.points(), view.vertices))) return {};
+    for (const Boundary_facet<D>& facet : star_facets)
+      if (snapshot.cell_of(facet.facet) != c && test(facet, view)) return std::pair(facet.facet, c);
+    std::vector<Boundary_facet<D>> facets;
+    append_boundary_facets(snapshot, c, facets);
+    for (const Boundary_facet<D>& facet : facets)
+      for (const Cell other : star)
+        if (other != c && test(facet, snapshot.view(other))) return std::pair(facet.facet, other);
+    return {};
+  };
+  std::atomic<std::size_t> first{snapshot.cell_count()};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, snapshot.cell_count(), 4096), [&](const auto& range) {
+    Overlap_test<D> test(snapshot.points());
+    for (std::size_t i = range.begin(); i != range.end() && i < first; ++i) {
+      if (!find_overlap(snapshot.cell(i), test)) continue;
+      std::size_t known = first;
+      while (i < known && !first.compare_exchange_weak(known, i)) {
+      }
+    }
+  });
+  if (first == snapshot.cell_count()) return;
+  Overlap_test<D> test(snapshot.points());
+  const auto [f, c] = *find_overlap(snapshot.cell(first), test);
+  refuse_overlap(snapshot, f, c);
 }
 
 template void certify_boundary(const Complex<2>&);
 template void certify_boundary(const Complex<3>&);
+template void certify_boundary_of_star(const Snapshot<2>&, std::span<const Cell>);
+template void certify_boundary_of_star(const Snapshot<3>&, std::span<const Cell>);
 
 }  // namespace cellwalk::detail

@@ -15,6 +15,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,12 @@ std::size_t certify_turns(const Complex<D>& complex);
 /// No boundary facet has the interior of another cell on its inner side.
 template <int D>
 void certify_boundary(const Complex<D>& complex);
+
+/// The same for a certified snapshot of which the cells of `star` have changed their geometry since, each still sound:
+/// looks only at pairs of a cell and a boundary facet of which one belongs to the star.
+/// Cost: a scan over the boxes of all cells; parallel.
+template <int D>
+void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star);
 
 /// Counts everything but the ridges.
 template <int D>

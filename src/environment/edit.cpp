@@ -9,6 +9,7 @@
 #include <array>
 #include <string>
 
+#include "certify_complex.h"
 #include "edit_map.h"
 
 namespace cellwalk {
@@ -98,9 +99,15 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
                                                  std::to_string(snapshot_.index(c)) + " would be wrong, " +
                                                  describe(check));
   }
-  // Inside, the cells of the star keep filling the same space: every sign is affine in the position of the point, so
-  // that the cells are sound all along the way. A boundary facet may run into any other cell.
-  if (on_boundary) cellwalk::certify(snapshot_, allow_duplicates_);
+  // Every sign is affine in the position of the point, so that the cells stay sound all along the way from where it
+  // was, and the angles round inner ridges with them. Only the boundary may run into other cells.
+  if (!on_boundary) return;
+  detail::certify_boundary_of_star<D>(snapshot_, star);
+  const auto points = snapshot_.points();
+  for (std::uint32_t p = 0; p < points.size(); ++p)
+    if (p != point && !allow_duplicates_ && points[p] == points[point])
+      throw Error(Error_code::not_certified, "point " + std::to_string(point) + " cannot move there: point " +
+                                                 std::to_string(p) + " lies in that place");
 }
 
 template <int D>

@@ -58,7 +58,7 @@ std::size_t ridge_count(const Cell_view<D>& cell) {
 
 struct Tally {
   std::size_t walls_made = 0, walls_removed = 0, walls_refused = 0;
-  std::size_t moved_inside = 0, moved_on_boundary = 0, moves_refused = 0;
+  std::size_t moved_inside = 0, moved_on_boundary = 0, moves_refused = 0, overlaps_refused = 0;
   std::size_t inserted = 0, inserts_refused = 0;
 };
 
@@ -100,6 +100,11 @@ void edit_point(Environment<D>& environment, Random& random, Tally& tally) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Error_code::not_certified);
     ++tally.moves_refused;
+    tally.overlaps_refused += std::string(error.what()).find("reaches across") != std::string::npos;
+    // Certification from scratch would have refused it too.
+    Cell_soup<D> moved = environment.soup();
+    moved.points[point] = target;
+    EXPECT_THROW(certify(Snapshot<D>::compile(moved, glue(moved))), Error) << error.what();
   }
 }
 
@@ -168,8 +173,43 @@ void expect_all_kinds(const Tally& tally) {
   EXPECT_GT(tally.inserts_refused, 2u);
 }
 
-TEST(Edit, KeepsMapAndSnapshotSoundAndInStep2) { expect_all_kinds(expect_sound_after_random_edits<2>(40)); }
+TEST(Edit, KeepsMapAndSnapshotSoundAndInStep2) { expect_all_kinds(expect_sound_after_random_edits<2>(60)); }
 TEST(Edit, KeepsMapAndSnapshotSoundAndInStep3) { expect_all_kinds(expect_sound_after_random_edits<3>(30)); }
+
+/// Simplices apart from each other, with gaps of half their size.
+template <int D>
+Cell_soup<D> scattered_simplices() {
+  Cell_soup<D> soup;
+  for (int i = 0; i < (D == 2 ? 9 : 27); ++i) {
+    const std::array<double, 3> corner{1.5 * (i % 3), 1.5 * (i / 3 % 3), 1.5 * (i / 9)};
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    for (int k = 0; k <= D; ++k) {
+      Point<D> p;
+      for (int j = 0; j < D; ++j) p[j] = corner[j] + (k == j + 1);
+      soup.points.push_back(p);
+    }
+    if constexpr (D == 2)
+      add_polygon(soup, std::array<std::uint32_t, 3>{first, first + 1, first + 2});
+    else
+      add_tetrahedron(soup, first, first + 1, first + 2, first + 3);
+  }
+  return soup;
+}
+
+template <int D>
+void expect_overlaps_refused() {
+  Environment<D> environment = Environment<D>::build(scattered_simplices<D>());
+  Random random(7);
+  Tally tally;
+  for (int i = 0; i < 300; ++i) edit_point(environment, random, tally);
+  expect_sound(environment, 1);
+  EXPECT_GT(tally.moved_on_boundary, 50u);
+  EXPECT_GT(tally.overlaps_refused, 10u);
+  EXPECT_GT(tally.moves_refused, tally.overlaps_refused);
+}
+
+TEST(Edit, RefusesOverlapsAsCertificationFromScratch2) { expect_overlaps_refused<2>(); }
+TEST(Edit, RefusesOverlapsAsCertificationFromScratch3) { expect_overlaps_refused<3>(); }
 
 TEST(Edit, MovesAllPartsOfAPinchedVertex) {
   const Cell_soup<3> soup = test::pinched_tetrahedra();
