@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "soup_checks.h"
+#include "environment/soup_checks.h"
 
 namespace cellwalk {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "soup_checks.h"
+#include "environment/soup_checks.h"
 
 namespace cellwalk {
 namespace {
