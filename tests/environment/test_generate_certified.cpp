@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Every generated world becomes an environment as it is: certified, nothing split, with the counts it should have.
-#include "environment/soup_checks.h"
-
-#include <gtest/gtest.h>
-
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/environment/generate/room.h>
 #include <cellwalk/environment/generate/vessel.h>
+
+#include <gtest/gtest.h>
+
+#include "environment/soup_checks.h"
 
 namespace cellwalk {
 namespace {
@@ -67,7 +67,7 @@ TEST(GeneratedEnvironment, LatticeWorldsAreCertified) {
     membranes += c.membranes, pinched += c.pinched_vertices, components += c.components;
     certificate_of(lattice_world(mixed_lattice_world<2>(seed)));
   }
-  EXPECT_GT(membranes, 500u);
+  EXPECT_GT(membranes, 200u);
   EXPECT_GT(pinched, 5u);
   EXPECT_GT(components, 24u);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Surfaces of public origin: clean ones are meshed, bad ones are refused for the reason they are bad.
+#include <cellwalk/environment/environment.h>
 #include <cellwalk/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
@@ -54,6 +55,11 @@ TEST_P(CleanSurface, IsFilledWithItsBoundaryKept) {
   EXPECT_EQ(test::count_facets(soup).crowded, 0u);
   EXPECT_EQ(soup.points.size(), surface.points.size() - report.surface.unused_points + report.added_points);
   EXPECT_NEAR(test::volume(soup), report.surface.volume, 1e-9 * report.surface.volume);
+  Build_options options;
+  options.split = false;
+  Build_report built;
+  Environment<3>::build(soup, options, &built);
+  EXPECT_EQ(built.certificate.boundary_facets, surface.facets.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, CleanSurface,
@@ -74,6 +80,7 @@ TEST(CleanSurfaces, AreApproximatedByMesh3) {
   EXPECT_GT(report.distance_to_surface, 0);
   EXPECT_LT(report.distance_to_surface, 0.02);  // of an elephant 1 long
   EXPECT_LT(report.distance_from_surface, 0.05);
+  EXPECT_NO_THROW(Environment<3>::build(soup));
 }
 
 TEST(BadSurfaces, InsideOutIsTurned) {
