@@ -35,14 +35,6 @@ bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>&
   return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), p) < 0;
 }
 
-template <int D>
-auto to_cgal(const Point<D>& p) {
-  if constexpr (D == 2)
-    return typename Map<2>::Point(p[0], p[1]);
-  else
-    return typename Map<3>::Point(p[0], p[1], p[2]);
-}
-
 }  // namespace
 
 template <int D>
@@ -132,7 +124,7 @@ void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) 
     throw;
   }
   for (const Map_vertex<D> vertex : storage.vertices_of(point))
-    storage.map.point_of_vertex_attribute(vertex) = to_cgal<D>(position);
+    storage.map.point_of_vertex_attribute(vertex) = to_map_point(position);
 }
 
 template <int D>

@@ -8,9 +8,6 @@
 namespace cellwalk {
 namespace {
 
-auto to_cgal(const Point<2>& p) { return typename Map<2>::Point(p[0], p[1]); }
-auto to_cgal(const Point<3>& p) { return typename Map<3>::Point(p[0], p[1], p[2]); }
-
 /// Calls f on each dart that starts from the vertex of d and lies in d's cell.
 template <int D, class F>
 void for_each_dart_in_corner(Map<D>& map, Dart<D> d, const F& f) {
@@ -72,7 +69,7 @@ Map_vertex<D> insert_vertex_in_cell(Map_storage<D>& storage, std::span<const Dar
   // For each dart the new ones of the face behind its edge (2D: of its triangle), in the order of their loop.
   std::vector<New_darts<D>> created(outer.size());
   storage.vertex_of_point.reserve(storage.vertex_of_point.size() + 1);
-  const Map_vertex<D> apex = map.create_vertex_attribute(to_cgal(position), point);
+  const Map_vertex<D> apex = map.create_vertex_attribute(to_map_point(position), point);
   std::size_t made = 0;
   try {
     for (; made < outer.size() * D; ++made) created[made / D][made % D] = map.create_dart();

@@ -18,9 +18,6 @@
 namespace cellwalk {
 namespace {
 
-auto to_cgal(const Point<2>& p) { return typename Map<2>::Point(p[0], p[1]); }
-auto to_cgal(const Point<3>& p) { return typename Map<3>::Point(p[0], p[1], p[2]); }
-
 /// \throw Error(not_certified) for the first cell of the plane whose edges do not follow each other
 void check_chains(const Cell_soup<2>& soup) {
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
@@ -147,7 +144,7 @@ class Vertices {
     for (std::uint32_t d = 0; d < orbit_.size(); ++d) {
       if (orbit_[d] != d) continue;
       const std::uint32_t p = darts_.origin(d);
-      const Map_vertex<D> vertex = storage.map.create_vertex_attribute(to_cgal(soup.points[p]), p);
+      const Map_vertex<D> vertex = storage.map.create_vertex_attribute(to_map_point(soup.points[p]), p);
       if (first_orbit[p] == no_facet) {
         first_orbit[p] = d;
         storage.vertex_of_point[p] = vertex;

@@ -24,7 +24,7 @@ struct Flat_cells {
 /// numbers (3D) or round the cell from the lowest (2D); a loop starts at the first dart of its half-facet. Impassable
 /// is marked on both sides and on the boundary.
 /// Right after build_map this is the soup that the map was built from.
-/// Cost: about 0.2 us a tetrahedron on one core; parallel.
+/// Cost: about 0.4 us a tetrahedron on one core; parallel.
 template <int D>
 Flat_cells<D> flatten(const Map_storage<D>& storage);
 
