@@ -22,8 +22,7 @@ struct Implicit_shape {
 /// cuts are cut; all are exactly positive and conform. Details below about two cells are lost, or leave holes.
 /// \pre depth gives the same values on every machine (no more than + - * / and sqrt), if the bytes are to be the same
 /// \throw Error(usage) if the size is not positive, the lattice has more than 10^9 points, or the shape is empty
-/// Cost: one evaluation of depth for each lattice point (1/4 of a cube of edge cell_size / 2), about 5 for each edge cut
-/// by the surface.
+/// Cost: two evaluations of depth for each cube of the box, and about five for each lattice edge that the surface cuts.
 Cell_soup<3> fill_implicit(const Implicit_shape& shape);
 
 }  // namespace cellwalk

@@ -30,7 +30,7 @@ struct Vessel_options {
 /// A branching vessel: a trunk that starts at the origin in direction z and forks into ever thinner branches, rounded at
 /// the ends. Tetrahedra, about 44,000 with the default options, in one component.
 /// \throw Error(usage) for options out of range
-/// Cost: about 5 us a tetrahedron.
+/// Cost: about 7 us a tetrahedron.
 Cell_soup<3> branching_vessel(const Vessel_options& options);
 
 /// The centre lines of its branches, parents before children: where a catheter goes.
