@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// OFF as text. CGAL's reader names no line, refuses `group` lines and takes some broken files for good.
+// OFF, as text and binary. CGAL's reader names no line, refuses `group` lines and takes some broken files for good.
 #include <fmt/format.h>
 
+#include "binary.h"
 #include "surface_parsers.h"
 #include "text.h"
 
@@ -42,12 +43,43 @@ Header read_header(Line_reader& in, Read_report& report) {
   return header;
 }
 
+/// Binary: counts of vertices, facets and edges; vertices; facets with their colours. All big endian, of 32 bits.
+Surface_soup parse_binary(const std::string& name, std::string_view data, const Header& header,
+                          Read_report& report) {
+  if (header.colours || header.normals) fail(name, "binary OFF is read without colours and normals only");
+  report.format = "OFF (binary)";
+  constexpr bool big_endian = true;
+  Binary_reader in(name, data, big_endian);
+  const auto point_count = in.take<std::uint32_t>("the number of vertices");
+  const auto facet_count = in.take<std::uint32_t>("the number of facets");
+  in.take<std::uint32_t>("the number of edges");
+  Surface_soup soup;
+  for (std::uint32_t i = 0; i < point_count; ++i) {
+    Point<3> p;
+    for (double& x : p) x = in.take<float>("a vertex");
+    if (!is_finite(p)) in.fail(fmt::format("vertex {} has a coordinate that is not finite", i));
+    soup.points.push_back(p);
+  }
+  for (std::uint32_t f = 0; f < facet_count; ++f) {
+    const auto n = in.take<std::uint32_t>("a facet");
+    if (n < 3 || n > in.left()) in.fail(fmt::format("facet {} has {} vertices: the file is broken", f, n));
+    std::vector<std::uint32_t> loop(n);
+    for (std::uint32_t& v : loop) {
+      v = in.take<std::uint32_t>("a facet");
+      if (v >= point_count) in.fail(fmt::format("facet {} names vertex {}, of {}", f, v, point_count));
+    }
+    soup.facets.push_back(std::move(loop));
+    in.skip(std::size_t{4} * in.take<std::uint32_t>("the number of colours of a facet"));
+  }
+  return soup;
+}
+
 }  // namespace
 
 Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report) {
   Line_reader in(name, bytes);
   const Header header = read_header(in, report);
-  if (header.binary) return parse_binary_off(name, bytes, report);
+  if (header.binary) return parse_binary(name, in.remaining(), header, report);
   report.format = "OFF";
   if (in.at_line_end()) in.need_line("the numbers of vertices and facets");
   const std::uint64_t point_count = in.count("the number of vertices");

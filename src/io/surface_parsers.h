@@ -10,9 +10,6 @@ namespace cellwalk::io {
 Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report);
 Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report);
 Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report);
-
-// By CGAL's polygon soup readers, which name no line.
-Surface_soup parse_binary_off(const std::string& name, std::string_view bytes, Read_report& report);
 Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report);
 
 }  // namespace cellwalk::io

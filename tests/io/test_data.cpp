@@ -99,5 +99,24 @@ TEST(BadMeshes, AreReadAsTheyAreOrRefusedForAReason) {
   EXPECT_EQ(read, 9u);
 }
 
+/// Cut at every twentieth, each file is read or refused: OBJ may end anywhere, most others may not.
+TEST(PublicMeshes, CutShortNeverCrash) {
+  constexpr std::uintmax_t largest = 200000;  // bytes: larger files only take longer
+  const Folder folder;
+  std::size_t files = 0, refused = 0;
+  for (const char* part : {"tet", "hex_poly", "surface", "bad"})
+    for (const Entry& entry : entries(part)) {
+      const auto path = data / entry.path;
+      if (std::filesystem::file_size(path) > largest) continue;
+      SCOPED_TRACE(entry.path);
+      ++files;
+      refused += static_cast<std::size_t>(refused_truncations(content_of(path), [&](const std::string& text) {
+        read_mesh(folder.write(path.filename().string(), text));
+      }));
+    }
+  EXPECT_GE(files, 15u);
+  EXPECT_GE(refused, files * 15);
+}
+
 }  // namespace
 }  // namespace cellwalk::io

@@ -84,6 +84,28 @@ TEST(Surface, OffIsReadInItsVariants) {
   EXPECT_EQ(report.facets, 4u);
 }
 
+TEST(Surface, OffIsReadAsBinaryToo) {
+  std::string bytes = "OFF BINARY\n";
+  const auto append = [&](auto value) {
+    const auto* p = reinterpret_cast<const char*>(&value);
+    for (std::size_t i = sizeof value; i-- > 0;) bytes.push_back(p[i]);  // big endian
+  };
+  for (std::uint32_t n : {4, 4, 0}) append(n);
+  for (float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) append(x);
+  for (const auto& loop : tetrahedron) {
+    append(std::uint32_t{3});
+    for (std::uint32_t v : loop) append(v);
+    append(std::uint32_t{1});  // one colour
+    append(0.5F);
+  }
+  Read_report report;
+  expect_tetrahedron(parse(bytes, Surface_format::off, &report));
+  EXPECT_EQ(report.format, "OFF (binary)");
+  EXPECT_EQ(refusal([&] { parse(bytes.substr(0, 50), Surface_format::off); }),
+            "t: the file ends where a vertex should be: it is cut short");
+  EXPECT_GE(refused_truncations(bytes, [](const std::string& t) { parse(t, Surface_format::off); }), 20);
+}
+
 TEST(Surface, OffIsRefusedWithFileAndLine) {
   struct Case {
     const char *from, *to, *message;
@@ -182,15 +204,48 @@ TEST(Surface, StlIsRefusedWithFileAndLine) {
   EXPECT_EQ(refusal([&] { parse("hello", Surface_format::stl); }), "t: too short for an STL file");
 }
 
-TEST(Surface, PlyIsReadByCgal) {
+TEST(Surface, PlyIsRead) {
   expect_tetrahedron(parse(ply, Surface_format::ply));
-  EXPECT_EQ(refusal([&] { parse(with(ply, "3 1 2 3", "3 1 2 4"), Surface_format::ply); }),
-            "t: facet 2 names vertex 4, of 4");
-  EXPECT_EQ(refusal([&] { parse("solid", Surface_format::ply); }),
-            "t:1: not a PLY file: it does not begin with 'ply'");
-  const std::string text = ply;
-  EXPECT_EQ(refusal([&] { parse(text.substr(0, text.size() - 12), Surface_format::ply); }),
-            "t: broken or cut short: CGAL cannot read it as PLY");
+  std::string big_endian = with(ply, "ascii", "binary_big_endian");
+  big_endian = with(big_endian.substr(0, big_endian.find("end_header") + 11), "int vertex", "ushort vertex");
+  for (double x : {0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.}) {
+    const auto* bytes = reinterpret_cast<const char*>(&x);
+    for (std::size_t i = sizeof x; i-- > 0;) big_endian.push_back(bytes[i]);
+  }
+  for (const auto& loop : tetrahedron) {
+    big_endian.push_back('\3');
+    for (std::uint32_t v : loop) big_endian.append(1, '\0').push_back(static_cast<char>(v));
+  }
+  expect_tetrahedron(parse(big_endian, Surface_format::ply));
+}
+
+TEST(Surface, PlyIsRefusedWithAReason) {
+  struct Case {
+    const char *from, *to, *message;
+  };
+  const Case cases[] = {{"ply\n", "plx\n", "t:1: not a PLY file: it does not begin with 'ply'"},
+                        {"ascii", "text", "t:2: 'text' is no format of PLY"},
+                        {"format ascii 1.0\n", "", "t:9: the header has no line 'format'"},
+                        {"comment made here", "property float a", "t:3: a property before any element"},
+                        {"element vertex 4", "element vertex 4000000000",
+                         "t:19: the file ends where a vertex should be: it is cut short"},
+                        {"double z", "doubel z", "t:7: 'doubel' is no type of PLY"},
+                        {"double z", "double w", "t:10: the header gives vertices no property 'z'"},
+                        {"element face", "element facet", "t: holds no polygons: a surface is needed"},
+                        {"end_header", "the end", "t:10: 'the' opens no line of a PLY header"},
+                        {"list uchar int vertex_indices", "int colour",
+                         "t:14: the header gives faces no list 'vertex_indices': a surface is needed"},
+                        {"3 1 2 3", "3 1 2 4", "t:18: facet 2 names vertex 4, of 4"},
+                        {"3 1 2 3", "3 1 2 3.5", "t:17: facet 2 names vertex 3.5"},
+                        {"3 1 2 3", "3 1 2 x", "t:17: a facet: 'x' is not a number"},
+                        {"3 1 2 3", "2 1 2", "t:17: facet 2 has 2 vertices: at least 3 are needed"},
+                        {"3 1 2 3", "99 1 2 3", "t:17: a list of 99 values: the file is cut short or broken"},
+                        {"3 1 2 3\n3 2 0 3\n", "",
+                         "t:17: the file ends where the length of a list should be: it is cut short"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.to);
+    EXPECT_EQ(refusal([&] { parse(with(ply, c.from, c.to), Surface_format::ply); }), c.message);
+  }
 }
 
 TEST(Surface, CompressedFilesAreRead) {
