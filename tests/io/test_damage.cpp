@@ -35,7 +35,7 @@ std::string damaged(std::string text, std::mt19937& random) {
         text[at] = static_cast<char>(random());
         break;
     }
-    if (text.empty()) text = " ";
+    if (text.empty()) text.push_back(' ');
   }
   return text;
 }
