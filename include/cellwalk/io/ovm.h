@@ -18,7 +18,7 @@ namespace cellwalk::io {
 
 /// Reads an .ovm file. Coordinates are taken to the last bit; the order of points, cells and facets is that of the file.
 /// \throw Error(input) with file and line: not OVM ASCII, cut short, an index out of range, halfedges that form no loop
-/// Cost: about 1.5 s for a million tetrahedra.
+/// Cost: about 2 s for a million tetrahedra.
 Mesh_file read_ovm(const std::filesystem::path& path);
 
 /// The same from text in memory; `name` stands for the file in errors.
