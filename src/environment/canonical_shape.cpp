@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "canonical_shape.h"
 
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/predicates.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
-
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/predicates.h>
 
 namespace cellwalk {
 namespace {

@@ -3,11 +3,11 @@
 #ifndef CELLWALK_ENVIRONMENT_CANONICAL_SHAPE_H
 #define CELLWALK_ENVIRONMENT_CANONICAL_SHAPE_H
 
-#include <cstdint>
-#include <vector>
-
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/records/cell_soup.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace cellwalk {
 

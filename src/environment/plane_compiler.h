@@ -3,10 +3,10 @@
 #ifndef CELLWALK_ENVIRONMENT_PLANE_COMPILER_H
 #define CELLWALK_ENVIRONMENT_PLANE_COMPILER_H
 
-#include <span>
-
 #include <cellwalk/environment/planes.h>
 #include <cellwalk/kernel/point.h>
+
+#include <span>
 
 namespace cellwalk {
 

@@ -3,11 +3,11 @@
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_COMPILER_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_COMPILER_H
 
+#include <cellwalk/environment/snapshot.h>
+
 #include <cstdint>
 #include <mutex>
 #include <vector>
-
-#include <cellwalk/environment/snapshot.h>
 
 #include "canonical_shape.h"
 

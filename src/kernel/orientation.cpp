@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/policies.h>
+
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
-#include <cellwalk/kernel/policies.h>
 
 namespace cellwalk::detail {
 namespace {

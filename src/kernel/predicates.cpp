@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/predicates.h>
+
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/predicates.h>
 
 namespace cellwalk {
 namespace {

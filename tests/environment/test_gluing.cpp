@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <gtest/gtest.h>
-
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
 
 namespace cellwalk {
 namespace {

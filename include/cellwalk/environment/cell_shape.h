@@ -4,11 +4,11 @@
 #ifndef CELLWALK_ENVIRONMENT_CELL_SHAPE_H
 #define CELLWALK_ENVIRONMENT_CELL_SHAPE_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 

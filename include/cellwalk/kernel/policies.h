@@ -13,10 +13,10 @@
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cmath>
 #include <cstdint>
-
-#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_KERNEL_PREDICATES_H
 #define CELLWALK_KERNEL_PREDICATES_H
 
-#include <span>
-
 #include <cellwalk/kernel/point.h>
+
+#include <span>
 
 namespace cellwalk {
 

@@ -3,13 +3,13 @@
 #ifndef CELLWALK_RECORDS_CELL_SOUP_H
 #define CELLWALK_RECORDS_CELL_SOUP_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <vector>
-
-#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 

@@ -3,10 +3,10 @@
 #ifndef CELLWALK_RECORDS_SURFACE_SOUP_H
 #define CELLWALK_RECORDS_SURFACE_SOUP_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <cellwalk/kernel/point.h>
 
 namespace cellwalk {
 
