@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// From a soup of tetrahedra to a certified environment: time, and bytes a tetrahedron, of each stage.
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/environment/map.h>
+#include <cellwalk/walk/locate.h>
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <utility>
+
+namespace {
+
+using namespace cellwalk;
+
+Cell_soup<3> soup_of(const benchmark::State& state) {
+  Simplex_grid_options<3> options;
+  const auto side = static_cast<std::uint32_t>(std::cbrt(static_cast<double>(state.range(0)) / 6) + 0.5);
+  options.cells = {side, side, side};
+  options.jitter = 0.12;
+  return tetrahedral_grid(options);
+}
+
+void report(benchmark::State& state, std::size_t cells, std::size_t bytes) {
+  state.counters["tetrahedra"] = static_cast<double>(cells);
+  if (bytes > 0)
+    state.counters["bytes_per_tetrahedron"] = static_cast<double>(bytes) / static_cast<double>(cells);
+}
+
+/// The whole way: duplicates, check of every cell, gluing, map, snapshot, certification.
+void build_environment(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  std::size_t bytes = 0, map_bytes = 0;
+  for (auto _ : state) {
+    const Environment<3> environment = Environment<3>::build(soup);
+    bytes = environment.snapshot().bytes();
+    map_bytes = environment.storage().map.bytes();
+  }
+  report(state, soup.cell_count(), bytes);
+  state.counters["map_bytes_per_tetrahedron"] =
+      static_cast<double>(map_bytes) / static_cast<double>(soup.cell_count());
+}
+
+/// The same without a map: what a program that never edits does.
+void build_frozen_environment(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  Build_options options;
+  options.keep_map = false;
+  std::size_t bytes = 0;
+  for (auto _ : state) {
+    const Environment<3> environment = Environment<3>::build(soup, options);
+    bytes = environment.snapshot().bytes();
+  }
+  report(state, soup.cell_count(), bytes);
+}
+
+void glue_soup(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  for (auto _ : state) benchmark::DoNotOptimize(glue(soup));
+  report(state, soup.cell_count(), 0);
+}
+
+void compile_snapshot(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  const Gluing gluing = glue(soup);
+  for (auto _ : state) benchmark::DoNotOptimize(Snapshot<3>::compile(soup, gluing));
+  report(state, soup.cell_count(), 0);
+}
+
+void certify_snapshot(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
+  for (auto _ : state) benchmark::DoNotOptimize(certify(snapshot));
+  report(state, soup.cell_count(), 0);
+}
+
+void build_locator(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
+  for (auto _ : state) benchmark::DoNotOptimize(Locator<3>(snapshot));
+  report(state, soup.cell_count(), 0);
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->Arg(100000)->Arg(1000000)->ArgName("tetrahedra")->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(build_environment)->Apply(sizes);
+BENCHMARK(build_frozen_environment)->Apply(sizes);
+BENCHMARK(glue_soup)->Apply(sizes);
+BENCHMARK(compile_snapshot)->Apply(sizes);
+BENCHMARK(certify_snapshot)->Apply(sizes);
+BENCHMARK(build_locator)->Apply(sizes);
+
+}  // namespace
