@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk check ENV: certifies an environment, its map included, and says what it holds.
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/environment_file.h"
+
+namespace cellwalk::cli {
+namespace {
+
+struct Check_options {
+  std::string environment, json;
+  Build_options build;
+};
+
+void check(const Check_options& options) {
+  const Loaded_environment loaded = load_environment(options.environment, options.build);
+  std::visit(
+      [&]<int D>(const Environment<D>& environment) {
+        const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
+        write_json(options.json,
+                   {{"environment", options.environment}, {"certificate", to_json(certificate, D)}});
+        fmt::print("{}: certified, {}D\n{}", options.environment, D, describe(certificate, D));
+      },
+      loaded.environment);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<Check_options>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Certify an environment exactly, and print counts, volumes, walls and components");
+  command->add_option("environment", options->environment, "A file of cells (.ovm, .msh, .vtk, ...)")
+      ->required()
+      ->type_name("ENV");
+  add_duplicates(*command, options->build.duplicates);
+  add_json(*command, options->json);
+  command->callback([options, &chosen] { chosen = [options] { check(*options); }; });
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk generate KIND ... -o ENV.ovm: environments that need no file.
+#include <cellwalk/io/numbers.h>
+#include <cellwalk/io/ovm.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <utility>
+
+#include "cli/command.h"
+#include "cli/environment_file.h"
+#include "cli/generators.h"
+#include "cli/progress.h"
+
+namespace cellwalk::cli {
+namespace {
+
+struct Generate_options {
+  Generator_values values;
+  std::string environment, json;
+};
+
+template <int D>
+void write_environment(Cell_soup<D> soup, const Generate_options& options) {
+  Build_report report;
+  {
+    const Progress progress("certifying and writing " + options.environment);
+    const auto environment =
+        Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
+    io::write_ovm(options.environment, environment.soup());
+  }
+  write_json(options.json,
+             {{"environment", options.environment}, {"certificate", to_json(report.certificate, D)}});
+  fmt::print("{}: certified, {}D\n{}", options.environment, D, describe(report.certificate, D));
+}
+
+std::string default_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double x : numbers) text += (text.empty() ? "" : " ") + io::shortest(x);
+  return text;
+}
+
+void add_option(CLI::App& command, const Generator_option& option, Generator_values& values) {
+  const std::string name = "--" + option.name;
+  if (option.is_flag) {
+    command.add_flag_callback(
+        name, [&values, key = option.name] { values[key] = {1}; }, option.help);
+    return;
+  }
+  const int most = static_cast<int>(option.initial.size());
+  command
+      .add_option_function<std::vector<double>>(
+          name, [&values, key = option.name](const std::vector<double>& numbers) { values[key] = numbers; },
+          option.help + (most > 1 ? "; one number stands for all" : ""))
+      ->expected(1, most)
+      ->type_name(most > 1 ? "N..." : "N")
+      ->default_str(default_text(option.initial));
+}
+
+void add_kind(CLI::App& generate_command, const Generator& generator, Action& chosen) {
+  const auto options = std::make_shared<Generate_options>();
+  CLI::App* command = generate_command.add_subcommand(generator.name, generator.help);
+  add_environment_output(*command, options->environment);
+  for (const Generator_option& option : generator.options) add_option(*command, option, options->values);
+  add_json(*command, options->json);
+  command->callback([options, &chosen, name = generator.name] {
+    chosen = [options, name] {
+      std::visit([&](auto&& soup) { write_environment(std::move(soup), *options); },
+                 generate(name, options->values));
+    };
+  });
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("generate", "Make an environment that needs no file");
+  command->require_subcommand(1);
+  for (const Generator& generator : generators()) add_kind(*command, generator, chosen);
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cli/generators.h"
+
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/generate/lattice_map.h>
+#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace cellwalk::cli {
+namespace {
+
+double number(const Generator_values& values, const char* name) { return values.at(name)[0]; }
+bool flag(const Generator_values& values, const char* name) { return number(values, name) != 0; }
+std::uint64_t seed(const Generator_values& values) {
+  return static_cast<std::uint64_t>(number(values, "seed"));
+}
+
+template <int D>
+std::array<std::uint32_t, D> cells(const Generator_values& values) {
+  std::array<std::uint32_t, D> counts;
+  for (int i = 0; i < D; ++i) counts[i] = static_cast<std::uint32_t>(values.at("cells")[i]);
+  return counts;
+}
+
+template <int D>
+Lattice_map<D> placement(const Generator_values& values) {
+  const double scale = number(values, "scale");
+  if (flag(values, "rotated") && flag(values, "sheared"))
+    throw Error(Error_code::usage, "a lattice is either rotated or sheared: leave one of them out");
+  if (flag(values, "rotated")) return rotated<D>(scale);
+  if (flag(values, "sheared")) return sheared<D>(scale);
+  return scaled<D>(scale);
+}
+
+template <int D>
+Any_soup grid(const Generator_values& values) {
+  Grid_options<D> options;
+  options.cells = cells<D>(values);
+  options.solid_share = number(values, "solid");
+  options.seed = seed(values);
+  options.map = placement<D>(values);
+  if constexpr (D == 2)
+    return square_grid(options);
+  else
+    return hex_grid(options);
+}
+
+template <int D>
+Any_soup simplex_grid(const Generator_values& values) {
+  Simplex_grid_options<D> options;
+  options.cells = cells<D>(values);
+  options.jitter = number(values, "jitter");
+  options.seed = seed(values);
+  options.map = placement<D>(values);
+  if constexpr (D == 2)
+    return triangle_grid(options);
+  else
+    return tetrahedral_grid(options);
+}
+
+template <int D>
+Any_soup lattice(const Generator_values& values) {
+  auto options = mixed_lattice_world<D>(seed(values));
+  options.cells = cells<D>(values);
+  options.map = placement<D>(values);
+  return lattice_world(options);
+}
+
+const Generator_option seed_option{"seed", "What is random follows from it", {1}, false, true};
+
+/// What every lattice takes, and some more.
+std::vector<Generator_option> lattice_options(int dimension, double cells,
+                                              std::vector<Generator_option> more) {
+  const std::size_t axes = static_cast<std::size_t>(dimension);
+  std::vector<Generator_option> options{
+      {"cells", "Cells along each axis", std::vector<double>(axes, cells), false, true}, seed_option};
+  options.insert(options.end(), more.begin(), more.end());
+  options.push_back({"scale", "Size of a cell", {1}});
+  options.push_back(
+      {"rotated", "Turned so that no plane stays parallel to an axis; cells get larger", {0}, true});
+  options.push_back({"sheared", "Leaning by half a cell", {0}, true});
+  return options;
+}
+
+std::vector<Generator> make_table() {
+  const Generator_option solid{"solid", "Share of cells that are solid and touch each other nowhere", {0}};
+  const Generator_option jitter{"jitter", "Points move by up to this much along each axis, in cells", {0}};
+  return {
+      {"hexes", "A grid of hexahedra, some of them solid", lattice_options(3, 10, {solid}), grid<3>},
+      {"tets", "A grid of cubes cut into tetrahedra", lattice_options(3, 10, {jitter}), simplex_grid<3>},
+      {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {}),
+       lattice<3>},
+      {"squares", "2D: a grid of squares, some of them solid", lattice_options(2, 10, {solid}), grid<2>},
+      {"triangles", "2D: a grid of squares cut into triangles", lattice_options(2, 10, {jitter}),
+       simplex_grid<2>},
+      {"lattice2d", "2D: cells of many shapes, membranes, solid and missing cells", lattice_options(2, 4, {}),
+       lattice<2>},
+  };
+}
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(Error_code::usage, message); }
+
+std::string names_of(const auto& entries) {
+  std::string names;
+  for (const auto& entry : entries) names += (names.empty() ? "" : ", ") + entry.name;
+  return names;
+}
+
+/// The numbers of one option: as given, one repeated for every axis, or what stands there.
+std::vector<double> complete(const Generator_option& option, const Generator_values& values) {
+  const auto given = values.find(option.name);
+  if (given == values.end()) return option.initial;
+  std::vector<double> numbers = given->second;
+  if (numbers.size() == 1) numbers.resize(option.initial.size(), numbers[0]);
+  if (numbers.size() != option.initial.size())
+    refuse(fmt::format("{} takes {} number{}, not {}", option.name,
+                       option.initial.size() == 1 ? "1" : "1 or " + std::to_string(option.initial.size()),
+                       option.initial.size() == 1 ? "" : "s", given->second.size()));
+  for (const double x : numbers) {
+    if (!std::isfinite(x)) refuse(option.name + " is not a finite number");
+    const bool is_count = x == std::floor(x) && x >= 0 && x <= std::numeric_limits<std::uint32_t>::max();
+    if (option.is_integer && !is_count)
+      refuse(fmt::format("{} takes a whole number from 0 to 2^32 - 1, not {}", option.name, x));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+const std::vector<Generator>& generators() {
+  static const std::vector<Generator> table = make_table();
+  return table;
+}
+
+Any_soup generate(const std::string& name, const Generator_values& values) {
+  const auto& table = generators();
+  const auto by_name = [](const std::string& wanted) {
+    return [&wanted](const auto& e) { return e.name == wanted; };
+  };
+  const auto generator = std::find_if(table.begin(), table.end(), by_name(name));
+  if (generator == table.end()) refuse("there is no generator " + name + ": take one of " + names_of(table));
+  for (const auto& [option, numbers] : values)
+    if (std::none_of(generator->options.begin(), generator->options.end(), by_name(option)))
+      refuse(fmt::format("{} has no option {}: it takes {}", name, option, names_of(generator->options)));
+  Generator_values completed;
+  for (const Generator_option& option : generator->options) completed[option.name] = complete(option, values);
+  return generator->make(completed);
+}
+
+}  // namespace cellwalk::cli

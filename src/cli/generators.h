@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Every generator by name, with its options: one table for `cellwalk generate` and for the recipes of scenes.
+#ifndef CELLWALK_CLI_GENERATORS_H
+#define CELLWALK_CLI_GENERATORS_H
+
+#include <cellwalk/records/cell_soup.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cellwalk::cli {
+
+using Any_soup = std::variant<Cell_soup<2>, Cell_soup<3>>;
+
+/// Options by name, each a list of numbers. A flag is on where its number is not 0.
+using Generator_values = std::map<std::string, std::vector<double>>;
+
+struct Generator_option {
+  std::string name;
+  std::string help;
+  std::vector<double> initial;  ///< what stands where nothing is given; as many numbers as may be given
+  bool is_flag = false;
+  bool is_integer = false;
+};
+
+struct Generator {
+  std::string name;
+  std::string help;
+  std::vector<Generator_option> options;
+  Any_soup (*make)(const Generator_values& complete);
+};
+
+/// All generators, in the order in which help shows them.
+const std::vector<Generator>& generators();
+
+/// Makes the cells of a generator. An option that takes one number for each axis takes a single one for all.
+/// \throw Error(usage) for an unknown generator or option, a wrong count of numbers, one that is not finite, or not an
+///        integer where one is needed, and as the generator itself does
+Any_soup generate(const std::string& generator, const Generator_values& values);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_GENERATORS_H

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/mesher.h"
+
+#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/meshing/tetrahedralize.h>
+#include <cellwalk/meshing/triangulate.h>
+
+#include <fmt/core.h>
+
+#include "cli/environment_file.h"
+
+namespace cellwalk::cli {
+namespace {
+
+nlohmann::ordered_json to_json(const Surface_report& surface) {
+  return {{"points_read", surface.points_read},
+          {"facets_read", surface.facets_read},
+          {"merged_points", surface.merged_points},
+          {"unused_points", surface.unused_points},
+          {"collapsed_facets", surface.collapsed_facets},
+          {"triangulated_facets", surface.triangulated_facets},
+          {"turned_facets", surface.turned_facets},
+          {"inside_out", surface.inside_out},
+          {"components", surface.components},
+          {"volume", surface.volume}};
+}
+
+/// What was put right on each surface.
+template <class Report>
+void add_surfaces(const Report& report, Meshed<3>& meshed) {
+  meshed.report["surface"] = to_json(report.surface);
+  for (const std::string& line : describe(report.surface)) meshed.lines.push_back("surface: " + line);
+  for (std::size_t i = 0; i < report.obstacles.size(); ++i) {
+    meshed.report["obstacles"].push_back(to_json(report.obstacles[i]));
+    for (const std::string& line : describe(report.obstacles[i]))
+      meshed.lines.push_back(fmt::format("obstacle {}: {}", i + 1, line));
+  }
+}
+
+Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                      const Mesher_options& options) {
+  Tetrahedralize_options tetgen;
+  tetgen.quality = options.quality;
+  tetgen.keep_obstacles = options.keep_obstacles;
+  Tetrahedralize_report report;
+  Meshed<3> meshed{tetrahedralize(surface, obstacles, tetgen, &report), {}, {}};
+  meshed.lines.push_back(
+      fmt::format("TetGen: {} tetrahedra, {} points added inside, all {} surface triangles kept",
+                  meshed.soup.cell_count(), report.added_points, report.boundary_facets));
+  meshed.report = {{"mesher", "tetgen"},
+                   {"cells", meshed.soup.cell_count()},
+                   {"added_points", report.added_points},
+                   {"boundary_facets", report.boundary_facets},
+                   {"solid_cells", report.solid_cells}};
+  add_surfaces(report, meshed);
+  return meshed;
+}
+
+Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                     const Mesher_options& options) {
+  Mesh3_options mesh;
+  mesh.cell_size = options.cell_size;
+  mesh.facet_distance = options.distance;
+  Mesh3_report report;
+  Meshed<3> meshed{mesh3(surface, obstacles, mesh, &report), {}, {}};
+  meshed.lines.push_back(
+      fmt::format("Mesh_3: {} tetrahedra, {} boundary triangles; the boundary approximates the surface: {} "
+                  "from it, it is {} away",
+                  meshed.soup.cell_count(), report.boundary_facets, rounded(report.distance_to_surface),
+                  rounded(report.distance_from_surface)));
+  meshed.report = {{"mesher", "mesh3"},
+                   {"cells", meshed.soup.cell_count()},
+                   {"boundary_facets", report.boundary_facets},
+                   {"distance_to_surface", report.distance_to_surface},
+                   {"distance_from_surface", report.distance_from_surface}};
+  add_surfaces(report, meshed);
+  return meshed;
+}
+
+}  // namespace
+
+Mesher_parts mesher_parts() { return {true, has_tetgen()}; }
+
+void add_mesher_options(CLI::App& command, Mesher_options& options) {
+  add_choice(
+      command, "--mesher", options.mesher, {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}},
+      "For a surface: TetGen keeps it exactly; Mesh_3 approximates it with better cells and says how far");
+  command
+      .add_option("--quality", options.quality,
+                  "TetGen: bound of circumradius to shortest edge, such as 1.5; 0: none")
+      ->type_name("Q");
+  command
+      .add_option("--cell-size", options.cell_size, "Mesh_3: bound of circumradii, in units of the surface")
+      ->type_name("H");
+  command.add_option("--distance", options.distance, "Mesh_3: how far the boundary may leave the surface")
+      ->type_name("D");
+  command.add_flag("--keep-obstacles", options.keep_obstacles,
+                   "Keep the inside of obstacles and holes as solid cells");
+}
+
+Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                       const Mesher_options& options) {
+  return options.mesher == Mesher::tetgen ? with_tetgen(surface, obstacles, options)
+                                          : with_mesh3(surface, obstacles, options);
+}
+
+Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options) {
+  Triangulate_report report;
+  Meshed<2> meshed{triangulate(domain, {options.keep_obstacles}, &report), {}, {}};
+  meshed.lines.push_back(fmt::format("constrained triangulation: {} triangles, {} membranes",
+                                     meshed.soup.cell_count(), report.walls));
+  const auto changed = [&meshed](std::size_t count, const char* what) {
+    if (count != 0) meshed.lines.push_back(fmt::format("{} {}", count, what));
+  };
+  changed(report.merged_points, "points merged with others in the same place");
+  changed(report.unused_points, "points of no segment left out");
+  changed(report.outer_holes, "hole points outside the domain, without effect");
+  changed(report.dropped_segments, "segments left out: given twice, or without length");
+  meshed.report = {{"mesher", "constrained triangulation"},
+                   {"cells", meshed.soup.cell_count()},
+                   {"membranes", report.walls},
+                   {"merged_points", report.merged_points},
+                   {"unused_points", report.unused_points},
+                   {"dropped_segments", report.dropped_segments},
+                   {"outer_holes", report.outer_holes},
+                   {"solid_cells", report.solid_cells}};
+  return meshed;
+}
+
+}  // namespace cellwalk::cli

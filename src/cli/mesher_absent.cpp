@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+
+#include "cli/mesher.h"
+
+namespace cellwalk::cli {
+namespace {
+
+[[noreturn]] void refuse(const char* what) {
+  throw Error(Error_code::usage,
+              std::string("this build cannot mesh ") + what +
+                  ": configure it with -DCELLWALK_WITH_MESHING=ON, or import a mesh of cells");
+}
+
+}  // namespace
+
+Mesher_parts mesher_parts() { return {}; }
+
+void add_mesher_options(CLI::App&, Mesher_options&) {}
+
+Meshed<3> mesh_surface(const Surface_soup&, const std::vector<Surface_soup>&, const Mesher_options&) {
+  refuse("a surface");
+}
+
+Meshed<2> mesh_domain(const Planar_domain&, const Mesher_options&) { refuse("a planar domain"); }
+
+}  // namespace cellwalk::cli

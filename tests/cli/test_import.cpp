@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "cli/meshes.h"
+#include "cli/program.h"
+
+namespace cellwalk::test {
+namespace {
+
+class Import : public Program {
+ protected:
+  /// Imports `mesh` to env.ovm, expects that it is certified, and returns the report.
+  nlohmann::json import(const std::string& mesh, std::vector<std::string> options = {}) const {
+    std::vector<std::string> arguments{"import", mesh, "-o", "env.ovm", "--json", "report.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    said_ = succeed(arguments);
+    const auto report = nlohmann::json::parse(text("report.json"));
+    succeed({"check", "env.ovm", "--json", "check.json"});
+    EXPECT_EQ(nlohmann::json::parse(text("check.json")).at("certificate"), report.at("certificate"));
+    return report;
+  }
+
+  mutable std::string said_;  // by the last import
+};
+
+TEST_F(Import, SplitsACellThatIsNotPlanarAndSaysSo) {
+  write("bulged.ovm", hexahedron_ovm(0.25));
+  const auto report = import("bulged.ovm");
+  EXPECT_EQ(report.at("changed").at("cells_split"), 1);
+  EXPECT_EQ(report.at("changed").at("not_planar"), 1);
+  EXPECT_EQ(report.at("changed").at("cells_made"), report.at("certificate").at("cells"));
+  EXPECT_GE(report.at("changed").at("facets_triangulated"), 3);
+  EXPECT_NE(said_.find("1 of 1 cells split into"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("env.ovm: certified, 3D"), std::string::npos) << said_;
+  expect_failure(4, {"import", "bulged.ovm", "-o", "out.ovm", "--no-split"},
+                 {"bulged.ovm: ", "cell 0", "planar"});
+}
+
+TEST_F(Import, LeavesExactCellsAsTheyAre) {
+  succeed({"generate", "lattice", "--cells", "3", "-o", "lattice.ovm"});
+  const auto report = import("lattice.ovm");
+  EXPECT_EQ(report.at("changed").at("cells_split"), 0);
+  EXPECT_NE(said_.find("nothing: every cell is exact as it is"), std::string::npos) << said_;
+  const auto points = [](const std::string& ovm) { return ovm.substr(0, ovm.find("Edges")); };
+  EXPECT_EQ(points(text("env.ovm")), points(text("lattice.ovm"))) << "every coordinate bit by bit";
+}
+
+TEST_F(Import, TurnsInvertedCellsRoundAndSaysSo) {
+  std::string inverted = hexahedron_ovm(0);
+  inverted.replace(inverted.find("6 0 2 4 6 8 10"), 14, "6 1 3 5 7 9 11");
+  write("inverted.ovm", inverted);
+  expect_failure(4, {"check", "inverted.ovm"}, {"inverted", "import"});
+  EXPECT_EQ(import("inverted.ovm").at("changed").at("flipped"), true);
+  EXPECT_NE(said_.find("every cell was inverted"), std::string::npos) << said_;
+}
+
+TEST_F(Import, LeavesNothingBehindWhereItFails) {
+  expect_failure(3, {"import", "missing.msh", "-o", "env.ovm"}, {"missing.msh"});
+  write("words.ovm", "no mesh at all\n");
+  expect_failure(3, {"import", "words.ovm", "-o", "env.ovm", "--json", "report.json"}, {"words.ovm"});
+  write("fine.ovm", hexahedron_ovm(0));
+  expect_failure(1, {"import", "fine.ovm", "-o", "nowhere/env.ovm"}, {"nowhere"});
+  expect_failure(2, {"import", "fine.ovm", "-o", "env.off"}, {"*.ovm"});
+  write("obstacle.off", cube_off());
+  expect_failure(2, {"import", "fine.ovm", "--obstacle", "obstacle.off", "-o", "env.ovm"},
+                 {"--obstacle", "surface"});
+}
+
+TEST_F(Import, AnOutputMayReplaceItsInput) {
+  write("env.ovm", hexahedron_ovm(0.25));
+  succeed({"import", "env.ovm", "-o", "env.ovm"});
+  succeed({"check", "env.ovm"});
+}
+
+#ifdef CELLWALK_TEST_MESHING
+TEST_F(Import, FillsAClosedSurface) {
+  write("cube.off", cube_off(2));
+  for (const char* mesher : {"tetgen", "mesh3"}) {
+    const auto report = import("cube.off", {"--mesher", mesher});
+    EXPECT_EQ(report.at("meshed").at("mesher"), mesher);
+    EXPECT_NEAR(report.at("certificate").at("volume").get<double>(), 8, 1);
+    const std::string bytes = text("env.ovm");
+    import("cube.off", {"--mesher", mesher});
+    EXPECT_EQ(text("env.ovm"), bytes);
+  }
+  EXPECT_EQ(import("cube.off").at("certificate").at("volume"), 8) << "TetGen keeps the surface";
+}
+
+TEST_F(Import, ObstaclesBecomeWalls) {
+  write("cube.off", cube_off(4));
+  write("inner.off", cube_off(1, 0.5));
+  write("other.off", cube_off(1, 2.25));
+  const std::vector<std::string> obstacles{"--obstacle", "inner.off", "--obstacle", "other.off"};
+  const auto report = import("cube.off", obstacles);
+  EXPECT_EQ(report.at("meshed").at("obstacles").size(), 2u);
+  EXPECT_EQ(report.at("certificate").at("volume"), 62);
+  auto keeping = obstacles;
+  keeping.push_back("--keep-obstacles");
+  const auto kept = import("cube.off", keeping);
+  EXPECT_EQ(kept.at("certificate").at("volume"), 64);
+  EXPECT_EQ(kept.at("certificate").at("free_volume"), 62);
+
+  write("env2.ovm", hexahedron_ovm(0));
+  expect_failure(3, {"import", "cube.off", "--obstacle", "env2.ovm", "-o", "out.ovm"},
+                 {"env2.ovm", "obstacle"});
+}
+
+TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {
+  write("cube.off", cube_off(1, 0, true));
+  EXPECT_EQ(import("cube.off").at("meshed").at("surface").at("inside_out"), true);
+}
+
+TEST_F(Import, RefusesAnOpenSurface) {
+  write("open.off", open_cube_off());
+  expect_failure(3, {"import", "open.off", "-o", "env.ovm"}, {"open.off: ", "open"});
+}
+
+TEST_F(Import, FillsAPlanarDomainWithHoles) {
+  write("room.poly", room_poly());
+  const auto report = import("room.poly");
+  EXPECT_EQ(report.at("certificate").at("dimension"), 2);
+  EXPECT_EQ(report.at("certificate").at("volume"), 15);
+  const auto kept = import("room.poly", {"--keep-obstacles"});
+  EXPECT_EQ(kept.at("certificate").at("volume"), 16);
+  EXPECT_EQ(kept.at("certificate").at("free_volume"), 15);
+}
+#endif
+
+}  // namespace
+}  // namespace cellwalk::test

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cli/program.h"
+
+namespace cellwalk::test {
+namespace {
+
+using Usage = Program;
+
+TEST_F(Usage, VersionNamesTheOptionalParts) {
+  const std::string version = succeed({"--version"});
+  EXPECT_TRUE(version.starts_with("cellwalk 0.")) << version;
+  for (const char* part : {"cgal", "meshing", "tetgen", "gmsh", "vtk"})
+    EXPECT_NE(version.find("\n  " + std::string(part) + " "), std::string::npos) << version;
+}
+
+TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
+  const std::string help = succeed({"--help"});
+  for (const char* text : {"import", "check", "generate", "query", "4 environment not certified"})
+    EXPECT_NE(help.find(text), std::string::npos) << help;
+}
+
+TEST_F(Usage, EveryCommandHasHelp) {
+  for (const char* command : {"import", "check", "generate", "query"})
+    EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
+              std::string::npos);
+}
+
+TEST_F(Usage, MistakesEndWithExitCode2AndOneLine) {
+  expect_failure(2, {}, {"subcommand is required", "see cellwalk --help"});
+  expect_failure(2, {"fly"}, {"fly", "see cellwalk --help"});
+  expect_failure(2, {"check"}, {"environment is required"});
+  expect_failure(2, {"check", "a.ovm", "b.ovm"}, {"b.ovm"});
+  expect_failure(2, {"check", "a.ovm", "--fast"}, {"--fast"});
+  expect_failure(2, {"check", "a.ovm", "--duplicates", "perhaps"},
+                 {"--duplicates", "refuse|merge|keep", "perhaps"});
+}
+
+TEST_F(Usage, ModesThatDoNotExistAreRefused) {
+  expect_failure(2, {"query", "a.ovm", "q.csv", "-o", "out.csv", "--mode", "sweep"},
+                 {"--mode", "takes move"});
+}
+
+TEST_F(Usage, ReportsThatCannotBeWrittenAreErrors) {
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
+  expect_failure(1, {"check", "env.ovm", "--json", "nowhere/report.json"}, {"nowhere"});
+}
+
+TEST_F(Usage, AFullStandardOutputIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) FAIL() << "this test needs /dev/full";
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
+  expect_failure(1, {"generate", "squares", "--cells", "2", "-o", "/dev/full"}, {"/dev/full"});
+}
+
+}  // namespace
+}  // namespace cellwalk::test
