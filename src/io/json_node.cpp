@@ -27,7 +27,8 @@ std::unique_ptr<json> parse_json(const std::string& name, std::string_view text)
     return true;
   };
   try {
-    auto document = std::make_unique<json>(json::parse(text, watch));
+    constexpr bool throws = true, skips_comments = true;
+    auto document = std::make_unique<json>(json::parse(text, watch, throws, skips_comments));
     if (repeated)
       throw Error(Error_code::input, fmt::format("{}: {}: key given twice in one object", name, *repeated));
     return document;

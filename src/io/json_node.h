@@ -17,7 +17,7 @@
 
 namespace cellwalk::io::detail {
 
-/// Parses JSON. \throw Error(input) naming the line, also for keys that are given twice
+/// Parses JSON; comments (// and /* */) are allowed. \throw Error(input) naming the line, also for keys that are given twice
 std::unique_ptr<nlohmann::json> parse_json(const std::string& name, std::string_view text);
 
 /// A read-only view of a value. Does not own the document.

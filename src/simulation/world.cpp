@@ -15,9 +15,11 @@ void World<D>::step() {
 
 template <int D>
 void World<D>::report(std::size_t particle) {
-  for (const Met_contact<D>& m : met_)
-    contacts_.push_back({steps_done_, static_cast<std::uint32_t>(particle), m.time, m.contact.point,
-                         m.contact.normal, m.contact.kind, snapshot_.index(m.contact.cell)});
+  for (const Met_contact<D>& m : met_) {
+    const Vector<D> normal = m.contact.normal + Vector<D>{};  // no negative zeros for readers of tables
+    contacts_.push_back({steps_done_, static_cast<std::uint32_t>(particle), m.time, m.contact.point, normal,
+                         m.contact.kind, snapshot_.index(m.contact.cell)});
+  }
   met_.clear();
 }
 

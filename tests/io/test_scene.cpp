@@ -10,7 +10,7 @@
 namespace cellwalk::io {
 namespace {
 
-constexpr const char* complete = R"({
+constexpr const char* complete = R"({  // everything
   "dimension": 3, "title": "A test", "environment": {"generate": "vessel", "radius": 2.5, "size": [1, 2, 3]},
   "particles": [{"position": [1, 2, 3], "velocity": [0.5, 0, -1e-3]}, {"position": [0, 0, 0]},
                 {"count": 7, "speed": 2, "seed": 9007199254740992}],

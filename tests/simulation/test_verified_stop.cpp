@@ -39,7 +39,7 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
   ASSERT_NE(start.cell, Cell::none);
   Random random(5);
   Walk_counts counts;
-  int stops = 0, stuck = 0;
+  int stops = 0, at_the_point = 0, stuck = 0;
   for (int i = 0; i < 5000; ++i) {
     auto particle = start;
     Point<3> inside, target;
@@ -50,11 +50,32 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
     if (result.status != Walk_status::contact) continue;
     ++stops;
     if (!stop_at_contact(snapshot, particle, target, result.contact, counts)) ++stuck;
+    at_the_point += particle.position == result.contact.point;
     EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
     EXPECT_LT(length(particle.position - result.contact.point), 1e-12);
   }
   EXPECT_GT(stops, 2000);
+  EXPECT_GT(at_the_point, stops / 4);
+  EXPECT_GT(stops - at_the_point, stops / 5) << "points behind the wall, from where the normal leads back";
   EXPECT_EQ(stuck, 0);
+}
+
+TEST(VerifiedStop, GoesBackOnTheWayWhereNothingNearTheContactIsFree) {
+  const auto snapshot = rooms<2>({2, 1});
+  auto particle = particle_at<2>(snapshot, {1, 0.5});
+  Walk_counts counts;
+  const Point<2> target{3, 0.5};
+  auto contact = walk<Exact>(snapshot, particle, target, counts).contact;
+  contact.point[0] += 1e-9;  // behind the wall, and the normal leads further away
+  contact.normal = {1, 0};
+  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, contact, counts));
+  EXPECT_EQ(particle.position, (Point<2>{2 - 0x1p-20, 0.5}));
+  // Where it stands on the wall already, it stays.
+  particle = particle_at<2>(snapshot, {2, 0.5});
+  contact = walk<Exact>(snapshot, particle, target, counts).contact;
+  EXPECT_EQ(contact.time, 0);
+  EXPECT_FALSE(stop_at_contact(snapshot, particle, target, contact, counts));
+  EXPECT_EQ(particle.position, (Point<2>{2, 0.5}));
 }
 
 TEST(Advance, ReflectsWithRestitutionAndFriction) {

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk run SCENE.json -o DIR: simulates a scene and writes what happened.
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/json_file.h>
+#include <cellwalk/io/scene.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/command.h"
+#include "cli/environment_file.h"
+#include "cli/generators.h"
+#include "cli/interruption.h"
+#include "cli/output_folder.h"
+#include "cli/progress.h"
+#include "cli/run_files.h"
+#include "cli/run_picture.h"
+
+namespace cellwalk::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Run_options {
+  std::string scene, folder;
+  std::uint32_t steps = 0;  ///< 0: as many as the scene says
+  bool force = false;
+};
+
+struct Prepared_environment {
+  Any_environment environment;
+  Certificate certificate;
+};
+
+Prepared_environment prepare(const Environment_source& source, const std::string& scene) {
+  if (const auto* file = std::get_if<std::string>(&source)) {
+    Build_options options;
+    options.keep_map = false;
+    Loaded_environment loaded = load_environment(*file, options);
+    return {std::move(loaded.environment), loaded.built.certificate};
+  }
+  const auto& recipe = std::get<Recipe>(source);
+  const Progress progress("generating and certifying the environment");
+  Build_report report;
+  const auto build = [&](auto soup) -> Any_environment {
+    constexpr int D = std::tuple_size_v<typename decltype(soup.points)::value_type>;
+    return Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
+  };
+  try {
+    auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },
+                                  generate(recipe.generator, recipe.options));
+    return {std::move(environment), report.certificate};
+  } catch (const Error& error) {
+    // A recipe is input here, whatever it would be on a command line.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: environment: {}", scene, error.what()));
+  }
+}
+
+ordered_json to_json(const Walk_counts& c) {
+  return {{"walks", c.walks},
+          {"stays", c.stays},
+          {"crossings", c.crossings},
+          {"plane_blocks", c.plane_blocks},
+          {"uncertain_lanes", c.uncertain_lanes},
+          {"side_tests", c.side_tests},
+          {"along_tests", c.along_tests},
+          {"star_searches", c.star_searches},
+          {"orientations", c.predicates.orientations},
+          {"exact_fallbacks", c.predicates.fallbacks}};
+}
+
+template <int D>
+struct Run {
+  const Scene<D>& scene;
+  const Run_options& options;
+  const Environment<D>& environment;
+  const Certificate& certificate;
+
+  std::uint32_t steps() const { return options.steps > 0 ? options.steps : scene.steps; }
+  void operator()() const;
+
+ private:
+  std::string caption(const World<D>& world, std::uint64_t contacts) const;
+  ordered_json scene_text() const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files) const;
+  void summary(const World<D>& world, const Run_files<D>& files, bool picture) const;
+};
+
+template <int D>
+void Run<D>::operator()() const {
+  World<D> world = naming(options.scene, [&] { return World<D>(environment.snapshot(), scene); });
+  const Cell_soup<D> soup = environment.soup();
+  Output_folder folder(options.folder, options.force);
+  const Interruption interruption;
+  Run_files<D> files(folder.path(), soup, world, scene);
+  std::optional<Run_picture<D>> picture;
+  if (scene.output.picture) picture.emplace(world);
+  {
+    Progress progress("running " + options.scene, steps());
+    for (std::uint32_t i = 1; i <= steps(); ++i) {
+      world.step();
+      files.record(world, i == steps());
+      if (picture) picture->record(world);
+      progress.update(i);
+      interruption.check();
+    }
+  }
+  world.validate();
+  files.finish();
+  if (picture) {
+    const Progress progress("drawing");
+    const std::uint64_t contacts = files.contacts()[0] + files.contacts()[1] + files.contacts()[2];
+    const Picture_request& request = *scene.output.picture;
+    io::Picture_options how;
+    how.width = request.width;
+    how.height = request.height;
+    const auto direction = [](const std::vector<double>& v) {
+      return v.empty() ? Vector<3>{} : Vector<3>{v[0], v[1], v[2]};
+    };
+    how.camera.toward = direction(request.toward);
+    how.camera.up = direction(request.up);
+    if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
+    const io::Image image = io::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
+    io::write_file(folder.path() / "picture.png", io::encode_png(image));
+  }
+  io::write_json(folder.path() / "run.json", report(world, files));
+  interruption.check();
+  folder.commit();
+  summary(world, files, picture.has_value());
+}
+
+template <int D>
+std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const {
+  const std::string title = scene.title.empty() ? "" : scene.title + ": ";
+  const std::size_t catheter = world.particles().size() - world.free_count();
+  std::string text = title;
+  if (catheter > 0) text += fmt::format("catheter of {} particles, ", catheter);
+  if (world.free_count() > 0) text += fmt::format("{} free particles, ", world.free_count());
+  return text + fmt::format("{} steps, {} contacts", steps(), contacts);
+}
+
+/// The scene as it was given, for the manifest.
+template <int D>
+ordered_json Run<D>::scene_text() const {
+  std::ifstream file(options.scene, std::ios::binary);
+  constexpr bool throws = true, skips_comments = true;
+  return ordered_json::parse(file, nullptr, throws, skips_comments);
+}
+
+template <int D>
+ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) const {
+  ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
+  result["environment"] = cli::to_json(certificate, D);
+  result["particles"] = {{"free", world.free_count()},
+                         {"catheter", world.particles().size() - world.free_count()}};
+  ordered_json kinds;
+  for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
+  result["contacts"] = kinds;
+  if (scene.catheter)
+    result["catheter"] = {{"arrived", world.next_way_point() == world.path().size()},
+                          {"way_point", world.next_way_point()},
+                          {"path", world.path()},
+                          {"steps_waited", world.steps_waited()}};
+  result["frames"] = files.frame_count();
+  result["validated"] = true;  // World::validate has returned
+  result["counts"] = to_json(world.counts());
+  // Everything needed to repeat the run, and nothing that differs between machines or days.
+  result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
+  return result;
+}
+
+template <int D>
+void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool picture) const {
+  const auto line = [](const char* name, const std::string& value) {
+    fmt::print("  {:<12}{}\n", name, value);
+  };
+  const auto& contacts = files.contacts();
+  const std::size_t catheter = world.particles().size() - world.free_count();
+  fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
+  line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
+  line("particles", fmt::format("{} free, {} of the catheter", world.free_count(), catheter));
+  line("contacts",
+       fmt::format("{} ({} with facets, {} with edges, {} with vertices)",
+                   contacts[0] + contacts[1] + contacts[2], contacts[2], contacts[1], contacts[0]));
+  if (scene.catheter)
+    line("catheter", world.next_way_point() == world.path().size()
+                         ? fmt::format("arrived at the last of {} way points", world.path().size())
+                         : fmt::format("on its way to way point {} of {}", world.next_way_point() + 1,
+                                       world.path().size()));
+  line("validated", "every particle lies in its cell, by exact predicates");
+  std::string written = "run.json, contacts.csv";
+  if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
+  if (picture) written += ", picture.png";
+  line("written", fmt::format("{}: {}", options.folder, written));
+}
+
+void run(const Run_options& options) {
+  Output_folder::check(options.folder, options.force);
+  const Any_scene any_scene = io::read_scene(options.scene);
+  const auto& source =
+      std::visit([](const auto& s) -> const Environment_source& { return s.environment; }, any_scene);
+  const Prepared_environment prepared = prepare(source, options.scene);
+  const int of_environment = std::holds_alternative<Environment<2>>(prepared.environment) ? 2 : 3;
+  const int of_scene = std::holds_alternative<Scene<2>>(any_scene) ? 2 : 3;
+  if (of_environment != of_scene)
+    throw Error(Error_code::input,
+                fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",
+                            options.scene, of_environment, of_scene));
+  if (of_scene == 2)
+    Run<2>{std::get<Scene<2>>(any_scene), options, std::get<Environment<2>>(prepared.environment),
+           prepared.certificate}();
+  else
+    Run<3>{std::get<Scene<3>>(any_scene), options, std::get<Environment<3>>(prepared.environment),
+           prepared.certificate}();
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("run", "Simulate a scene: particles and a catheter tip among walls");
+  const auto options = std::make_shared<Run_options>();
+  command->add_option("scene", options->scene, "The scene, see docs/scenes.md")
+      ->required()
+      ->type_name("SCENE.json");
+  command->add_option("-o,--output", options->folder, "Folder for the results; must not exist yet")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 100000000u));
+  command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
+  command->callback([options, &chosen] {
+    chosen = [options] {
+      try {
+        run(*options);
+      } catch (const Interrupted& interrupted) {
+        end_by(interrupted);
+      }
+    };
+  });
+}
+
+}  // namespace cellwalk::cli
