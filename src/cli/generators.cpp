@@ -4,6 +4,8 @@
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/generate/lattice_map.h>
 #include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/environment/generate/room.h>
+#include <cellwalk/environment/generate/vessel.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/core.h>
@@ -74,6 +76,44 @@ Any_soup lattice(const Generator_values& values) {
   return lattice_world(options);
 }
 
+Any_soup vessel(const Generator_values& values) {
+  Vessel_options options;
+  options.generations = static_cast<int>(number(values, "generations"));
+  options.length = number(values, "length");
+  options.curvature = number(values, "curvature");
+  options.cell_size = number(values, "cell_size");
+  options.radius = number(values, "radius");
+  options.seed = seed(values);
+  return branching_vessel(options);
+}
+
+Any_soup bulge(const Generator_values& values) {
+  Bulge_options options;
+  options.length = number(values, "length");
+  options.bend = number(values, "bend");
+  options.bulge_radius = number(values, "bulge_radius");
+  options.bulge_offset = number(values, "bulge_offset");
+  options.cell_size = number(values, "cell_size");
+  options.radius = number(values, "radius");
+  return bulging_tube(options);
+}
+
+Any_soup room2d(const Generator_values& values) {
+  const auto pair = [&](const char* name) {
+    return std::array<std::uint32_t, 2>{static_cast<std::uint32_t>(values.at(name)[0]),
+                                        static_cast<std::uint32_t>(values.at(name)[1])};
+  };
+  Room_options options;
+  options.rooms = pair("rooms");
+  options.room_size = pair("room_size");
+  options.door = static_cast<std::uint32_t>(number(values, "door"));
+  options.obstacles = static_cast<std::uint32_t>(number(values, "obstacles"));
+  options.keep_obstacles = flag(values, "keep_obstacles");
+  options.square = number(values, "square");
+  options.seed = seed(values);
+  return room_2d(options);
+}
+
 const Generator_option seed_option{"seed", "What is random follows from it", {1}, false, true};
 
 /// What every lattice takes, and some more.
@@ -98,6 +138,34 @@ std::vector<Generator> make_table() {
       {"tets", "A grid of cubes cut into tetrahedra", lattice_options(3, 10, {jitter}), simplex_grid<3>},
       {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {}),
        lattice<3>},
+      {"vessel",
+       "A trunk that forks into ever thinner branches; lengths in units of its radius",
+       {{"generations", "How often it forks", {3}, false, true},
+        {"length", "Of the trunk", {7}},
+        {"curvature", "How far branches bend sideways", {0.35}},
+        {"cell_size", "Size of a cell", {0.3}},
+        {"radius", "Of the trunk", {1}},
+        seed_option},
+       vessel},
+      {"bulge",
+       "A bent tube with a bulge, like an aneurysm; lengths in units of its radius",
+       {{"length", "From end to end", {14}},
+        {"bend", "Height of the bend as a share of the length", {0.4}},
+        {"bulge_radius", "Of the bulge", {2}},
+        {"bulge_offset", "Of its centre from the tube's", {2}},
+        {"cell_size", "Size of a cell", {0.3}},
+        {"radius", "Of the tube", {1}}},
+       bulge},
+      {"room2d",
+       "2D: rooms joined by doorways, with obstacles; lengths in squares",
+       {{"rooms", "Along each axis", {3, 2}, false, true},
+        {"room_size", "Along each axis", {12, 10}, false, true},
+        {"door", "Width of a doorway", {2}, false, true},
+        {"obstacles", "In each room", {3}, false, true},
+        {"keep_obstacles", "Obstacles stay as solid cells", {0}, true},
+        {"square", "Edge of a square", {1}},
+        seed_option},
+       room2d},
       {"squares", "2D: a grid of squares, some of them solid", lattice_options(2, 10, {solid}), grid<2>},
       {"triangles", "2D: a grid of squares cut into triangles", lattice_options(2, 10, {jitter}),
        simplex_grid<2>},
