@@ -20,8 +20,9 @@ constexpr double particle_size = 0.0032, trail_size = 0.0008, contact_size = 0.0
 constexpr double arrow_length = 0.028, arrow_size = 0.0012;
 constexpr double small = 0.55;  // size of the contacts of free particles beside those of the catheter
 constexpr double catheter_size = 0.003, wall_width = 0.005, grid_width = 0.0009;
-constexpr double contact_grid = 0.02;      // at most one contact is drawn in a cube of this side
-constexpr std::uint32_t trail_steps = 24;  // points of a free particle's trail; steps whose contacts are shown
+constexpr double contact_grid = 0.02;  // at most one contact is drawn in a cube of this side
+constexpr std::uint32_t trail_steps =
+    24;  // points of a free particle's trail; steps whose contacts are shown
 constexpr std::size_t most_trail_pieces = 12000;  // shorter trails where there are many particles
 constexpr std::size_t most_grid_cells = 4000;  // beyond that inner edges would only darken a planar picture
 
