@@ -4,6 +4,7 @@
 #include <cellwalk/kernel/error.h>
 
 #ifdef CELLWALK_HAS_TETGEN
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <tetgen.h>
@@ -88,6 +89,18 @@ std::string switches(const Tetrahedralize_options& options) {
   return text;
 }
 
+/// Gmsh's library has classes of TetGen's names but another layout. If it is found first, memory is overwritten.
+void expect_one_tetgen() {
+  void* const entry = dlsym(RTLD_DEFAULT, "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_");
+  void* const inside = dlsym(RTLD_DEFAULT, "_ZN10tetgenmesh10inittablesEv");
+  Dl_info entry_library, inside_library;
+  if (entry == nullptr || inside == nullptr) return;  // linked statically: found by the linker
+  if (dladdr(entry, &entry_library) != 0 && dladdr(inside, &inside_library) != 0 &&
+      entry_library.dli_fbase != inside_library.dli_fbase)
+    throw Error(Error_code::other, fmt::format("{} shadows the TetGen of {}: link TetGen before it",
+                                               inside_library.dli_fname, entry_library.dli_fname));
+}
+
 /// Hands the surfaces over. TetGen's structure frees what is put into it with delete[].
 void fill(tetgenio& in, const std::vector<Surface_soup>& surfaces) {
   in.firstnumber = 0;
@@ -124,6 +137,7 @@ void fill(tetgenio& in, const std::vector<Surface_soup>& surfaces) {
 
 detail::Tetgen_result detail::call_tetgen(const std::vector<Surface_soup>& surfaces,
                                           const Tetrahedralize_options& options) {
+  expect_one_tetgen();
   tetgenio in, out;
   fill(in, surfaces);
   std::string text = switches(options);
