@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <clocale>
 #include <mutex>
 #include <numeric>
+#include <string>
 #include <unordered_map>
 
 #include "element_soup.h"
@@ -19,6 +21,18 @@
 
 namespace cellwalk::io {
 namespace {
+
+/// Puts the program's locale back at the end: Gmsh sets that of the user.
+class Keep_locale {
+ public:
+  Keep_locale() : locale_(std::setlocale(LC_ALL, nullptr)) {}
+  ~Keep_locale() { std::setlocale(LC_ALL, locale_.c_str()); }
+  Keep_locale(const Keep_locale&) = delete;
+  Keep_locale& operator=(const Keep_locale&) = delete;
+
+ private:
+  std::string locale_;
+};
 
 /// Gmsh for the lifetime of this object: silent, without the user's configuration, ended whatever happens.
 class Session {
@@ -47,6 +61,9 @@ class Session {
       if (entry.starts_with(level + ": ")) found.push_back(entry.substr(level.size() + 2));
     return found;
   }
+
+ private:
+  Keep_locale keep_locale_;
 };
 
 /// One element as the file has it: its tag tells the order, its corners are tags of nodes.
