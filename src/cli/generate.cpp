@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -43,7 +44,8 @@ std::string default_text(const std::vector<double>& numbers) {
 }
 
 void add_option(CLI::App& command, const Generator_option& option, Generator_values& values) {
-  const std::string name = "--" + option.name;
+  std::string name = "--" + option.name;
+  std::replace(name.begin(), name.end(), '_', '-');
   if (option.is_flag) {
     command.add_flag_callback(
         name, [&values, key = option.name] { values[key] = {1}; }, option.help);

@@ -26,10 +26,10 @@ std::uint64_t seed(const Generator_values& values) {
 }
 
 template <int D>
-std::array<std::uint32_t, D> cells(const Generator_values& values) {
-  std::array<std::uint32_t, D> counts;
-  for (int i = 0; i < D; ++i) counts[i] = static_cast<std::uint32_t>(values.at("cells")[i]);
-  return counts;
+std::array<std::uint32_t, D> counts(const Generator_values& values, const char* name) {
+  std::array<std::uint32_t, D> numbers;
+  for (int i = 0; i < D; ++i) numbers[i] = static_cast<std::uint32_t>(values.at(name)[i]);
+  return numbers;
 }
 
 template <int D>
@@ -45,7 +45,7 @@ Lattice_map<D> placement(const Generator_values& values) {
 template <int D>
 Any_soup grid(const Generator_values& values) {
   Grid_options<D> options;
-  options.cells = cells<D>(values);
+  options.cells = counts<D>(values, "cells");
   options.solid_share = number(values, "solid");
   options.seed = seed(values);
   options.map = placement<D>(values);
@@ -58,7 +58,7 @@ Any_soup grid(const Generator_values& values) {
 template <int D>
 Any_soup simplex_grid(const Generator_values& values) {
   Simplex_grid_options<D> options;
-  options.cells = cells<D>(values);
+  options.cells = counts<D>(values, "cells");
   options.jitter = number(values, "jitter");
   options.seed = seed(values);
   options.map = placement<D>(values);
@@ -71,7 +71,7 @@ Any_soup simplex_grid(const Generator_values& values) {
 template <int D>
 Any_soup lattice(const Generator_values& values) {
   auto options = mixed_lattice_world<D>(seed(values));
-  options.cells = cells<D>(values);
+  options.cells = counts<D>(values, "cells");
   options.map = placement<D>(values);
   return lattice_world(options);
 }
@@ -87,7 +87,7 @@ Any_soup vessel(const Generator_values& values) {
   return branching_vessel(options);
 }
 
-Any_soup bulge(const Generator_values& values) {
+Any_soup tube(const Generator_values& values) {
   Bulge_options options;
   options.length = number(values, "length");
   options.bend = number(values, "bend");
@@ -98,14 +98,10 @@ Any_soup bulge(const Generator_values& values) {
   return bulging_tube(options);
 }
 
-Any_soup room2d(const Generator_values& values) {
-  const auto pair = [&](const char* name) {
-    return std::array<std::uint32_t, 2>{static_cast<std::uint32_t>(values.at(name)[0]),
-                                        static_cast<std::uint32_t>(values.at(name)[1])};
-  };
+Any_soup room(const Generator_values& values) {
   Room_options options;
-  options.rooms = pair("rooms");
-  options.room_size = pair("room_size");
+  options.rooms = counts<2>(values, "rooms");
+  options.room_size = counts<2>(values, "room_size");
   options.door = static_cast<std::uint32_t>(number(values, "door"));
   options.obstacles = static_cast<std::uint32_t>(number(values, "obstacles"));
   options.keep_obstacles = flag(values, "keep_obstacles");
@@ -133,39 +129,41 @@ std::vector<Generator_option> lattice_options(int dimension, double cells,
 std::vector<Generator> make_table() {
   const Generator_option solid{"solid", "Share of cells that are solid and touch each other nowhere", {0}};
   const Generator_option jitter{"jitter", "Points move by up to this much along each axis, in cells", {0}};
+  const Generator_option cell_size{"cell_size", "Size of the lattice it is cut from, in trunk radii", {0.3}};
+  const Generator_option radius{"radius", "Of the trunk: scales everything", {1}};
   return {
       {"hexes", "A grid of hexahedra, some of them solid", lattice_options(3, 10, {solid}), grid<3>},
       {"tets", "A grid of cubes cut into tetrahedra", lattice_options(3, 10, {jitter}), simplex_grid<3>},
-      {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {}),
-       lattice<3>},
       {"vessel",
-       "A trunk that forks into ever thinner branches; lengths in units of its radius",
+       "A branching vessel, in tetrahedra",
        {{"generations", "How often it forks", {3}, false, true},
-        {"length", "Of the trunk", {7}},
-        {"curvature", "How far branches bend sideways", {0.35}},
-        {"cell_size", "Size of a cell", {0.3}},
-        {"radius", "Of the trunk", {1}},
+        {"length", "Of the trunk, in its radii; branches are shorter and thinner", {7}},
+        {"curvature", "How far branches bend sideways, from 0 to 1", {0.35}},
+        cell_size,
+        radius,
         seed_option},
        vessel},
-      {"bulge",
-       "A bent tube with a bulge, like an aneurysm; lengths in units of its radius",
-       {{"length", "From end to end", {14}},
-        {"bend", "Height of the bend as a share of the length", {0.4}},
-        {"bulge_radius", "Of the bulge", {2}},
-        {"bulge_offset", "Of its centre from the tube's", {2}},
-        {"cell_size", "Size of a cell", {0.3}},
-        {"radius", "Of the tube", {1}}},
-       bulge},
+      {"tube",
+       "A bent tube with a bulge, in tetrahedra",
+       {{"length", "From end to end, in radii", {14}},
+        {"bend", "Height of the bend, as a share of the length", {0.4}},
+        {"bulge_radius", "Radius of the bulge, in radii; 0: none", {2}},
+        {"bulge_offset", "Of the bulge from the centre line, in radii", {2}},
+        cell_size,
+        radius},
+       tube},
+      {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {}),
+       lattice<3>},
       {"room2d",
-       "2D: rooms joined by doorways, with obstacles; lengths in squares",
+       "2D: rooms with doors and polygonal obstacles",
        {{"rooms", "Along each axis", {3, 2}, false, true},
-        {"room_size", "Along each axis", {12, 10}, false, true},
-        {"door", "Width of a doorway", {2}, false, true},
+        {"room_size", "Of a room, in squares", {12, 10}, false, true},
+        {"door", "Width of a doorway, in squares", {2}, false, true},
         {"obstacles", "In each room", {3}, false, true},
-        {"keep_obstacles", "Obstacles stay as solid cells", {0}, true},
-        {"square", "Edge of a square", {1}},
+        {"keep_obstacles", "Keep obstacles as solid cells", {0}, true},
+        {"square", "Size of a square", {1}},
         seed_option},
-       room2d},
+       room},
       {"squares", "2D: a grid of squares, some of them solid", lattice_options(2, 10, {solid}), grid<2>},
       {"triangles", "2D: a grid of squares cut into triangles", lattice_options(2, 10, {jitter}),
        simplex_grid<2>},

@@ -19,7 +19,7 @@ using Any_soup = std::variant<Cell_soup<2>, Cell_soup<3>>;
 using Generator_values = std::map<std::string, std::vector<double>>;
 
 struct Generator_option {
-  std::string name;
+  std::string name;  ///< as in scenes; the command line has - for _
   std::string help;
   std::vector<double> initial;  ///< what stands where nothing is given; as many numbers as may be given
   bool is_flag = false;

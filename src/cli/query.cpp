@@ -61,8 +61,8 @@ void query_environment(const Query_options& options, Walk_strategy strategy,
     by_status[status_names[s]] = tally[s];
     if (tally[s] != 0) line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], status_names[s]);
   }
-  fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
   write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", to_json(counts)}});
+  fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
   const auto invalid =
       std::find_if(motions.begin(), motions.end(), [](const auto& m) { return !m.invalid.empty(); });
   if (invalid != motions.end())

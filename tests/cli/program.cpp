@@ -2,6 +2,7 @@
 #include "cli/program.h"
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,6 +101,18 @@ std::vector<std::vector<std::string>> read_table(const fs::path& path) {
     }
   }
   return rows;
+}
+
+void expect_same_certificate(const fs::path& report, const fs::path& other) {
+  auto a = nlohmann::json::parse(read_text(report)).at("certificate");
+  auto b = nlohmann::json::parse(read_text(other)).at("certificate");
+  for (const char* volume : {"volume", "free_volume"}) {
+    const double expected = b.at(volume);
+    EXPECT_NEAR(a.at(volume).get<double>(), expected, 1e-9 * expected);
+    a.erase(volume);
+    b.erase(volume);
+  }
+  EXPECT_EQ(a, b);
 }
 
 Program::Program() {

@@ -29,6 +29,9 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 /// Rows of a comma-separated table, the header first.
 std::vector<std::vector<std::string>> read_table(const std::filesystem::path& path);
 
+/// The certificates of two JSON reports agree: counts exactly, volumes up to the order of summation.
+void expect_same_certificate(const std::filesystem::path& report, const std::filesystem::path& other);
+
 /// A test in an empty folder, removed afterwards.
 class Program : public testing::Test {
  protected:

@@ -63,10 +63,10 @@ TEST_F(Run_frames, AreReadByVtk) {
         sum += met->GetTuple1(i);
         const double* p = grid.GetPoint(i);
         EXPECT_TRUE(p[0] >= 0 && p[0] <= 4 && p[1] >= 0 && p[1] <= 3 && p[2] >= 0 && p[2] <= 3);
-        if (i < 20)
-          EXPECT_NEAR(
-              std::hypot(velocity->GetTuple3(i)[0], velocity->GetTuple3(i)[1], velocity->GetTuple3(i)[2]), 12,
-              1e-9);
+        const double* v = velocity->GetTuple3(i);
+        if (i < 20) {
+          EXPECT_NEAR(std::hypot(v[0], v[1], v[2]), 12, 1e-9);
+        }
       }
       EXPECT_EQ(sum, static_cast<double>(contacts_of_frame[frame]));
     });
