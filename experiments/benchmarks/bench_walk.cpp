@@ -2,8 +2,10 @@
 // What a move costs: staying in a cell, and crossing facets, in tetrahedral grids of 10^4, 10^5 and 10^6 cells, beside
 // point location by CGAL's triangulation with the start as a hint, on the same points and motions in the same run.
 //
-// warm: 200 particles start close together and are moved again and again, so that all they read is in the cache.
-// cold: 100,000 particles all over the grid, moved once each: memory is read from where it lies.
+// repeated: 200 particles start close together and are moved again and again. All they read is in the cache, and the
+//           processor learns their branches by heart, which no program meets in practice.
+// warm:     the same with 4,000 particles: the cells are in the cache, the ways are too many to learn.
+// cold:     100,000 particles all over the grid, moved once each: memory is read from where it lies.
 // "crossing" subtracts nothing: it is the time of a whole move divided by the facets crossed (or tetrahedra visited).
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
@@ -14,6 +16,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -56,19 +59,28 @@ World& world(std::size_t tetrahedra) {
   return *w;
 }
 
-/// Particles and where each goes: `reach` is the largest displacement along an axis, in cubes.
+/// Particles that go there and back, and the same for locate: the last answer is the next hint. `reach` is the largest
+/// displacement along an axis, in cubes.
 struct Motions {
   std::vector<Particle<3>> particles;
-  std::vector<Point<3>> targets;
   std::vector<Delaunay::Cell_handle> hints;
+  std::array<std::vector<Point<3>>, 2> targets;  ///< of every other round
+  bool back = false;
+
+  const std::vector<Point<3>>& next_targets() {
+    back = !back;
+    return targets[back ? 0 : 1];
+  }
 };
 
-Motions motions(const World& w, bool warm, double reach) {
+enum class Start { repeated, warm, cold };
+
+Motions motions(const World& w, Start start, double reach) {
   std::mt19937_64 random(5);
   const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
-  const double side = static_cast<double>(w.side), spread = warm ? 1 : side - 2;
+  const double side = static_cast<double>(w.side), spread = start == Start::cold ? side - 2 : 1;
   Motions m;
-  const std::size_t count = warm ? 200 : 100000;
+  const std::size_t count = start == Start::repeated ? 200 : start == Start::warm ? 4000 : 100000;
   for (std::size_t i = 0; i < count; ++i) {
     Point<3> p, t;
     for (int k = 0; k < 3; ++k) {
@@ -76,7 +88,8 @@ Motions motions(const World& w, bool warm, double reach) {
       t[k] = std::clamp(p[k] + reach * (2 * unit() - 1), 0.5, side - 0.5);
     }
     m.particles.push_back(w.locator->particle_at(p));
-    m.targets.push_back(t);
+    m.targets[0].push_back(t);
+    m.targets[1].push_back(p);
     m.hints.push_back(w.delaunay.locate({p[0], p[1], p[2]}));
   }
   return m;
@@ -97,18 +110,20 @@ constexpr double no_reach = 1e-7;
 constexpr double long_reach = 4;
 
 template <class Policy, Walk_strategy strategy>
-void cellwalk_moves(benchmark::State& state, bool warm, double reach) {
+void cellwalk_moves(benchmark::State& state, Start start, double reach) {
   World& w = world(static_cast<std::size_t>(state.range(0)));
-  const Motions m = motions(w, warm, reach);
+  Motions m = motions(w, start, reach);
   Walk_options options;
   options.strategy = strategy;
   Walk_counts counts;
-  for (auto _ : state)
-    for (std::size_t i = 0; i < m.particles.size(); ++i) {
-      Particle<3> p = m.particles[i];
-      benchmark::DoNotOptimize(cellwalk::move<Policy>(w.snapshot, p, m.targets[i], counts, options));
-      benchmark::DoNotOptimize(p);
-    }
+  for (auto _ : state) {
+    const std::vector<Point<3>>& targets = m.next_targets();
+    std::size_t blocked = 0;
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      blocked += cellwalk::move<Policy>(w.snapshot, m.particles[i], targets[i], counts, options).status !=
+                 Walk_status::arrived;
+    if (blocked != 0) state.SkipWithError("a particle met a wall");
+  }
   report(state, static_cast<double>(counts.walks), static_cast<double>(counts.crossings));
   const auto cells = static_cast<double>(counts.crossings + counts.walks);
   state.counters["signs_per_cell"] = static_cast<double>(counts.predicates.orientations) / cells;
@@ -117,16 +132,17 @@ void cellwalk_moves(benchmark::State& state, bool warm, double reach) {
       static_cast<double>(w.snapshot.bytes()) / static_cast<double>(w.snapshot.cell_count());
 }
 
-void cgal_locate(benchmark::State& state, bool warm, double reach) {
+void cgal_locate(benchmark::State& state, Start start, double reach) {
   World& w = world(static_cast<std::size_t>(state.range(0)));
-  const Motions m = motions(w, warm, reach);
+  Motions m = motions(w, start, reach);
   double moves = 0;
   for (auto _ : state) {
-    for (std::size_t i = 0; i < m.targets.size(); ++i) {
-      const Point<3>& t = m.targets[i];
-      benchmark::DoNotOptimize(w.delaunay.locate({t[0], t[1], t[2]}, m.hints[i]));
+    const std::vector<Point<3>>& targets = m.next_targets();
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const Point<3>& t = targets[i];
+      m.hints[i] = w.delaunay.locate({t[0], t[1], t[2]}, m.hints[i]);
     }
-    moves += static_cast<double>(m.targets.size());
+    moves += static_cast<double>(targets.size());
   }
   report(state, moves, 0);
 }
@@ -139,24 +155,30 @@ constexpr auto certified = Walk_strategy::certified;
 constexpr auto rule = Walk_strategy::exit_rule;
 constexpr auto predictive = Walk_strategy::predictive_simplex;
 
-void stay(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, true, no_reach); }
-void stay_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, false, no_reach); }
-void stay_cgal_locate(benchmark::State& s) { cgal_locate(s, true, no_reach); }
-void stay_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, false, no_reach); }
-void cross_warm(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, true, long_reach); }
-void cross_warm_exit_rule(benchmark::State& s) { cellwalk_moves<Exact, rule>(s, true, long_reach); }
-void cross_warm_predictive(benchmark::State& s) { cellwalk_moves<Exact, predictive>(s, true, long_reach); }
-void cross_warm_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, true, long_reach); }
-void cross_warm_lazy(benchmark::State& s) { cellwalk_moves<Lazy, rule>(s, true, long_reach); }
-void cross_warm_cgal_locate(benchmark::State& s) { cgal_locate(s, true, long_reach); }
-void cross_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, false, long_reach); }
-void cross_cold_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, false, long_reach); }
-void cross_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, false, long_reach); }
+void stay(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::repeated, no_reach); }
+void stay_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::cold, no_reach); }
+void stay_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::repeated, no_reach); }
+void stay_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::cold, no_reach); }
+void cross_repeated(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::repeated, long_reach); }
+void cross_repeated_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::repeated, long_reach); }
+void cross_warm(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::warm, long_reach); }
+void cross_warm_exit_rule(benchmark::State& s) { cellwalk_moves<Exact, rule>(s, Start::warm, long_reach); }
+void cross_warm_predictive(benchmark::State& s) {
+  cellwalk_moves<Exact, predictive>(s, Start::warm, long_reach);
+}
+void cross_warm_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, Start::warm, long_reach); }
+void cross_warm_lazy(benchmark::State& s) { cellwalk_moves<Lazy, rule>(s, Start::warm, long_reach); }
+void cross_warm_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::warm, long_reach); }
+void cross_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::cold, long_reach); }
+void cross_cold_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, Start::cold, long_reach); }
+void cross_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::cold, long_reach); }
 
 BENCHMARK(stay)->Apply(sizes);
 BENCHMARK(stay_cgal_locate)->Apply(sizes);
 BENCHMARK(stay_cold)->Apply(sizes);
 BENCHMARK(stay_cold_cgal_locate)->Apply(sizes);
+BENCHMARK(cross_repeated)->Apply(sizes);
+BENCHMARK(cross_repeated_cgal_locate)->Apply(sizes);
 BENCHMARK(cross_warm)->Apply(sizes);
 BENCHMARK(cross_warm_cgal_locate)->Apply(sizes);
 BENCHMARK(cross_cold)->Apply(sizes);

@@ -45,7 +45,7 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const M
     const Walk_result<D> result = walk<Kernel>(snapshot, particle, to, counts, options);
     const bool further = result.status == Walk_status::arrived ||
                          (result.status == Walk_status::contact && best.status == Status::contact &&
-                          result.contact.time > best.walk.contact.time);
+                          result.contact->time > best.walk.contact->time);
     if (best.status == Status::invalid || further) best = {to_status(result.status), result};
     if (start.sides <= 1 || best.status == Status::free) break;
   }
@@ -115,10 +115,10 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
       time = 1;
       end = fields(motions[row].points[1]);
     } else if (status == Status::contact) {
-      time = walk.contact.time;
-      end = fields(walk.contact.point);
-      normal = fields(walk.contact.normal);
-      kind = kind_names[static_cast<std::size_t>(walk.contact.kind)];
+      time = walk.contact->time;
+      end = fields(walk.contact->point);
+      normal = fields(walk.contact->normal);
+      kind = kind_names[static_cast<std::size_t>(walk.contact->kind)];
     }
     table.row(row, status_names[static_cast<std::size_t>(status)], time, end[0], end[1], end[2], kind,
               normal[0], normal[1], normal[2], walked ? walk.cells : 0,

@@ -91,13 +91,13 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
     if (!is_finite(target)) return {};
     const Walk_result<D> result = move<Exact>(snapshot, particle, target, counts);
     if (result.status == Walk_status::arrived) return velocity;
-    met.push_back({passed + result.contact.time * (1 - passed), result.contact});
-    stop_at_contact(snapshot, particle, target, result.contact, counts);
+    met.push_back({passed + result.contact->time * (1 - passed), *result.contact});
+    stop_at_contact(snapshot, particle, target, *result.contact, counts);
     passed = std::min(1.0, met.back().time);
-    velocity = respond(velocity, result.contact.normal, met, first, response);
+    velocity = respond(velocity, result.contact->normal, met, first, response);
     if (met.size() - first >= static_cast<std::size_t>(response.most_contacts)) return velocity;
     if (!(length(velocity) > 0)) return velocity;
-    lift = (lift_ulps * ulp<D>(particle.position)) * result.contact.normal;
+    lift = (lift_ulps * ulp<D>(particle.position)) * result.contact->normal;
   }
 }
 

@@ -24,7 +24,7 @@ TEST(VerifiedStop, StopsInTheWallPlaneWhereThatIsADouble) {
   const Point<3> target{3.5, 0.5, 0.5};
   const auto result = move<Exact>(snapshot, particle, target, counts);
   ASSERT_EQ(result.status, Walk_status::contact);
-  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, result.contact, counts));
+  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, *result.contact, counts));
   EXPECT_EQ(particle.position, (Point<3>{2, 0.5, 0.5}));
   EXPECT_EQ(particle.cell, snapshot.cell(1));
 }
@@ -49,10 +49,10 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
     const auto result = move<Exact>(snapshot, particle, target, counts);
     if (result.status != Walk_status::contact) continue;
     ++stops;
-    if (!stop_at_contact(snapshot, particle, target, result.contact, counts)) ++stuck;
-    at_the_point += particle.position == result.contact.point;
+    if (!stop_at_contact(snapshot, particle, target, *result.contact, counts)) ++stuck;
+    at_the_point += particle.position == result.contact->point;
     EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
-    EXPECT_LT(length(particle.position - result.contact.point), 1e-12);
+    EXPECT_LT(length(particle.position - result.contact->point), 1e-12);
   }
   EXPECT_GT(stops, 2000);
   EXPECT_GT(at_the_point, stops / 4);
@@ -65,14 +65,14 @@ TEST(VerifiedStop, GoesBackOnTheWayWhereNothingNearTheContactIsFree) {
   auto particle = particle_at<2>(snapshot, {1, 0.5});
   Walk_counts counts;
   const Point<2> target{3, 0.5};
-  auto contact = walk<Exact>(snapshot, particle, target, counts).contact;
+  auto contact = walk<Exact>(snapshot, particle, target, counts).contact.value();
   contact.point[0] += 1e-9;  // behind the wall, and the normal leads further away
   contact.normal = {1, 0};
   EXPECT_TRUE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<2>{2 - 0x1p-20, 0.5}));
   // Where it stands on the wall already, it stays.
   particle = particle_at<2>(snapshot, {2, 0.5});
-  contact = walk<Exact>(snapshot, particle, target, counts).contact;
+  contact = walk<Exact>(snapshot, particle, target, counts).contact.value();
   EXPECT_EQ(contact.time, 0);
   EXPECT_FALSE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<2>{2, 0.5}));

@@ -119,10 +119,10 @@ class Trial {
     }
     tally_.most_cells = std::max(tally_.most_cells, visited.size());
     if (result.status == Walk_status::contact) {
-      tally_.contacts_facet += result.contact.kind == Contact_kind::facet;
-      tally_.contacts_edge += result.contact.kind == Contact_kind::edge;
-      tally_.contacts_vertex += result.contact.kind == Contact_kind::vertex;
-      tally_.contacts_at_once += result.contact.time == 0;
+      tally_.contacts_facet += result.contact->kind == Contact_kind::facet;
+      tally_.contacts_edge += result.contact->kind == Contact_kind::edge;
+      tally_.contacts_vertex += result.contact->kind == Contact_kind::vertex;
+      tally_.contacts_at_once += result.contact->time == 0;
       return;
     }
     tally_.stays += visited.size() == 1;

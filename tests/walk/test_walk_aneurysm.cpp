@@ -74,7 +74,7 @@ TEST(WalkAneurysm, NoParticleEverLeavesTheVessel) {
     ++verdicts[static_cast<int>(verdict)];
     if (verdict != Verdict::right) ADD_FAILURE() << name(verdict) << ": " << describe(motion);
     has_contact = result.status == Walk_status::contact;
-    last_contact = result.contact.point;
+    if (has_contact) last_contact = result.contact->point;
     ++(has_contact ? blocked : arrived);
     long_ways += visited.size() > 20;
     if (k % moves_per_parity_test == 0) {

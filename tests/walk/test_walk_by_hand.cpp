@@ -60,7 +60,10 @@ class Scene {
       }
       EXPECT_EQ(way.result.status, first.result.status);
       EXPECT_EQ(way.result.dimension, first.result.dimension);
-      EXPECT_EQ(way.result.contact.time, first.result.contact.time);
+      EXPECT_EQ(way.result.contact.has_value(), way.result.status == Walk_status::contact);
+      if (way.result.contact && first.result.contact) {
+        EXPECT_EQ(way.result.contact->time, first.result.contact->time);
+      }
       EXPECT_EQ(way.cells, first.cells);
     }
     return first;
@@ -77,7 +80,7 @@ class Scene {
   Wall_contact<D> contact(std::uint32_t cell, const Point<D>& from, const Point<D>& to) const {
     const Way<D> way = walk(cell, from, to);
     EXPECT_EQ(way.result.status, Walk_status::contact);
-    return way.result.contact;
+    return way.result.contact.value();
   }
 
  private:

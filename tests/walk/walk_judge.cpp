@@ -78,23 +78,24 @@ Verdict judge_contact(const Oracle<D>& oracle, const Snapshot<D>& snapshot, cons
   if (stop == truth.stops.end()) {
     if (!truth.arrivals.empty()) return Verdict::false_contact;
     // Stops are in order of time. Earlier than all is a false contact, later than all a wall passed.
-    const double t = result.contact.time;
+    const double t = result.contact->time;
     const auto& earliest = motion.trace.events[truth.stops.front().event];
     const auto& latest = motion.trace.events[truth.stops.back().event];
     if (t > rounded(latest) && !is_within_4_ulp(t, latest)) return Verdict::missed_wall;
     if (t < rounded(earliest) && !is_within_4_ulp(t, earliest)) return Verdict::false_contact;
     return Verdict::wrong_cell;
   }
-  if (!is_within_4_ulp(result.contact.time, motion.trace.events[stop->event]) ||
-      !is_right_point(motion, result.contact))
+  if (!is_within_4_ulp(result.contact->time, motion.trace.events[stop->event]) ||
+      !is_right_point(motion, *result.contact))
     return Verdict::wrong_time;
   const Contact_kind kind = stop->dimension == 0       ? Contact_kind::vertex
                             : stop->dimension == D - 1 ? Contact_kind::facet
                                                        : Contact_kind::edge;
-  if (result.contact.kind != kind) return Verdict::wrong_kind;
-  if (result.contact.cell != result.cell) return Verdict::wrong_cell;
-  if (!is_right_wall(oracle, snapshot, motion.trace, *stop, result.contact.facet)) return Verdict::wrong_wall;
-  if (!is_right_normal(snapshot, motion, result.contact)) return Verdict::wrong_normal;
+  if (result.contact->kind != kind) return Verdict::wrong_kind;
+  if (result.contact->cell != result.cell) return Verdict::wrong_cell;
+  if (!is_right_wall(oracle, snapshot, motion.trace, *stop, result.contact->facet))
+    return Verdict::wrong_wall;
+  if (!is_right_normal(snapshot, motion, *result.contact)) return Verdict::wrong_normal;
   return Verdict::right;
 }
 

@@ -74,13 +74,40 @@ inline unsigned lane_mask(Int4 lanes) {
 #endif
 }
 
+/// One bit a lane whose sign is negative, -0 included.
+inline unsigned sign_mask(Float4 lanes) { return lane_mask(std::bit_cast<Int4>(lanes) < 0); }
+
+/// A point of the frame with each coordinate in all lanes: spread once, evaluated often.
+template <int D>
+using Spread_point = std::array<Float4, static_cast<std::size_t>(D)>;
+
+template <int D>
+inline Spread_point<D> spread(const Float_point<D>& y) {
+  Spread_point<D> lanes;
+  for (int i = 0; i < D; ++i) lanes[i] = Float4{y[i], y[i], y[i], y[i]};
+  return lanes;
+}
+
 /// Signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
 template <int D>
-inline Float4 evaluate(const Plane_block<D>& block, const Float_point<D>& y) {
+inline Float4 evaluate(const Plane_block<D>& block, const Spread_point<D>& y) {
   // Two short chains instead of a long one.
   const Float4 r = block.normal[D - 1] * y[D - 1] + block.offset;
   if constexpr (D == 3) return (block.normal[0] * y[0] + block.normal[1] * y[1]) + r;
   return block.normal[0] * y[0] + r;
+}
+
+template <int D>
+inline Float4 evaluate(const Plane_block<D>& block, const Float_point<D>& y) {
+  return evaluate<D>(block, spread<D>(y));
+}
+
+/// How fast four signed distances grow along a direction, rounded.
+template <int D>
+inline Float4 slopes(const Plane_block<D>& block, const Spread_point<D>& direction) {
+  const Float4 r = block.normal[0] * direction[0] + block.normal[1] * direction[1];
+  if constexpr (D == 3) return r + block.normal[2] * direction[2];
+  return r;
 }
 
 }  // namespace cellwalk

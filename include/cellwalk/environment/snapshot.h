@@ -97,6 +97,8 @@ class Snapshot {
   std::size_t block_count(Cell c) const {
     return uniform_blocks_ ? uniform_blocks_ : (facet_count(c) + 3) / 4;
   }
+  /// Blocks of every cell, or 0 where they differ.
+  std::size_t uniform_blocks() const { return uniform_blocks_; }
   /// Asks for the planes of the neighbours across the first four facets: the walk needs one of them next.
   void prefetch_neighbors(Cell c) const {
     const std::uint32_t* neighbors = links(c);

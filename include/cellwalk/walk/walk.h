@@ -8,6 +8,7 @@
 #include <cellwalk/walk/particle.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cellwalk {
@@ -70,7 +71,7 @@ struct Walk_result {
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex that the target lies on, if arrived
   std::uint16_t aimed = 0;      ///< facet of the last cell that the motion aims at
   std::uint32_t cells = 1;      ///< cells visited
-  Wall_contact<D> contact;      ///< only if status is contact
+  std::optional<Wall_contact<D>> contact;  ///< if status is contact
 };
 
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing one is; passing
@@ -111,10 +112,7 @@ inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, c
       ++counts.stays;
       particle.position = target;
       particle.dimension = D;
-      Walk_result<D> result;
-      result.cell = particle.cell;
-      result.aimed = particle.aimed;
-      return result;
+      return {Walk_status::arrived, particle.cell, D, particle.aimed, 1, {}};
     }
   }
   return detail::move_by_walk<Kernel>(snapshot, particle, target, counts, options);

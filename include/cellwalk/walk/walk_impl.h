@@ -86,7 +86,7 @@ class Walker {
       return false;
     }
     result_.status = Walk_status::contact;
-    Wall_contact<D>& contact = result_.contact;
+    Wall_contact<D>& contact = result_.contact.emplace();
     const auto loop = cell.loop(exit.number);
     if constexpr (D == 2)
       contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), a_, b_);
@@ -142,29 +142,53 @@ class Walker {
   /// Follows the walk as far as the planes decide it; true if it ended, false if the cell needs exact signs.
   bool run_certified() {
     if (!map_start()) return false;
+    const Frame_line<D> line(y_a_, y_b_);
+    // One block a cell in all cells (tetrahedra, triangles) is worth a loop of its own.
+    const Certified_exit exit =
+        snapshot_.uniform_blocks() == 1 ? follow([&](Cell cell, bool starts_inside) {
+          return certified_exit<D>(*snapshot_.blocks(cell), line, starts_inside);
+        })
+                                        : follow([&](Cell cell, bool starts_inside) {
+                                            return exit_of_blocks(cell, line, starts_inside);
+                                          });
+    switch (exit.verdict) {
+      case Certified_exit::inside:
+        arrive_inside();
+        return true;
+      case Certified_exit::leaves:
+        pass(static_cast<std::uint16_t>(exit.facet));
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  Certified_exit exit_of_blocks(Cell cell, const Frame_line<D>& line, bool starts_inside) const {
+    const std::size_t blocks = snapshot_.block_count(cell);
+    const Plane_block<D>* planes = snapshot_.blocks(cell);
+    if (blocks == 2) return certified_exit<D>(planes, 2, line, starts_inside);
+    if (blocks > certified_blocks) return {Certified_exit::unknown, 0};
+    return certified_exit<D>(planes, blocks, line, starts_inside);
+  }
+
+  /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.
+  template <class Find_exit>
+  Certified_exit follow(Find_exit find_exit) {
     // The state of the walk in registers.
     Cell cell = cell_;
     bool starts_inside = starts_inside_;
     std::uint32_t crossed = 0;
     std::uint64_t evaluated = 0;
-    Certified_exit exit{Certified_exit::unknown, 0};
-    bool ended = false;
+    Certified_exit exit;
     for (;;) {
-      const std::size_t blocks = snapshot_.block_count(cell);
-      if (blocks > certified_blocks) break;
       snapshot_.prefetch_neighbors(cell);
-      const Plane_block<D>* planes = snapshot_.blocks(cell);
-      exit = blocks == 1   ? certified_exit(planes, 1, y_a_, y_b_, starts_inside)
-             : blocks == 2 ? certified_exit(planes, 2, y_a_, y_b_, starts_inside)
-                           : certified_exit(planes, blocks, y_a_, y_b_, starts_inside);
-      evaluated += 2 * blocks;
-      ended = exit.verdict != Certified_exit::unknown;
+      exit = find_exit(cell, starts_inside);
+      evaluated += 2 * snapshot_.block_count(cell);
       if (exit.verdict != Certified_exit::leaves) break;
       const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
       if (snapshot_.is_impassable(f)) break;
       cell = snapshot_.neighbor(f);
       starts_inside = true;
-      ended = false;
       ++crossed;
       if (options_.visited) options_.visited->push_back(cell);
     }
@@ -174,12 +198,7 @@ class Walker {
     if (crossed) result_.aimed = 0;
     cell_ = cell;
     starts_inside_ = starts_inside;
-    if (!ended) return false;
-    if (exit.verdict == Certified_exit::inside)
-      arrive_inside();
-    else
-      pass(static_cast<std::uint16_t>(exit.facet));
-    return true;
+    return exit;
   }
 
   /// Passes the interior of a facet, or ends the walk there: then false.

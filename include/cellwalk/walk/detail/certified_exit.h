@@ -13,6 +13,7 @@
 
 #include <cellwalk/environment/planes.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -44,6 +45,16 @@ struct Certified_exit {
 
 inline Float4 broadcast(float x) { return Float4{x, x, x, x}; }
 
+/// A motion in the frame, ready for planes.
+template <int D>
+struct Frame_line {
+  Spread_point<D> a, b, direction;
+
+  Frame_line(const Float_point<D>& from, const Float_point<D>& to) : a(spread<D>(from)), b(spread<D>(to)) {
+    for (int i = 0; i < D; ++i) direction[i] = b[i] - a[i];
+  }
+};
+
 inline Float4 lane_min(Float4 a, Float4 b) {
 #if defined(__SSE2__)
   return std::bit_cast<Float4>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
@@ -73,6 +84,77 @@ inline Float4 rough_inverse(Float4 x) {
 #endif
 }
 
+/// Later than any time of an exit.
+inline constexpr float never = 4;
+
+/// Intervals that hold the times at which the line meets four planes, where the target lies outside (see
+/// certified_exit).
+struct Times {
+  Float4 lower, upper;
+};
+
+inline Times times(Float4 a, Float4 b) {
+  constexpr float time_slack = 0x1p-20f;
+  const Float4 inverse = broadcast(1.0f) / (b - a);
+  const Float4 time = -a * inverse, width = plane_error * inverse + broadcast(time_slack);
+  return {time - width, time + width};
+}
+
+/// Lanes turned left by `By`: lane i holds lane i+By.
+template <int By>
+inline Float4 turned(Float4 v) {
+  return __builtin_shufflevector(v, v, By % 4, (1 + By) % 4, (2 + By) % 4, (3 + By) % 4);
+}
+
+/// Which of four lanes is met first, by the outcomes of their comparisons. Bit i of the index: lane i is met before
+/// lane i+1 (mod 4); bit 4+i (i < 2): before lane i+2; bit 6+i: lane i is not met, its plane faces away. 0 where no lane
+/// is before all others.
+inline constexpr std::array<std::uint8_t, 1024> first_lane = [] {
+  std::array<std::uint8_t, 1024> table{};
+  for (unsigned index = 0; index < table.size(); ++index) {
+    const auto is_met = [&](unsigned i) { return !(index >> (6 + i) & 1); };
+    const auto before = [&](unsigned i, unsigned j) {
+      if ((i + 1) % 4 == j) return (index >> i & 1) != 0;
+      if ((j + 1) % 4 == i) return !(index >> j & 1);
+      return i < j ? (index >> (4 + i) & 1) != 0 : !(index >> (4 + j) & 1);
+    };
+    for (unsigned i = 0; i < 4; ++i) {
+      bool first = is_met(i);
+      for (unsigned j = 0; j < 4; ++j) first = first && (j == i || !is_met(j) || before(i, j));
+      if (first) table[index] = static_cast<std::uint8_t>(i);
+    }
+  }
+  return table;
+}();
+
+/// The lane whose plane the line from a (values `a`) in a direction (slopes `slope` of the planes along it) probably
+/// meets first: the smallest -a/slope of positive slope, by cross products, since a division would take longer than the
+/// rest of a crossing. Proves nothing: products are rounded.
+inline std::uint32_t probably_first(Float4 a, Float4 slope) {
+  const Float4 next = turned<1>(a) * slope - a * turned<1>(slope);
+  const Float4 opposite = turned<2>(a) * slope - a * turned<2>(slope);
+  const unsigned index = sign_mask(next) | (sign_mask(opposite) & 3u) << 4 | sign_mask(slope) << 6;
+  return first_lane[index];
+}
+
+/// The exit of a cell of one block, as below.
+template <int D>
+inline Certified_exit certified_exit(const Plane_block<D>& planes, const Frame_line<D>& line,
+                                     bool starts_inside) {
+  const Float4 b = evaluate<D>(planes, line.b), a = evaluate<D>(planes, line.a);
+  const std::uint32_t first = probably_first(a, slopes<D>(planes, line.direction));
+  const Int4 is_outside = b > broadcast(plane_error);
+  const unsigned outside = lane_mask(is_outside);
+  if ((lane_mask(b < broadcast(-plane_error)) | outside) != 0xf) return {Certified_exit::unknown, 0};
+  if (!outside) return {Certified_exit::inside, 0};
+  const Times t = times(a, b);
+  const Float4 bound = smallest(is_outside ? t.upper : broadcast(never));
+  const unsigned own = 1u << first;
+  unsigned unproved = (lane_mask(t.lower <= bound) & outside) ^ own;
+  if (!starts_inside) unproved |= ~lane_mask(a < broadcast(-plane_error)) & own;
+  return {unproved ? Certified_exit::unknown : Certified_exit::leaves, first};
+}
+
 /// The exit of a cell of `blocks` blocks towards b, from the start a of the line. `starts_inside`: the line holds a
 /// point of the cell strictly before any exit.
 ///
@@ -86,28 +168,23 @@ inline Float4 rough_inverse(Float4 x) {
 /// candidate's interval lies below the lower ends of all others, the line meets the candidate strictly first.
 template <int D>
 inline Certified_exit certified_exit(const Plane_block<D>* planes, std::size_t blocks,
-                                     const Float_point<D>& y_a, const Float_point<D>& y_b,
-                                     bool starts_inside) {
-  constexpr float never = 4;  // later than any time
-  constexpr float time_slack = 0x1p-20f;
+                                     const Frame_line<D>& line, bool starts_inside) {
   constexpr int number_bits = 31;  // last bits of a rough time: 4 certified_blocks - 1
   Float4 lower[certified_blocks];
   unsigned outside[certified_blocks];
   unsigned doubt = 0, leaves = 0;
   Float4 candidate = broadcast(never), first_upper = broadcast(never);
   for (std::size_t k = 0; k < blocks; ++k) {
-    const Float4 b = evaluate(planes[k], y_b), a = evaluate(planes[k], y_a);
+    const Float4 b = evaluate<D>(planes[k], line.b), a = evaluate<D>(planes[k], line.a);
     const Int4 is_outside = b > broadcast(plane_error);
-    const Float4 gap = b - a;
     const int base = static_cast<int>(4 * k);
     const Int4 numbers{base, base + 1, base + 2, base + 3};
-    const Int4 keyed = (std::bit_cast<Int4>(-a * rough_inverse(gap)) & ~number_bits) | numbers;
+    const Int4 keyed = (std::bit_cast<Int4>(-a * rough_inverse(b - a)) & ~number_bits) | numbers;
     candidate = lane_min(candidate, is_outside ? std::bit_cast<Float4>(keyed) : broadcast(never));
 
-    const Float4 inverse = broadcast(1.0f) / gap;
-    const Float4 time = -a * inverse, width = plane_error * inverse + broadcast(time_slack);
-    lower[k] = time - width;
-    first_upper = lane_min(first_upper, is_outside ? time + width : broadcast(never));
+    const Times t = times(a, b);
+    lower[k] = t.lower;
+    first_upper = lane_min(first_upper, is_outside ? t.upper : broadcast(never));
 
     outside[k] = lane_mask(is_outside);
     leaves |= outside[k];
@@ -123,7 +200,7 @@ inline Certified_exit certified_exit(const Plane_block<D>* planes, std::size_t b
     unproved |= (lane_mask(lower[k] <= bound) & outside[k]) ^ own;
   }
   if (!starts_inside)
-    unproved |= best >= 4 * blocks || !(evaluate(planes[best / 4], y_a)[best % 4] < -plane_error);
+    unproved |= best >= 4 * blocks || !(evaluate<D>(planes[best / 4], line.a)[best % 4] < -plane_error);
   return {unproved ? Certified_exit::unknown : Certified_exit::leaves, best};
 }
 
