@@ -82,24 +82,29 @@ void World<D>::follow(const Catheter<D>& catheter, std::size_t i) {
   std::vector<Point<D>>& trail = trails_[i - free_count_];
   const Point<D>& before = particles_[i - 1].position;
   if (trail.empty() || trail.back() != before) trail.push_back(before);
-  // The latest place in sight; what came before it is forgotten.
+  // The latest place in sight; what came before it is forgotten. It stays until a later one is in sight: where the
+  // predecessor has just gone round a corner, it was last seen there.
   for (std::size_t k = trail.size(); k-- > 0;)
     if (in_sight(particles_[i], trail[k])) {
       trail.erase(trail.begin(), trail.begin() + static_cast<std::ptrdiff_t>(k));
       break;
     }
   const Point<D> here = particles_[i].position;
-  Vector<D> motion{};
   const double excess = link_length(i) - catheter.spacing, distance = length(trail.front() - here);
+  Vector<D> pull{};
+  if (excess > 0 && distance > 0) pull = std::min(1.0, excess / distance) * (trail.front() - here);
+  Vector<D> motion = pull;
   if (i + 1 < particles_.size()) {
     // Stiffness gives way as links are stretched: what hangs on a corner then moves like a thread, which gets round.
     const double stretch = std::max(excess, link_length(i + 1) - catheter.spacing) / catheter.spacing;
     const double yield = std::clamp(1 - stretch / (most_stretched - 1), 0.0, 1.0);
-    motion = (0.5 * catheter.stiffness * yield) * (0.5 * (before + particles_[i + 1].position) - here);
+    motion = pull + (0.5 * catheter.stiffness * yield) * (0.5 * (before + particles_[i + 1].position) - here);
+    // It gives way too where it would push the follower behind a corner, out of sight of its trail.
+    Particle<D> trial = particles_[i];
+    advance(snapshot_, trial, motion, {0, scene_.friction}, met_, counts_);
+    if (!in_sight(trial, trail.front())) motion = pull;
   }
-  if (excess > 0 && distance > 0) motion = motion + std::min(1.0, excess / distance) * (trail.front() - here);
   push(i, motion);
-  if (in_sight(particles_[i], before)) trail.clear();
 }
 
 template <int D>

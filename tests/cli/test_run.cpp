@@ -115,6 +115,16 @@ TEST_F(Run, GivesTheSameBytesEveryTime) {
   }
 }
 
+TEST_F(Run, CathetersOfTheShippedScenesArrive) {
+  for (const char* scene : {"vessel.json", "rooms.json"}) {
+    succeed({"run", std::string(CELLWALK_SHIPPED_DATA "/").append(scene), "-o", "out", "--force"});
+    const auto report = nlohmann::json::parse(text("out/run.json"));
+    EXPECT_TRUE(report.at("catheter").at("arrived")) << scene;
+    EXPECT_TRUE(report.at("validated")) << scene;
+    EXPECT_GT(report.at("contacts").at("facet"), 500) << scene;
+  }
+}
+
 TEST_F(Run, LeavesThirdCoordinatesEmptyInThePlane) {
   write("flat.json", flat_room);
   succeed({"run", "flat.json", "-o", "out"});

@@ -164,7 +164,10 @@ TEST(World, CatheterFindsItsWayRoundBends) {
     scene.catheter->stiffness = stiffness;
     World<2> world(snapshot, scene);
     const std::size_t contacts = sum(run_checked(snapshot, world, 250));
-    EXPECT_GT(contacts, 50u) << stiffness;
+    // A thread goes where its tip went, clear of the walls; what is stiff is bent by them.
+    if (stiffness > 0) {
+      EXPECT_GT(contacts, 50u) << stiffness;
+    }
     EXPECT_EQ(world.next_way_point(), world.path().size()) << stiffness;
     EXPECT_LT(length(world.particles()[0].position - Point<2>{0.5, 4.5}), 0.2) << stiffness;
     EXPECT_GT(world.particles().size(), 30u);
