@@ -4,12 +4,15 @@
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -23,6 +26,28 @@ Cell_soup<3> soup_of(const benchmark::State& state) {
   return tetrahedral_grid(options);
 }
 
+/// The same cells and points in random order: the worst that a file can do to the cache.
+Cell_soup<3> shuffled(const Cell_soup<3>& soup) {
+  Random random(1);
+  std::vector<std::uint32_t> cells(soup.cell_count()), places(soup.points.size());
+  std::iota(cells.begin(), cells.end(), 0);
+  std::iota(places.begin(), places.end(), 0);
+  random.shuffle(cells);
+  random.shuffle(places);
+  Cell_soup<3> other;
+  other.points.resize(soup.points.size());
+  for (std::size_t i = 0; i < places.size(); ++i) other.points[places[i]] = soup.points[i];
+  for (const std::uint32_t c : cells) {
+    for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) {
+      std::vector<std::uint32_t> loop;
+      for (const std::uint32_t v : soup.facet(f)) loop.push_back(places[v]);
+      other.add_facet(loop);
+    }
+    other.end_cell();
+  }
+  return other;
+}
+
 void report(benchmark::State& state, std::size_t cells, std::size_t bytes) {
   state.counters["tetrahedra"] = static_cast<double>(cells);
   if (bytes > 0)
@@ -30,8 +55,7 @@ void report(benchmark::State& state, std::size_t cells, std::size_t bytes) {
 }
 
 /// The whole way: duplicates, check of every cell, gluing, map, snapshot, certification.
-void build_environment(benchmark::State& state) {
-  const Cell_soup<3> soup = soup_of(state);
+void build(benchmark::State& state, const Cell_soup<3>& soup) {
   std::size_t bytes = 0, map_bytes = 0;
   for (auto _ : state) {
     const Environment<3> environment = Environment<3>::build(soup);
@@ -43,9 +67,11 @@ void build_environment(benchmark::State& state) {
       static_cast<double>(map_bytes) / static_cast<double>(soup.cell_count());
 }
 
+void build_environment(benchmark::State& state) { build(state, soup_of(state)); }
+void build_shuffled_environment(benchmark::State& state) { build(state, shuffled(soup_of(state))); }
+
 /// The same without a map: what a program that never edits does.
-void build_frozen_environment(benchmark::State& state) {
-  const Cell_soup<3> soup = soup_of(state);
+void build_frozen(benchmark::State& state, const Cell_soup<3>& soup) {
   Build_options options;
   options.keep_map = false;
   std::size_t bytes = 0;
@@ -54,6 +80,11 @@ void build_frozen_environment(benchmark::State& state) {
     bytes = environment.snapshot().bytes();
   }
   report(state, soup.cell_count(), bytes);
+}
+
+void build_frozen_environment(benchmark::State& state) { build_frozen(state, soup_of(state)); }
+void build_shuffled_frozen_environment(benchmark::State& state) {
+  build_frozen(state, shuffled(soup_of(state)));
 }
 
 void glue_soup(benchmark::State& state) {
@@ -88,7 +119,9 @@ void sizes(benchmark::internal::Benchmark* b) {
 }
 
 BENCHMARK(build_environment)->Apply(sizes);
+BENCHMARK(build_shuffled_environment)->Apply(sizes);
 BENCHMARK(build_frozen_environment)->Apply(sizes);
+BENCHMARK(build_shuffled_frozen_environment)->Apply(sizes);
 BENCHMARK(glue_soup)->Apply(sizes);
 BENCHMARK(compile_snapshot)->Apply(sizes);
 BENCHMARK(certify_snapshot)->Apply(sizes);

@@ -95,14 +95,13 @@ Motions motions(const World& w, Start start, double reach) {
   return m;
 }
 
+/// Seconds a move and a crossing, and how many of these a move has.
 void report(benchmark::State& state, double moves, double crossings) {
-  state.counters["ns_per_move"] =
-      benchmark::Counter(moves * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  if (crossings > 0) {
-    state.counters["ns_per_crossing"] =
-        benchmark::Counter(crossings * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters["crossings_per_move"] = crossings / moves;
-  }
+  const auto time_per = benchmark::Counter::kIsRate | benchmark::Counter::kInvert;
+  state.counters["time_per_move"] = benchmark::Counter(moves, time_per);
+  if (crossings < moves) return;  // most moves stay in their cell
+  state.counters["time_per_crossing"] = benchmark::Counter(crossings, time_per);
+  state.counters["crossings_per_move"] = crossings / moves;
 }
 
 /// A displacement of 10^-7 cubes: practically every move stays in its cell.

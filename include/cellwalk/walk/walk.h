@@ -78,8 +78,8 @@ struct Walk_result {
 /// exactly through passable edges and vertices works. \pre particle.position lies in the closure of
 /// particle.cell; the target is finite Degenerate cases: an exit on a ridge or vertex is continued through
 /// its star along passable facets; where several cells qualify the first in breadth-first order is taken.
-/// Zero motion arrives. Cost: about 5 ns if the target lies in the same cell, plus 20 to 35 ns a crossed
-/// facet.
+/// Zero motion arrives. Cost: about 4 ns if the target lies in the same cell, plus 17 ns a crossed facet where cells
+/// are in the cache (25 ns at 10^5 tetrahedra, 130 ns at 10^6, where they are not).
 template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
