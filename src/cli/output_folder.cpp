@@ -3,6 +3,7 @@
 
 #include <cellwalk/kernel/error.h>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <string>
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 fs::path beside(const fs::path& destination, const char* word) {
   fs::path name = destination;
   if (!name.has_filename()) name = name.parent_path();  // a name that ends in a slash
-  name += "." + std::string(word) + "-" + std::to_string(getpid());
+  name += fmt::format(".{}-{}", word, getpid());
   return name;
 }
 
