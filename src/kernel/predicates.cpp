@@ -6,6 +6,7 @@
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,62 @@ T value(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>&
   const T bx = T(w[0]) - ux, by = T(w[1]) - uy, bz = T(w[2]) - uz;
   return (ay * bz - az * by) * (T(x[0]) - ux) + (az * bx - ax * bz) * (T(x[1]) - uy) +
          (ax * by - ay * bx) * (T(x[2]) - uz);
+}
+
+/// A normal of the line uv, or the plane uvw, in any ordered field.
+template <class T>
+std::array<T, 2> normal(const Point<2>& u, const Point<2>& v) {
+  return {T(u[1]) - T(v[1]), T(v[0]) - T(u[0])};
+}
+
+template <class T>
+std::array<T, 3> normal(const Point<3>& u, const Point<3>& v, const Point<3>& w) {
+  const T ux(u[0]), uy(u[1]), uz(u[2]);
+  const T ax = T(v[0]) - ux, ay = T(v[1]) - uy, az = T(v[2]) - uz;
+  const T bx = T(w[0]) - ux, by = T(w[1]) - uy, bz = T(w[2]) - uz;
+  return {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
+}
+
+/// Components so wide, as a share of the largest, are computed again exactly.
+constexpr double normal_width = 0x1p-50;
+
+/// Scaled to length 1; 0 stays 0.
+template <std::size_t D>
+std::array<double, D> normalized(std::array<double, D> n) {
+  double largest = 0, squares = 0;
+  for (const double x : n) largest = std::max(largest, std::abs(x));
+  if (largest == 0) return n;
+  const int exponent = std::ilogb(largest);  // keeps the squares in range
+  for (double& x : n) {
+    x = std::ldexp(x, -exponent);
+    squares += x * x;
+  }
+  for (double& x : n) x = x / std::sqrt(squares) + 0.0;  // no negative zeros for readers of tables
+  return n;
+}
+
+template <class... P>
+std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
+  constexpr std::size_t D = sizeof...(P);
+  std::array<double, D> n;
+  {
+    using Interval = CGAL::Interval_nt<true>;
+    const auto wide = normal<Interval>(points...);
+    double width = 0, largest = 0;
+    for (std::size_t i = 0; i < D; ++i) {
+      n[i] = wide[i].inf() + (wide[i].sup() - wide[i].inf()) / 2;
+      width = std::max(width, wide[i].sup() - wide[i].inf());
+      largest = std::max(largest, std::abs(n[i]));
+    }
+    if (width <= normal_width * largest && largest > 0 && std::isfinite(largest)) return normalized(n);
+  }
+  using Rational = CGAL::Exact_rational;
+  const auto exact = normal<Rational>(points...);
+  Rational largest = 0;
+  for (const Rational& x : exact) largest = std::max<Rational>(largest, abs(x));
+  if (largest == 0) return {};
+  for (std::size_t i = 0; i < D; ++i) n[i] = CGAL::to_double(Rational(exact[i] / largest));
+  return normalized(n);
 }
 
 /// 4 ulp of 1/2 relative: the widest interval whose midpoint is reported.
@@ -114,5 +171,24 @@ double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, co
                      const Point<3>& b) {
   return time_of(a, b, u, v, w);
 }
+
+Vector<2> unit_normal(const Point<2>& u, const Point<2>& v) { return Vector<2>(unit_normal_of(u, v)); }
+
+Vector<3> unit_normal(const Point<3>& u, const Point<3>& v, const Point<3>& w) {
+  return Vector<3>(unit_normal_of(u, v, w));
+}
+
+template <int D>
+Point<D> point_on(const Point<D>& a, const Point<D>& b, double t) {
+  Point<D> p;
+  for (int i = 0; i < D; ++i) {
+    const double difference = b[i] - a[i];
+    p[i] = std::isfinite(difference) ? a[i] + t * difference : (1 - t) * a[i] + t * b[i];
+  }
+  return p;
+}
+
+template Point<2> point_on<2>(const Point<2>&, const Point<2>&, double);
+template Point<3> point_on<3>(const Point<3>&, const Point<3>&, double);
 
 }  // namespace cellwalk

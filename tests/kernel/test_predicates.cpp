@@ -86,5 +86,48 @@ TEST(CrossingTime, IsZeroOrOneOnlyIfExactlySo) {
   EXPECT_GT(crossing_time(u, v, {0.5, 5e-324}, {0.5, -1e300}), 0);
 }
 
+TEST(UnitNormal, HasLengthOneAtEveryScaleAndForThinTriangles) {
+  std::mt19937_64 random(12);
+  const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
+  int thin = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double scale = std::array{1.0, 1e-320, 1e-160, 1e160, 1e308}[static_cast<std::size_t>(i) % 5];
+    Point<3> u{unit(), unit(), unit()}, v{unit(), unit(), unit()}, w{unit(), unit(), unit()};
+    if (i % 2) w = point_on<3>(u, v, 0.3);  // on one line but for rounding
+    u = scale * u, v = scale * v, w = scale * w;
+    std::array<Rational, 3> a, b, n;
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] = Rational(v[k]) - Rational(u[k]);
+      b[k] = Rational(w[k]) - Rational(u[k]);
+    }
+    Rational largest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+      largest = std::max<Rational>(largest, abs(n[k]));
+    }
+    const Vector<3> found = unit_normal(u, v, w);
+    if (largest == 0) {
+      EXPECT_EQ(found, Vector<3>{});
+      continue;
+    }
+    thin += i % 2;
+    double expected[3], squares = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      expected[k] = static_cast<double>(Rational(n[k] / largest));
+      squares += expected[k] * expected[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k] / std::sqrt(squares), 1e-14) << i;
+  }
+  EXPECT_GT(thin, 1000);
+  EXPECT_EQ(unit_normal({0, 0}, {5e-324, 0}), (Vector<2>{0, 1}));
+  EXPECT_EQ(unit_normal({-1e308, 0}, {1e308, 0}), (Vector<2>{0, 1}));
+  EXPECT_EQ(unit_normal(Point<2>{1, 2}, {1, 2}), (Vector<2>{0, 0}));
+}
+
+TEST(PointOn, IsFiniteWhereTheDifferenceIsNot) {
+  EXPECT_EQ(point_on<2>({-1.5e308, 1}, {1.5e308, 3}, 0.5), (Point<2>{0, 2}));
+  EXPECT_EQ(point_on<2>({-1.5e308, 1}, {1.5e308, 3}, 1), (Point<2>{1.5e308, 3}));
+}
+
 }  // namespace
 }  // namespace cellwalk

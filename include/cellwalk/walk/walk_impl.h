@@ -92,7 +92,7 @@ class Walker {
       contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), a_, b_);
     else
       contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), a_, b_);
-    for (int k = 0; k < D; ++k) contact.point[k] = a_[k] + contact.time * (b_[k] - a_[k]);
+    contact.point = point_on<D>(a_, b_, contact.time);
     const Cell wall_cell = snapshot_.cell_of(wall);
     contact.normal = inner_normal(snapshot_.view(wall_cell), snapshot_.facet_of(wall));
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet

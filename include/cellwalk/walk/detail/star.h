@@ -4,6 +4,7 @@
 #define CELLWALK_WALK_DETAIL_STAR_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/kernel/predicates.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <boost/container/small_vector.hpp>
@@ -16,18 +17,10 @@ namespace cellwalk::detail {
 template <int D>
 Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
-  const Vector<D> e = cell.point(loop[1]) - cell.point(loop[0]);
-  Vector<D> n;
   if constexpr (D == 2)
-    n = {-e[1], e[0]};
+    return unit_normal(cell.point(loop[0]), cell.point(loop[1]));
   else
-    n = cross(cell.point(loop[2]) - cell.point(loop[0]), e);
-  // Scaling first keeps the squares of very small or large normals in range.
-  double largest = 0;
-  for (const double x : n) largest = std::max(largest, std::abs(x));
-  if (largest > 0) n = (1 / largest) * n;
-  const double size = length(n);
-  return size > 0 ? (1 / size) * n : n;
+    return unit_normal(cell.point(loop[0]), cell.point(loop[2]), cell.point(loop[1]));
 }
 
 /// True if facet i of a cell contains point u, and v too (3D ridge).
