@@ -25,6 +25,9 @@ struct Walk_options {
   Walk_strategy strategy = Walk_strategy::certified;
   /// If set, the cells entered are appended, the first one included.
   std::vector<Cell>* visited = nullptr;
+  /// If set, the passable facets crossed are appended, each seen from the cell it was left by. Where the motion goes
+  /// through a ridge or vertex, these are all facets on the way through its star.
+  std::vector<Half_facet>* crossed = nullptr;
 };
 
 /// What the walks did. All counts are machine-independent.

@@ -65,6 +65,8 @@ class Walker {
         result_.aimed = exit.number;
         const Star_result star = search_star<Kernel>(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
         if (star.cell == Cell::none) return block(cell, exit, star.wall);
+        if (options_.crossed)
+          options_.crossed->insert(options_.crossed->end(), star.way.begin(), star.way.end());
         return enter(star.cell);
       }
     }
@@ -191,6 +193,7 @@ class Walker {
       starts_inside = true;
       ++crossed;
       if (options_.visited) options_.visited->push_back(cell);
+      if (options_.crossed) options_.crossed->push_back(f);
     }
     counts_.plane_blocks += evaluated;
     counts_.crossings += crossed;
@@ -206,6 +209,7 @@ class Walker {
     const Half_facet f = Snapshot<D>::half_facet(cell_, facet);
     result_.aimed = facet;
     if (snapshot_.is_impassable(f)) return block(snapshot_.view(cell_), {Exit::facet, facet, 0, 0}, f);
+    if (options_.crossed) options_.crossed->push_back(f);
     return enter(snapshot_.neighbor(f));
   }
 

@@ -37,6 +37,15 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
 struct Star_result {
   Cell cell = Cell::none;              ///< where the motion goes on; none: blocked
   Half_facet wall = Half_facet::none;  ///< if blocked: the wall that blocks it
+  /// The facets on the way there, from the start.
+  boost::container::small_vector<Half_facet, 8> way;
+};
+
+/// A cell of a star, and how the search came to it.
+struct Star_cell {
+  Cell cell;
+  std::size_t parent;
+  Half_facet facet;  ///< of the parent
 };
 
 /// Searches the star of ridge uv (or vertex u = v), breadth first from `start` through passable facets, for a
@@ -46,11 +55,11 @@ template <class Kernel, int D>
 Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
                         const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
   ++counts.star_searches;
-  boost::container::small_vector<Cell, 64> queue{start};
+  boost::container::small_vector<Star_cell, 32> queue{{start, 0, Half_facet::none}};
   Star_result result;
   double steepest = 0;
   for (std::size_t head = 0; head < queue.size(); ++head) {
-    const Cell c = queue[head];
+    const Cell c = queue[head].cell;
     const Cell_view<D> cell = snapshot.view(c);
     ++counts.star_cells;
     bool accepted = true;
@@ -61,7 +70,8 @@ Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u
       accepted &= !outside;
       if (!snapshot.is_impassable(f)) {
         const Cell next = snapshot.neighbor(f);
-        if (std::find(queue.begin(), queue.end(), next) == queue.end()) queue.push_back(next);
+        const auto is_next = [next](const Star_cell& known) { return known.cell == next; };
+        if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
       } else if (outside) {
         // Of all walls in the way the one met most head-on is reported; the choice decides nothing.
         const double slope = dot(inner_normal(cell, i), a - b);
@@ -71,7 +81,11 @@ Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u
         }
       }
     }
-    if (accepted) return {c, Half_facet::none};
+    if (!accepted) continue;
+    result = {c, Half_facet::none, {}};
+    for (std::size_t i = head; i != 0; i = queue[i].parent) result.way.push_back(queue[i].facet);
+    std::reverse(result.way.begin(), result.way.end());
+    return result;
   }
   return result;
 }

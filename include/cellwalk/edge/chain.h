@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Chains: how a body edge passes the cells of an environment. Theory: docs/sweep.md. Paper: section III.
+#ifndef CELLWALK_EDGE_CHAIN_H
+#define CELLWALK_EDGE_CHAIN_H
+
+#include <cellwalk/walk/walk.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <optional>
+#include <span>
+
+namespace cellwalk {
+
+/// The passable facets that a segment pq passes, in order from p to q, each seen from the cell on the side of p. Empty if
+/// p and q share a cell. With the cells of p and q it says on which side of a wall the segment lies, where it lies in one.
+using Chain = boost::container::small_vector<Half_facet, 4>;
+
+/// What the checks of edges did. All counts are machine-independent.
+struct Edge_counts {
+  std::uint64_t edges = 0;          ///< edges checked
+  std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
+  std::uint64_t chain_facets = 0;   ///< facets looked at for that
+  std::uint64_t walked = 0;         ///< edges along which a temporary particle was walked
+  Walk_counts walk;                 ///< of all walks and signs
+
+  Edge_counts& operator+=(const Edge_counts& other);
+};
+
+/// The chain of a segment, or what is in its way.
+template <int D>
+struct Chain_result {
+  Chain chain;
+  /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. 1: it leads to q on another
+  /// side of the walls there than the one that q is on.
+  std::optional<Wall_contact<D>> contact;
+};
+
+/// Walks a temporary particle from p to q.
+/// \pre each particle lies in the closure of its cell
+/// Degenerate cases: where the segment may pass a wall on either side, one is taken by a fixed rule, see walk().
+/// Cost: that of the walk.
+template <int D>
+Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                           Walk_counts& counts);
+
+/// The chain of qp, given that of pq. Cost: a search for each facet among those of its cell.
+template <int D>
+Chain reversed(const Snapshot<D>& snapshot, const Chain& chain);
+
+/// Puts the facets that p crossed, as Walk_options::crossed reports them, in front of the chain of pq, and drops those
+/// that are thereby passed there and back. The result leads from the cell of p now to that of q; whether pq passes it is
+/// for passes() to say.
+template <int D>
+void walk_start(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed);
+
+/// True proves that the segment pq passes the facets of a chain in order: then the chain is that of pq, and if it was that
+/// of another segment p'q before p moved (walk_start), the whole triangle p'pq is free. False proves nothing: facets in whose
+/// plane the segment lies, and facets of a star passed backwards in one point, are not looked into. All signs are exact.
+/// Cost: two signs a facet and one for each of its ridges.
+template <int D>
+bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, const Point<D>& q,
+            Walk_counts& counts);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_EDGE_CHAIN_H

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/edge/three_segments.h>
+
+namespace cellwalk {
+
+template <int D>
+Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Chain& before,
+                                    std::span<const Half_facet> crossed, const Particle<D>& p,
+                                    const Particle<D>& q, Edge_counts& counts) {
+  ++counts.edges;
+  Chain chain = before;
+  walk_start(snapshot, chain, crossed);
+  if (chain.empty()) {
+    ++counts.same_cell;
+    return {};
+  }
+  counts.chain_facets += chain.size();
+  if (passes(snapshot, chain, p.position, q.position, counts.walk)) {
+    ++counts.same_chain;
+    return {std::move(chain), {}};
+  }
+  ++counts.walked;
+  return find_chain(snapshot, p, q, counts.walk);
+}
+
+template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Chain&, std::span<const Half_facet>,
+                                                const Particle<2>&, const Particle<2>&, Edge_counts&);
+template Chain_result<3> check_third_segment<3>(const Snapshot<3>&, const Chain&, std::span<const Half_facet>,
+                                                const Particle<3>&, const Particle<3>&, Edge_counts&);
+
+}  // namespace cellwalk

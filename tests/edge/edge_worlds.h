@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Edges in the worlds in which the walk is tested.
+#ifndef CELLWALK_TESTS_EDGE_EDGE_WORLDS_H
+#define CELLWALK_TESTS_EDGE_EDGE_WORLDS_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/walk/locate.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "walk/oracle_worlds.h"
+
+namespace cellwalk::test {
+
+/// A world, and edges in it: at least half of them degenerate unless they are to be generic.
+template <int D>
+class Edge_world {
+ public:
+  Edge_world(std::uint64_t number, bool generic)
+      : world(oracle::make_world<D>(number)),
+        snapshot(Snapshot<D>::compile(world.soup, glue(world.soup))),
+        locator(snapshot),
+        generic_(generic),
+        source_(world, number) {}
+
+  /// A particle where a motion may start; Cell::none as its cell if that is not in free space.
+  Particle<D> start() {
+    kind_ = source_.kind(generic_);
+    return on_any_side(source_.start(kind_));
+  }
+  /// A particle where a motion of this kind from p ends.
+  Particle<D> end(const Particle<D>& p) { return on_any_side(target(p)); }
+  /// Where p may move.
+  Point<D> target(const Particle<D>& p) { return source_.target(kind_, p.position, p.position); }
+  void choose_kind() { kind_ = source_.kind(generic_); }
+
+  std::vector<Point<D>> polygon(Half_facet f) const {
+    std::vector<Point<D>> points;
+    for (const std::uint32_t v : snapshot.loop(f)) points.push_back(snapshot.point(v));
+    return points;
+  }
+
+  const oracle::World<D> world;
+  const Snapshot<D> snapshot;
+  const Locator<D> locator;
+
+ private:
+  Particle<D> on_any_side(const Point<D>& x) {
+    Particle<D> particle = locator.particle_at(x);
+    if (particle.cell == Cell::none) return particle;
+    const auto cells = locator.locate(x).cells;
+    particle.cell = cells[source_.random().below(cells.size())];
+    return particle;
+  }
+
+  bool generic_;
+  oracle::Motion_kind kind_{};
+  oracle::Motion_source<D> source_;
+};
+
+/// Follows a chain through passable facets from one cell to the other.
+template <int D>
+void expect_leads(const Snapshot<D>& snapshot, const Chain& chain, Cell from, Cell to) {
+  Cell cell = from;
+  for (const Half_facet f : chain) {
+    ASSERT_EQ(snapshot.cell_of(f), cell);
+    ASSERT_FALSE(snapshot.is_impassable(f));
+    cell = snapshot.neighbor(f);
+  }
+  EXPECT_EQ(cell, to);
+}
+
+}  // namespace cellwalk::test
+
+#endif  // CELLWALK_TESTS_EDGE_EDGE_WORLDS_H

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "edge/rational_sweep.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace cellwalk::test {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+template <std::size_t D>
+using Vec = std::array<Rational, D>;
+
+template <std::size_t D>
+Vec<D> exact(const std::array<double, D>& p) {
+  Vec<D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = Rational(p[i]);
+  return r;
+}
+
+template <std::size_t D>
+Vec<D> minus(const Vec<D>& a, const Vec<D>& b) {
+  Vec<D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = a[i] - b[i];
+  return r;
+}
+
+template <std::size_t D>
+Rational dot(const Vec<D>& a, const Vec<D>& b) {
+  Rational r = 0;
+  for (std::size_t i = 0; i < D; ++i) r += a[i] * b[i];
+  return r;
+}
+
+template <std::size_t D>
+Vec<D> on(const Vec<D>& a, const Vec<D>& b, const Rational& t) {
+  Vec<D> r;
+  for (std::size_t i = 0; i < D; ++i) r[i] = a[i] + t * (b[i] - a[i]);
+  return r;
+}
+
+Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Normal of the line or plane of a facet; longest of all choices, so not 0 where vertices are collinear.
+Vec<2> normal(const std::vector<Vec<2>>& facet) {
+  const Vec<2> e = minus(facet[1], facet[0]);
+  return {-e[1], e[0]};
+}
+
+Vec<3> normal(const std::vector<Vec<3>>& facet) {
+  Vec<3> best{0, 0, 0};
+  for (std::size_t i = 2; i < facet.size(); ++i) {
+    const Vec<3> n = cross(minus(facet[i - 1], facet[0]), minus(facet[i], facet[0]));
+    if (dot(n, n) > dot(best, best)) best = n;
+  }
+  return best;
+}
+
+template <std::size_t D>
+std::vector<Vec<D>> exact(std::span<const std::array<double, D>> points) {
+  std::vector<Vec<D>> r;
+  for (const auto& p : points) r.push_back(exact(p));
+  return r;
+}
+
+/// Parameters along a direction of the points in which the boundary of a convex polygon crosses a plane, where the polygon
+/// has vertices strictly on both sides; empty otherwise.
+std::optional<std::array<Rational, 2>> cut(const std::vector<Vec<3>>& polygon, const Vec<3>& origin, const Vec<3>& n,
+                                           const Vec<3>& direction) {
+  std::vector<Rational> heights;
+  for (const auto& v : polygon) heights.push_back(dot(n, minus(v, origin)));
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  if (*low >= 0 || *high <= 0) return {};
+  std::vector<Rational> places;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::size_t j = (i + 1) % polygon.size();
+    if (heights[i] == 0) places.push_back(dot(direction, polygon[i]));
+    if (heights[i] * heights[j] < 0)
+      places.push_back(dot(direction, on(polygon[i], polygon[j], Rational(heights[i] / (heights[i] - heights[j])))));
+  }
+  return {{*std::min_element(places.begin(), places.end()), *std::max_element(places.begin(), places.end())}};
+}
+
+/// True if x, a point of the plane of a convex facet, lies in it.
+bool holds(const std::vector<Vec<2>>& facet, const Vec<2>& x) {
+  return dot(minus(x, facet[0]), minus(x, facet[1])) <= 0;
+}
+
+bool holds(const std::vector<Vec<3>>& facet, const Vec<3>& x) {
+  const Vec<3> n = normal(facet);
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    const auto& v = facet[i];
+    if (dot(n, cross(minus(facet[(i + 1) % facet.size()], v), minus(x, v))) < 0) return false;
+  }
+  return true;
+}
+
+template <std::size_t D>
+bool in_order(const std::array<double, D>& p_, const std::array<double, D>& q_,
+              const std::vector<std::vector<std::array<double, D>>>& facets) {
+  const Vec<D> p = exact(p_), q = exact(q_);
+  Rational last = 0;
+  for (const auto& points : facets) {
+    const auto facet = exact<D>(points);
+    const Vec<D> n = normal(facet);
+    const Rational at_p = dot(n, minus(p, facet[0])), at_q = dot(n, minus(q, facet[0]));
+    if (at_p == at_q) return false;
+    const Rational t = at_p / (at_p - at_q);
+    if (t < last || t > 1 || !holds(facet, on(p, q, t))) return false;
+    last = t;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet) {
+  // The part of the segment that is strictly inside all sides of the triangle.
+  const std::array<Vec<2>, 3> corners{exact(a), exact(b), exact(q)};
+  const Vec<2> u = exact(facet[0]), v = exact(facet[1]);
+  Rational low = 0, high = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec<2>&c = corners[i], &d = corners[(i + 1) % 3];
+    Vec<2> n{c[1] - d[1], d[0] - c[0]};
+    const Rational third = dot(n, minus(corners[(i + 2) % 3], c));
+    if (third == 0) return false;  // no triangle
+    if (third < 0) n = {-n[0], -n[1]};
+    const Rational at_u = dot(n, minus(u, c)), at_v = dot(n, minus(v, c));
+    if (at_u <= 0 && at_v <= 0) return false;
+    if (at_u < 0) low = std::max<Rational>(low, at_u / (at_u - at_v));
+    if (at_v < 0) high = std::min<Rational>(high, at_u / (at_u - at_v));
+  }
+  return low < high;
+}
+
+bool crosses(const Point<3>& a, const Point<3>& b, const Point<3>& q, std::span<const Point<3>> facet) {
+  const std::vector<Vec<3>> triangle{exact(a), exact(b), exact(q)}, polygon = exact<3>(facet);
+  const Vec<3> n = normal(triangle), m = normal(polygon), line = cross(n, m);
+  if (dot(line, line) == 0) return false;
+  const auto of_triangle = cut(triangle, polygon[0], m, line), of_polygon = cut(polygon, triangle[0], n, line);
+  return of_triangle && of_polygon && (*of_triangle)[0] < (*of_polygon)[1] && (*of_polygon)[0] < (*of_triangle)[1];
+}
+
+bool meets_in_order(const Point<2>& p, const Point<2>& q, const std::vector<std::vector<Point<2>>>& facets) {
+  return in_order<2>(p, q, facets);
+}
+
+bool meets_in_order(const Point<3>& p, const Point<3>& q, const std::vector<std::vector<Point<3>>>& facets) {
+  return in_order<3>(p, q, facets);
+}
+
+}  // namespace cellwalk::test
