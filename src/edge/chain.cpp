@@ -4,6 +4,7 @@
 #include <cellwalk/walk/detail/star.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace cellwalk {
 namespace {
@@ -14,36 +15,41 @@ bool lies_in(const Cell_view<D>& cell, std::size_t i, const Point<D>& x, Walk_co
   return detail::side<Exact>(cell, i, x, counts) == 0 && detail::in_facet(cell, i, x);
 }
 
-/// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. False if there is
-/// no way: they are not linked at x.
+/// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. If there is no way,
+/// the two are not linked at x: returns the first wall at x that the search met, else Half_facet::none.
 template <int D>
-bool append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
-                 Walk_counts& counts) {
+Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
+                       Walk_counts& counts) {
   boost::container::small_vector<detail::Star_cell, 16> queue{{from, 0, Half_facet::none}};
+  Half_facet wall = Half_facet::none;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const Cell c = queue[head].cell;
     if (c == to) {
       const std::size_t end = chain.size();
       for (std::size_t i = head; i != 0; i = queue[i].parent) chain.push_back(queue[i].facet);
       std::reverse(chain.begin() + static_cast<std::ptrdiff_t>(end), chain.end());
-      return true;
+      return Half_facet::none;
     }
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      if (!lies_in(cell, i, x, counts)) continue;
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (snapshot.is_impassable(f) || !lies_in(cell, i, x, counts)) continue;
+      if (snapshot.is_impassable(f)) {
+        if (wall == Half_facet::none) wall = f;
+        continue;
+      }
       const Cell next = snapshot.neighbor(f);
       const auto is_next = [next](const detail::Star_cell& known) { return known.cell == next; };
       if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
     }
   }
-  return false;
+  return wall;
 }
 
-/// The contact of a segment that arrives at q on another side: with a wall of the cell it arrives in.
+/// The contact of a segment that arrives at q on another side, with a wall at q.
 template <int D>
 Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& arrival, const Point<D>& q,
-                           Walk_counts& counts) {
+                           Half_facet wall) {
   Wall_contact<D> contact;
   contact.time = 1;
   contact.point = q;
@@ -51,14 +57,8 @@ Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& ar
   contact.kind = arrival.dimension == 0       ? Contact_kind::vertex
                  : arrival.dimension == D - 1 ? Contact_kind::facet
                                               : Contact_kind::edge;
-  const Cell_view<D> cell = snapshot.view(arrival.cell);
-  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-    const Half_facet f = Snapshot<D>::half_facet(arrival.cell, i);
-    if (!snapshot.is_impassable(f) || !lies_in(cell, i, q, counts)) continue;
-    contact.facet = f;
-    contact.normal = detail::inner_normal(cell, i);
-    break;
-  }
+  contact.facet = wall;
+  contact.normal = detail::inner_normal(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall));
   return contact;
 }
 
@@ -86,10 +86,11 @@ Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, co
     result.contact = walked.contact;
     return result;
   }
-  result.chain.assign(crossed.begin(), crossed.end());
-  if (!append_link(snapshot, result.chain, walked.cell, q.cell, q.position, counts)) {
+  for (const Half_facet f : crossed) result.chain.push_back(f);
+  const Half_facet wall = append_link(snapshot, result.chain, walked.cell, q.cell, q.position, counts);
+  if (wall != Half_facet::none) {
     result.chain.clear();
-    result.contact = other_side(snapshot, walked, q.position, counts);
+    result.contact = other_side(snapshot, walked, q.position, wall);
   }
   return result;
 }
@@ -128,11 +129,11 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
   return true;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                              \
-  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&,         \
-                                         Walk_counts&);                                                      \
-  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                              \
-  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);                      \
+#define CELLWALK_INSTANTIATE(D)                                                                      \
+  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
+                                         Walk_counts&);                                              \
+  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
+  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -8,19 +8,20 @@ Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Chain& be
                                     std::span<const Half_facet> crossed, const Particle<D>& p,
                                     const Particle<D>& q, Edge_counts& counts) {
   ++counts.edges;
-  Chain chain = before;
-  walk_start(snapshot, chain, crossed);
-  if (chain.empty()) {
+  Chain_result<D> result{before, {}};
+  walk_start(snapshot, result.chain, crossed);
+  if (result.chain.empty()) {
     ++counts.same_cell;
-    return {};
+    return result;
   }
-  counts.chain_facets += chain.size();
-  if (passes(snapshot, chain, p.position, q.position, counts.walk)) {
+  counts.chain_facets += result.chain.size();
+  if (passes(snapshot, result.chain, p.position, q.position, counts.walk)) {
     ++counts.same_chain;
-    return {std::move(chain), {}};
+    return result;
   }
   ++counts.walked;
-  return find_chain(snapshot, p, q, counts.walk);
+  result = find_chain(snapshot, p, q, counts.walk);
+  return result;
 }
 
 template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Chain&, std::span<const Half_facet>,

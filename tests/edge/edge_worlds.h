@@ -35,7 +35,11 @@ class Edge_world {
   Particle<D> end(const Particle<D>& p) { return on_any_side(target(p)); }
   /// Where p may move.
   Point<D> target(const Particle<D>& p) { return source_.target(kind_, p.position, p.position); }
-  void choose_kind() { kind_ = source_.kind(generic_); }
+  /// Another kind of motion for target() and end(); not one that needs a start made for it.
+  void choose_kind() {
+    do kind_ = source_.kind(generic_);
+    while (kind_ == oracle::Motion_kind::in_wall_plane || kind_ == oracle::Motion_kind::along_edge);
+  }
 
   std::vector<Point<D>> polygon(Half_facet f) const {
     std::vector<Point<D>> points;

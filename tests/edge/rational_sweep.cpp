@@ -70,8 +70,8 @@ std::vector<Vec<D>> exact(std::span<const std::array<double, D>> points) {
 
 /// Parameters along a direction of the points in which the boundary of a convex polygon crosses a plane, where the polygon
 /// has vertices strictly on both sides; empty otherwise.
-std::optional<std::array<Rational, 2>> cut(const std::vector<Vec<3>>& polygon, const Vec<3>& origin, const Vec<3>& n,
-                                           const Vec<3>& direction) {
+std::optional<std::array<Rational, 2>> cut(const std::vector<Vec<3>>& polygon, const Vec<3>& origin,
+                                           const Vec<3>& n, const Vec<3>& direction) {
   std::vector<Rational> heights;
   for (const auto& v : polygon) heights.push_back(dot(n, minus(v, origin)));
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
@@ -81,7 +81,8 @@ std::optional<std::array<Rational, 2>> cut(const std::vector<Vec<3>>& polygon, c
     const std::size_t j = (i + 1) % polygon.size();
     if (heights[i] == 0) places.push_back(dot(direction, polygon[i]));
     if (heights[i] * heights[j] < 0)
-      places.push_back(dot(direction, on(polygon[i], polygon[j], Rational(heights[i] / (heights[i] - heights[j])))));
+      places.push_back(
+          dot(direction, on(polygon[i], polygon[j], Rational(heights[i] / (heights[i] - heights[j])))));
   }
   return {{*std::min_element(places.begin(), places.end()), *std::max_element(places.begin(), places.end())}};
 }
@@ -98,6 +99,19 @@ bool holds(const std::vector<Vec<3>>& facet, const Vec<3>& x) {
     if (dot(n, cross(minus(facet[(i + 1) % facet.size()], v), minus(x, v))) < 0) return false;
   }
   return true;
+}
+
+/// True if the boxes of a triangle and a facet lie apart.
+template <std::size_t D>
+bool boxes_apart(const std::array<std::array<double, D>, 3>& triangle,
+                 std::span<const std::array<double, D>> facet) {
+  for (std::size_t i = 0; i < D; ++i) {
+    const auto by_coordinate = [i](const auto& x, const auto& y) { return x[i] < y[i]; };
+    const auto [low, high] = std::minmax_element(triangle.begin(), triangle.end(), by_coordinate);
+    const auto [least, most] = std::minmax_element(facet.begin(), facet.end(), by_coordinate);
+    if ((*high)[i] < (*least)[i] || (*most)[i] < (*low)[i]) return true;
+  }
+  return false;
 }
 
 template <std::size_t D>
@@ -120,6 +134,7 @@ bool in_order(const std::array<double, D>& p_, const std::array<double, D>& q_,
 }  // namespace
 
 bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet) {
+  if (boxes_apart<2>({a, b, q}, facet)) return false;
   // The part of the segment that is strictly inside all sides of the triangle.
   const std::array<Vec<2>, 3> corners{exact(a), exact(b), exact(q)};
   const Vec<2> u = exact(facet[0]), v = exact(facet[1]);
@@ -139,11 +154,14 @@ bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<
 }
 
 bool crosses(const Point<3>& a, const Point<3>& b, const Point<3>& q, std::span<const Point<3>> facet) {
+  if (boxes_apart<3>({a, b, q}, facet)) return false;
   const std::vector<Vec<3>> triangle{exact(a), exact(b), exact(q)}, polygon = exact<3>(facet);
   const Vec<3> n = normal(triangle), m = normal(polygon), line = cross(n, m);
   if (dot(line, line) == 0) return false;
-  const auto of_triangle = cut(triangle, polygon[0], m, line), of_polygon = cut(polygon, triangle[0], n, line);
-  return of_triangle && of_polygon && (*of_triangle)[0] < (*of_polygon)[1] && (*of_polygon)[0] < (*of_triangle)[1];
+  const auto of_triangle = cut(triangle, polygon[0], m, line),
+             of_polygon = cut(polygon, triangle[0], n, line);
+  return of_triangle && of_polygon && (*of_triangle)[0] < (*of_polygon)[1] &&
+         (*of_polygon)[0] < (*of_triangle)[1];
 }
 
 bool meets_in_order(const Point<2>& p, const Point<2>& q, const std::vector<std::vector<Point<2>>>& facets) {

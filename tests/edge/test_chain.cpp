@@ -82,7 +82,8 @@ Snapshot<3> row(std::uint32_t n) {
   for (std::uint32_t i = 0; i <= n; ++i)
     for (const Point<3>& p : {Point<3>{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}})
       soup.points.push_back({static_cast<double>(i), p[1], p[2]});
-  for (std::uint32_t i = 0; i < 4 * n; i += 4) add_hexahedron(soup, {i, i + 4, i + 5, i + 1, i + 3, i + 7, i + 6, i + 2});
+  for (std::uint32_t i = 0; i < 4 * n; i += 4)
+    add_hexahedron(soup, {i, i + 4, i + 5, i + 1, i + 3, i + 7, i + 6, i + 2});
   return Snapshot<3>::compile(soup, glue(soup));
 }
 
