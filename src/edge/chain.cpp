@@ -70,6 +70,9 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   same_chain += other.same_chain;
   chain_facets += other.chain_facets;
   walked += other.walked;
+  floods += other.floods;
+  flooded_cells += other.flooded_cells;
+  clear += other.clear;
   walk += other.walk;
   return *this;
 }

@@ -42,7 +42,7 @@ Seen check_chains(bool generic) {
       const Particle<D> other = w.end(p);
       for (const Point<D>& end : {q.position, other.position}) {
         std::vector<std::vector<Point<D>>> facets;
-        for (const Half_facet f : found.chain) facets.push_back(w.polygon(f));
+        for (const Half_facet f : found.chain) facets.push_back(polygon(w.snapshot, f));
         const bool proved = passes(w.snapshot, found.chain, p.position, end, counts);
         const bool is_passed = meets_in_order(p.position, end, facets);
         if (proved) {

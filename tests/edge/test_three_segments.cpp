@@ -18,18 +18,6 @@ struct Seen {
 };
 
 template <int D>
-bool is_crossed(const Edge_world<D>& w, const Point<D>& a, const Point<D>& b, const Point<D>& q) {
-  for (std::size_t i = 0; i < w.snapshot.cell_count(); ++i) {
-    const Cell c = w.snapshot.cell(i);
-    for (std::size_t f = 0; f < w.snapshot.facet_count(c); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(c, f);
-      if (w.snapshot.is_impassable(facet) && crosses(a, b, q, w.polygon(facet))) return true;
-    }
-  }
-  return false;
-}
-
-template <int D>
 Seen sweep(bool generic) {
   Seen seen;
   for (std::uint64_t number = 0; number < 2 * oracle::world_kinds; ++number) {
@@ -51,7 +39,7 @@ Seen sweep(bool generic) {
         const std::uint64_t proved_before = seen.counts.same_cell + seen.counts.same_chain;
         edge = check_third_segment(w.snapshot, edge.chain, crossed, p, q, seen.counts);
         const bool proved = seen.counts.same_cell + seen.counts.same_chain > proved_before;
-        const bool is_hit = is_crossed(w, a, p.position, q.position);
+        const bool is_hit = is_crossed(w.snapshot, a, p.position, q.position);
         ++seen.sweeps;
         seen.blocked += edge.contact.has_value();
         seen.crossed += is_hit;

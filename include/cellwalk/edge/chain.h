@@ -18,12 +18,15 @@ using Chain = boost::container::small_vector<Half_facet, 4>;
 
 /// What the checks of edges did. All counts are machine-independent.
 struct Edge_counts {
-  std::uint64_t edges = 0;         ///< edges checked
-  std::uint64_t same_cell = 0;     ///< proved by both ends being in one cell, no sign asked
-  std::uint64_t same_chain = 0;    ///< proved by their chain being passed by the new edge
-  std::uint64_t chain_facets = 0;  ///< facets looked at for that
-  std::uint64_t walked = 0;        ///< edges along which a temporary particle was walked
-  Walk_counts walk;                ///< of all walks and signs
+  std::uint64_t edges = 0;          ///< edges checked
+  std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
+  std::uint64_t chain_facets = 0;   ///< facets looked at for that
+  std::uint64_t walked = 0;         ///< edges along which a temporary particle was walked
+  std::uint64_t floods = 0;         ///< swept triangles flooded
+  std::uint64_t flooded_cells = 0;  ///< cells met by them
+  std::uint64_t clear = 0;          ///< proved to meet no wall
+  Walk_counts walk;                 ///< of all walks and signs
 
   Edge_counts& operator+=(const Edge_counts& other);
 };

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The flood of a swept triangle: where it meets no wall at all, the sweep is free. Theory: docs/sweep.md.
+#ifndef CELLWALK_EDGE_FLOOD_H
+#define CELLWALK_EDGE_FLOOD_H
+
+#include <cellwalk/edge/chain.h>
+
+#include <cstddef>
+
+namespace cellwalk {
+
+/// The triangle that the edge pq sweeps while p moves from a to b and q stands still.
+template <int D>
+struct Swept_triangle {
+  Point<D> a, b, q;
+};
+
+/// True proves that no wall meets the closed triangle: the sweep is free, and every chain of bq is its end. False proves
+/// nothing: a wall may only touch the triangle, lie in its plane or the triangle be degenerate; or more than `most_cells`
+/// cells meet it. All signs are exact.
+/// \pre a lies in the closure of `start`, a free cell
+/// Cost: some twenty signs a facet of the cells that meet the triangle.
+template <int D>
+bool is_clear(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle, Edge_counts& counts,
+              std::size_t most_cells = 64);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_EDGE_FLOOD_H
