@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/exact_value.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/kernel/predicates.h>
 
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
@@ -86,7 +86,6 @@ std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
     }
     if (width <= normal_width * largest && largest > 0 && std::isfinite(largest)) return normalized(n);
   }
-  using Rational = CGAL::Exact_rational;
   const auto exact = normal<Rational>(points...);
   Rational largest = 0;
   for (const Rational& x : exact) largest = std::max<Rational>(largest, abs(x));
@@ -112,7 +111,6 @@ double time_of(const Point<sizeof...(P)>& a, const Point<sizeof...(P)>& b, const
         return t.inf() + (t.sup() - t.inf()) / 2;
     }
   }
-  using Rational = CGAL::Exact_rational;
   const Rational va = value<Rational>(plane..., a), vb = value<Rational>(plane..., b);
   if (va == vb) return 0;
   const Rational t = va / (va - vb);
@@ -190,5 +188,15 @@ Point<D> point_on(const Point<D>& a, const Point<D>& b, double t) {
 
 template Point<2> point_on<2>(const Point<2>&, const Point<2>&, double);
 template Point<3> point_on<3>(const Point<3>&, const Point<3>&, double);
+
+Rational Exact_value::orientation(Predicate_counts&, const Point<2>& p, const Point<2>& q,
+                                  const Point<2>& r) {
+  return value<Rational>(p, q, r);
+}
+
+Rational Exact_value::orientation(Predicate_counts&, const Point<3>& p, const Point<3>& q, const Point<3>& r,
+                                  const Point<3>& s) {
+  return value<Rational>(p, q, r, s);
+}
 
 }  // namespace cellwalk

@@ -131,37 +131,115 @@ bool in_order(const std::array<double, D>& p_, const std::array<double, D>& q_,
   return true;
 }
 
-}  // namespace
+/// The time at which the segment from a + s (b - a) to q passes x, a point of the triangle in the plane.
+Rational time_of(const Vec<2>& a, const Vec<2>& b, const Vec<2>& q, const Vec<2>& x) {
+  const auto area = [&](const Vec<2>& u, const Vec<2>& v) {
+    const Vec<2> d = minus(u, x), e = minus(v, x);
+    return Rational(d[0] * e[1] - d[1] * e[0]);
+  };
+  const Rational of_a = area(b, q), of_b = area(q, a);
+  return of_b / (of_a + of_b);
+}
 
-bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet) {
-  if (boxes_apart<2>({a, b, q}, facet)) return false;
+/// The same in space, in the coordinate plane in which the triangle is not a segment.
+Rational time_of(const Vec<3>& a, const Vec<3>& b, const Vec<3>& q, const Vec<3>& x) {
+  const Vec<3> n = cross(minus(b, a), minus(q, a));
+  const std::size_t axis = n[0] != 0 ? 0 : n[1] != 0 ? 1 : 2;
+  const auto drop = [axis](const Vec<3>& v) { return Vec<2>{v[(axis + 1) % 3], v[(axis + 2) % 3]}; };
+  return time_of(drop(a), drop(b), drop(q), drop(x));
+}
+
+/// The part of a facet that lies in the open triangle, by its ends; see crosses().
+std::optional<std::array<Vec<2>, 2>> overlap(const Vec<2>& a, const Vec<2>& b, const Vec<2>& q,
+                                             const std::vector<Vec<2>>& facet) {
   // The part of the segment that is strictly inside all sides of the triangle.
-  const std::array<Vec<2>, 3> corners{exact(a), exact(b), exact(q)};
-  const Vec<2> u = exact(facet[0]), v = exact(facet[1]);
+  const std::array<Vec<2>, 3> corners{a, b, q};
+  const Vec<2>&u = facet[0], &v = facet[1];
   Rational low = 0, high = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec<2>&c = corners[i], &d = corners[(i + 1) % 3];
     Vec<2> n{c[1] - d[1], d[0] - c[0]};
     const Rational third = dot(n, minus(corners[(i + 2) % 3], c));
-    if (third == 0) return false;  // no triangle
+    if (third == 0) return {};  // no triangle
     if (third < 0) n = {-n[0], -n[1]};
     const Rational at_u = dot(n, minus(u, c)), at_v = dot(n, minus(v, c));
-    if (at_u <= 0 && at_v <= 0) return false;
+    if (at_u <= 0 && at_v <= 0) return {};
     if (at_u < 0) low = std::max<Rational>(low, at_u / (at_u - at_v));
     if (at_v < 0) high = std::min<Rational>(high, at_u / (at_u - at_v));
   }
-  return low < high;
+  if (!(low < high)) return {};
+  return {{on(u, v, low), on(u, v, high)}};
+}
+
+std::optional<std::array<Vec<3>, 2>> overlap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& q,
+                                             const std::vector<Vec<3>>& polygon) {
+  const std::vector<Vec<3>> triangle{a, b, q};
+  const Vec<3> n = normal(triangle), m = normal(polygon), line = cross(n, m);
+  if (dot(line, line) == 0) return {};
+  const auto of_triangle = cut(triangle, polygon[0], m, line), of_polygon = cut(polygon, a, n, line);
+  if (!of_triangle || !of_polygon) return {};
+  const Rational low = std::max((*of_triangle)[0], (*of_polygon)[0]);
+  const Rational high = std::min((*of_triangle)[1], (*of_polygon)[1]);
+  if (!(low < high)) return {};
+  // A point of both planes: from where the polygon passes the plane of the triangle.
+  Vec<3> on_both{};
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec<3>&u = polygon[i], &v = polygon[(i + 1) % polygon.size()];
+    const Rational at_u = dot(n, minus(u, a)), at_v = dot(n, minus(v, a));
+    if (at_u == at_v || at_u * at_v > 0) continue;
+    on_both = on(u, v, Rational(at_u / (at_u - at_v)));
+    break;
+  }
+  std::array<Vec<3>, 2> ends;
+  for (std::size_t e = 0; e < 2; ++e) {
+    const Rational t = ((e == 0 ? low : high) - dot(line, on_both)) / dot(line, line);
+    for (std::size_t i = 0; i < 3; ++i) ends[e][i] = on_both[i] + t * line[i];
+  }
+  return ends;
+}
+
+template <std::size_t D>
+std::optional<std::array<Vec<D>, 2>> overlap_of(const std::array<double, D>& a,
+                                                const std::array<double, D>& b,
+                                                const std::array<double, D>& q,
+                                                std::span<const std::array<double, D>> facet) {
+  if (boxes_apart<D>({a, b, q}, facet)) return {};
+  return overlap(exact(a), exact(b), exact(q), exact<D>(facet));
+}
+
+template <std::size_t D>
+std::optional<double> first(const std::array<double, D>& a, const std::array<double, D>& b,
+                            const std::array<double, D>& q, std::span<const std::array<double, D>> facet) {
+  const auto ends = overlap_of<D>(a, b, q, facet);
+  if (!ends) return {};
+  // Along a line in the triangle the time is monotonous, and constant where the line passes q.
+  std::optional<Rational> first;
+  for (const Vec<D>& x : *ends) {
+    if (x == exact(q)) continue;
+    const Rational time = time_of(exact(a), exact(b), exact(q), x);
+    if (!first || time < *first) first = time;
+  }
+  return static_cast<double>(*first);
+}
+
+}  // namespace
+
+bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet) {
+  return overlap_of<2>(a, b, q, facet).has_value();
 }
 
 bool crosses(const Point<3>& a, const Point<3>& b, const Point<3>& q, std::span<const Point<3>> facet) {
-  if (boxes_apart<3>({a, b, q}, facet)) return false;
-  const std::vector<Vec<3>> triangle{exact(a), exact(b), exact(q)}, polygon = exact<3>(facet);
-  const Vec<3> n = normal(triangle), m = normal(polygon), line = cross(n, m);
-  if (dot(line, line) == 0) return false;
-  const auto of_triangle = cut(triangle, polygon[0], m, line),
-             of_polygon = cut(polygon, triangle[0], n, line);
-  return of_triangle && of_polygon && (*of_triangle)[0] < (*of_polygon)[1] &&
-         (*of_polygon)[0] < (*of_triangle)[1];
+  return overlap_of<3>(a, b, q, facet).has_value();
+}
+
+std::optional<double> first_crossing(const Point<2>& a, const Point<2>& b, const Point<2>& q,
+                                     std::span<const Point<2>> facet) {
+  return first<2>(a, b, q, facet);
+}
+
+std::optional<double> first_crossing(const Point<3>& a, const Point<3>& b, const Point<3>& q,
+                                     std::span<const Point<3>> facet) {
+  return first<3>(a, b, q, facet);
 }
 
 bool meets_in_order(const Point<2>& p, const Point<2>& q, const std::vector<std::vector<Point<2>>>& facets) {

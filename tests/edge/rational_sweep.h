@@ -5,6 +5,7 @@
 
 #include <cellwalk/kernel/point.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace cellwalk::test {
 /// edge from aq to bq can then be free. Boundaries that touch do not count.
 bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet);
 bool crosses(const Point<3>& a, const Point<3>& b, const Point<3>& q, std::span<const Point<3>> facet);
+
+/// The first time s at which the segment from a + s (b - a) to q meets the part of a facet that crosses the open triangle, as
+/// crosses() says; rounded to nearest. No value if it does not cross.
+std::optional<double> first_crossing(const Point<2>& a, const Point<2>& b, const Point<2>& q,
+                                     std::span<const Point<2>> facet);
+std::optional<double> first_crossing(const Point<3>& a, const Point<3>& b, const Point<3>& q,
+                                     std::span<const Point<3>> facet);
 
 /// True if the segment pq meets the facets in order, each in one point: facets in whose plane (line) it lies do not count
 /// as met.

@@ -54,11 +54,11 @@ Seen sweep(bool generic) {
   }
   const Edge_counts& c = seen.counts;
   std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.sweeps
-            << " sweeps: same cell " << c.same_cell << ", same chain " << c.same_chain << ", walked "
-            << c.walked << "; blocked " << seen.blocked << ", crossed by a wall " << seen.crossed
+            << " sweeps: same cell " << c.same_cell << ", same chain " << c.same_chain << ", changed "
+            << c.changed << "; blocked " << seen.blocked << ", crossed by a wall " << seen.crossed
             << ", of these missed " << seen.missed << "\n";
   EXPECT_EQ(c.edges, static_cast<std::uint64_t>(seen.sweeps));
-  EXPECT_EQ(c.edges, c.same_cell + c.same_chain + c.walked);
+  EXPECT_EQ(c.edges, c.same_cell + c.same_chain + c.changed);
   return seen;
 }
 
@@ -69,7 +69,7 @@ void test_sweeps() {
     EXPECT_GT(seen.sweeps, 1000);
     EXPECT_GT(seen.counts.same_cell, 100u);
     EXPECT_GT(seen.counts.same_chain, 100u);
-    EXPECT_GT(seen.counts.walked, 100u);
+    EXPECT_GT(seen.counts.changed, 100u);
     EXPECT_GT(seen.crossed, 50);
     EXPECT_GT(seen.missed, 0) << "what fits inside the triangle is missed: the paper's limit";
   }

@@ -22,7 +22,8 @@ struct Edge_counts {
   std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, no sign asked
   std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
   std::uint64_t chain_facets = 0;   ///< facets looked at for that
-  std::uint64_t walked = 0;         ///< edges along which a temporary particle was walked
+  std::uint64_t changed = 0;        ///< neither: the chain is another one, or there is none
+  std::uint64_t event_sweeps = 0;   ///< swept triangles whose events were followed
   std::uint64_t floods = 0;         ///< swept triangles flooded
   std::uint64_t flooded_cells = 0;  ///< cells met by them
   std::uint64_t clear = 0;          ///< proved to meet no wall

@@ -109,8 +109,9 @@ template <class Kernel = Exact, int D>
 inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                            Walk_counts& counts, const Walk_options& options = {}) {
   if constexpr (Kernel::uses_certificates) {
-    if (options.strategy == Walk_strategy::certified && !options.visited &&
+    if (options.strategy == Walk_strategy::certified &&
         detail::certainly_inside(snapshot, particle.cell, target, counts)) {
+      if (options.visited) options.visited->push_back(particle.cell);
       ++counts.walks;
       ++counts.stays;
       particle.position = target;

@@ -135,7 +135,7 @@ class Walker {
     for (std::size_t k = 0; k < facets; ++k) {
       const std::size_t i = forecast + k < facets ? forecast + k : forecast + k - facets;
       if (sides[i] <= 0) continue;
-      const Exit exit = exit_through<Kernel>(cell, i, a_, b_, counts_);
+      const Exit exit = exit_through(cell, i, Line<Kernel, D>{a_, b_, counts_});
       if (exit.kind != Exit::none) return exit;
     }
     return {};
@@ -272,7 +272,7 @@ class Walker {
         result_.aimed = static_cast<std::uint16_t>(i);
         const int s = side<Kernel>(cell, i, b_, counts_);
         if (s < 0 && !zero) return arrive_inside();
-        if (s > 0) return exit_through<Kernel>(cell, i, a_, b_, counts_);
+        if (s > 0) return exit_through(cell, i, Line<Kernel, D>{a_, b_, counts_});
         return exit_by_rule(cell);  // on the facet, or on the boundary of its cone: which cell is lowest?
       }
       ++counts_.turns;

@@ -18,14 +18,15 @@ namespace cellwalk::detail {
 
 /// Side of x against facet i: > 0 strictly outside the cell.
 template <class Kernel>
-int side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x, Walk_counts& counts) {
+auto side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x, Walk_counts& counts) {
   ++counts.side_tests;
   const auto loop = cell.loop(i);
-  return -Kernel::orientation(counts.predicates, cell.point(loop[0]), cell.point(loop[1]), x);
+  const auto s = Kernel::orientation(counts.predicates, cell.point(loop[0]), cell.point(loop[1]), x);
+  return decltype(s)(-s);  // a number, not an expression of one
 }
 
 template <class Kernel>
-int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x, Walk_counts& counts) {
+auto side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x, Walk_counts& counts) {
   ++counts.side_tests;
   const auto loop = cell.loop(i);
   return Kernel::orientation(counts.predicates, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]),
@@ -35,21 +36,37 @@ int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x, Walk_counts
 /// Line ab against ridge k of facet i (3D: edge from loop vertex k to the next; 2D: vertex k). A line that
 /// leaves the cell through the facet has signs >= 0 against all ridges.
 template <class Kernel>
-int along(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Point<2>& a, const Point<2>& b,
-          Walk_counts& counts) {
+auto along(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Point<2>& a, const Point<2>& b,
+           Walk_counts& counts) {
   ++counts.along_tests;
-  const int s = Kernel::orientation(counts.predicates, a, b, cell.point(cell.loop(i)[k]));
-  return k == 0 ? -s : s;
+  const auto s = Kernel::orientation(counts.predicates, a, b, cell.point(cell.loop(i)[k]));
+  return k == 0 ? decltype(s)(-s) : s;
 }
 
 template <class Kernel>
-int along(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Point<3>& a, const Point<3>& b,
-          Walk_counts& counts) {
+auto along(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Point<3>& a, const Point<3>& b,
+           Walk_counts& counts) {
   ++counts.along_tests;
   const auto loop = cell.loop(i);
   const std::uint16_t next = loop[k + 1 == loop.size() ? 0 : k + 1];
   return Kernel::orientation(counts.predicates, a, b, cell.point(loop[k]), cell.point(next));
 }
+
+/// The line ab as seen by facets, its signs asked of a policy.
+template <class Kernel, int D>
+struct Line {
+  const Point<D>&a, &b;
+  Walk_counts& counts;
+
+  int along(const Cell_view<D>& cell, std::size_t i, std::size_t k) const {
+    return detail::along<Kernel>(cell, i, k, a, b, counts);
+  }
+  /// On which side of plane abv w lies.
+  int across(const Point<D>& v, const Point<D>& w) const {
+    ++counts.along_tests;
+    return Kernel::orientation(counts.predicates, a, b, v, w);
+  }
+};
 
 /// Where a line leaves a cell.
 struct Exit {
@@ -62,16 +79,14 @@ struct Exit {
 using Ridge_signs = std::span<const std::int8_t>;
 
 /// Refines an exit on facet i that has ridges with sign zero: inside a ridge or at a vertex.
-template <class Kernel>
-Exit exit_on_zero_ridges(const Cell_view<2>& cell, std::size_t i, Ridge_signs signs, const Point<2>&,
-                         const Point<2>&, Walk_counts&) {
+template <class Line>
+Exit exit_on_zero_ridges(const Cell_view<2>& cell, std::size_t i, Ridge_signs signs, const Line&) {
   const std::uint32_t u = cell.point_index(cell.loop(i)[signs[0] == 0 ? 0 : 1]);
   return {Exit::vertex, static_cast<std::uint16_t>(i), u, u};
 }
 
-template <class Kernel>
-Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs signs, const Point<3>& a,
-                         const Point<3>& b, Walk_counts& counts) {
+template <class Line>
+Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs signs, const Line& line) {
   const auto loop = cell.loop(i);
   const std::size_t n = loop.size();
   const auto number = static_cast<std::uint16_t>(i);
@@ -96,8 +111,7 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   while (are_collinear(cell.point(at(first)), cell.point(at(first + 1)), cell.point(at(off)))) ++off;
   int previous = 0;
   for (std::size_t k = first; k <= last + 1; ++k) {
-    ++counts.along_tests;
-    const int s = Kernel::orientation(counts.predicates, a, b, cell.point(at(k)), cell.point(at(off)));
+    const int s = line.across(cell.point(at(k)), cell.point(at(off)));
     const std::uint32_t here = cell.point_index(at(k));
     if (s == 0) return {Exit::vertex, number, here, here};
     if (k > first && s != previous) return {Exit::ridge, number, cell.point_index(at(k - 1)), here};
@@ -106,21 +120,20 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   return {Exit::none, number, 0, 0};  // inexact policies only
 }
 
-/// Does line ab leave through facet i? If so, where.
-template <class Kernel, int D>
-Exit exit_through(const Cell_view<D>& cell, std::size_t i, const Point<D>& a, const Point<D>& b,
-                  Walk_counts& counts) {
+/// Does a line leave through facet i? If so, where.
+template <class Line, int D>
+Exit exit_through(const Cell_view<D>& cell, std::size_t i, const Line& line) {
   boost::container::small_vector<std::int8_t, 16> signs;
   const std::size_t ridges = cell.loop(i).size();
   bool inside = true;
   for (std::size_t k = 0; k < ridges; ++k) {
-    const int s = along<Kernel>(cell, i, k, a, b, counts);
+    const int s = line.along(cell, i, k);
     if (s < 0) return {};
     inside &= s > 0;
     signs.push_back(static_cast<std::int8_t>(s));
   }
   if (inside) return {Exit::facet, static_cast<std::uint16_t>(i), 0, 0};
-  return exit_on_zero_ridges<Kernel>(cell, i, {signs.data(), signs.size()}, a, b, counts);
+  return exit_on_zero_ridges(cell, i, {signs.data(), signs.size()}, line);
 }
 
 /// True if x, known to lie in the closed cell and on the plane of facet i, lies in the closed facet. Exact,

@@ -34,11 +34,13 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
   return has_u && has_v;
 }
 
+/// Facets on a way through a star.
+using Star_way = boost::container::small_vector<Half_facet, 8>;
+
 struct Star_result {
   Cell cell = Cell::none;              ///< where the motion goes on; none: blocked
   Half_facet wall = Half_facet::none;  ///< if blocked: the wall that blocks it
-  /// The facets on the way there, from the start.
-  boost::container::small_vector<Half_facet, 8> way;
+  Star_way way;                        ///< the way there
 };
 
 /// A cell of a star, and how the search came to it.
@@ -48,15 +50,16 @@ struct Star_cell {
   Half_facet facet;  ///< of the parent
 };
 
-/// Searches the star of ridge uv (or vertex u = v), breadth first from `start` through passable facets, for a
-/// cell in which the motion towards b continues: all its facets at the ridge or vertex have b on their inner
-/// side or on them.
-template <class Kernel, int D>
-Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
-                        const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+/// Searches the star of ridge uv (or vertex u = v), breadth first from `start` through passable facets, for cells in which
+/// the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner side or on them.
+/// Each is handed to accept(cell, way), way being the facets on the way there, until that returns true. Returns a wall that
+/// is in the way, if there is one.
+template <class Kernel, int D, class Accept>
+Half_facet explore_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
+                        const Point<D>& a, const Point<D>& b, Walk_counts& counts, Accept accept) {
   ++counts.star_searches;
   boost::container::small_vector<Star_cell, 32> queue{{start, 0, Half_facet::none}};
-  Star_result result;
+  Half_facet wall = Half_facet::none;
   double steepest = 0;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const Cell c = queue[head].cell;
@@ -75,18 +78,32 @@ Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u
       } else if (outside) {
         // Of all walls in the way the one met most head-on is reported; the choice decides nothing.
         const double slope = dot(inner_normal(cell, i), a - b);
-        if (result.wall == Half_facet::none || slope > steepest) {
-          result.wall = f;
+        if (wall == Half_facet::none || slope > steepest) {
+          wall = f;
           steepest = slope;
         }
       }
     }
     if (!accepted) continue;
-    result = {c, Half_facet::none, {}};
-    for (std::size_t i = head; i != 0; i = queue[i].parent) result.way.push_back(queue[i].facet);
-    std::reverse(result.way.begin(), result.way.end());
-    return result;
+    Star_way way;
+    for (std::size_t i = head; i != 0; i = queue[i].parent) way.push_back(queue[i].facet);
+    std::reverse(way.begin(), way.end());
+    if (accept(c, way)) break;
   }
+  return wall;
+}
+
+/// The first cell of a star in which the motion continues.
+template <class Kernel, int D>
+Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
+                        const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+  Star_result result;
+  result.wall =
+      explore_star<Kernel>(snapshot, start, u, v, a, b, counts, [&](Cell cell, const Star_way& way) {
+        result.cell = cell;
+        result.way = way;
+        return true;
+      });
   return result;
 }
 

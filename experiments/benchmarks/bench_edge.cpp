@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What the check of a moving body edge costs: by walking a temporary particle along it each time (the paper), with the
+// certificate of its old chain in front of that, and as a complete sweep of the triangle.
+//
+// Edges of a given length, in units of the cubes that six tetrahedra fill, lie all over a jittered grid of 10^5
+// tetrahedra without inner walls. Their one end moves there and back by a twentieth of a cube. Times include the walk of
+// that end.
+#include <cellwalk/edge/three_segments.h>
+#include <cellwalk/edge/triangle.h>
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/walk/locate.h>
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <vector>
+
+namespace {
+
+using namespace cellwalk;
+
+constexpr std::uint32_t side = 26;  // 6 side^3 tetrahedra
+constexpr double reach = 0.05;
+
+const Snapshot<3>& grid() {
+  static const Snapshot<3> snapshot = [] {
+    Simplex_grid_options<3> options;
+    options.cells = {side, side, side};
+    options.jitter = 0.12;
+    const Cell_soup<3> soup = tetrahedral_grid(options);
+    return Snapshot<3>::compile(soup, glue(soup));
+  }();
+  return snapshot;
+}
+
+struct Edge {
+  Particle<3> p, q;
+  Chain chain;
+  std::array<Point<3>, 2> targets;
+};
+
+std::vector<Edge> edges(double length) {
+  const Locator<3> locator(grid());
+  Random random(3);
+  Walk_counts counts;
+  std::vector<Edge> result(2000);
+  for (Edge& e : result) {
+    Point<3> p, q, t;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = random.real(length + 1, side - length - 1);
+      q[k] = p[k] + length * random.real(-1, 1) / 1.7;
+      t[k] = p[k] + reach * random.real(-1, 1);
+    }
+    e = {locator.particle_at(p), locator.particle_at(q), {}, {t, p}};
+    e.chain = find_chain(grid(), e.p, e.q, counts).chain;
+  }
+  return result;
+}
+
+enum class Check { walk, three_segments, triangle };
+
+void check_edges(benchmark::State& state, Check check) {
+  std::vector<Edge> all = edges(static_cast<double>(state.range(0)) / 10);
+  Edge_counts counts;
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  bool back = true;
+  std::size_t blocked = 0;
+  for (auto _ : state) {
+    back = !back;
+    for (Edge& e : all) {
+      visited.clear();
+      crossed.clear();
+      const Particle<3> from = e.p;
+      move(grid(), e.p, e.targets[back], counts.walk, {Walk_strategy::certified, &visited, &crossed});
+      Chain_result<3> result;
+      if (check == Check::walk) {
+        ++counts.edges;
+        result = find_chain(grid(), e.p, e.q, counts.walk);
+      } else if (check == Check::three_segments) {
+        result = check_third_segment<3>(grid(), e.chain, crossed, e.p, e.q, counts);
+      } else {
+        result = sweep_triangle<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts);
+      }
+      blocked += result.contact.has_value();
+      e.chain = result.chain;
+    }
+  }
+  if (blocked != 0) state.SkipWithError("an edge met a wall");
+  const auto n = static_cast<double>(counts.edges);
+  state.counters["time_per_edge"] =
+      benchmark::Counter(n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["same_cell"] = static_cast<double>(counts.same_cell) / n;
+  state.counters["same_chain"] = static_cast<double>(counts.same_chain) / n;
+  state.counters["clear"] = static_cast<double>(counts.clear) / n;
+  state.counters["changed"] = static_cast<double>(counts.changed) / n;
+  state.counters["facets"] = static_cast<double>(counts.chain_facets) / n;
+}
+
+void walk_each_time(benchmark::State& s) { check_edges(s, Check::walk); }
+void three_segments(benchmark::State& s) { check_edges(s, Check::three_segments); }
+void triangle(benchmark::State& s) { check_edges(s, Check::triangle); }
+
+void lengths(benchmark::internal::Benchmark* b) { b->Arg(1)->Arg(3)->Arg(10)->ArgName("length_in_tenths"); }
+
+BENCHMARK(walk_each_time)->Apply(lengths);
+BENCHMARK(three_segments)->Apply(lengths);
+BENCHMARK(triangle)->Apply(lengths);
+
+}  // namespace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The complete sweep of a body edge: its chain is carried along while one end moves. Theory: docs/sweep.md.
+#ifndef CELLWALK_EDGE_TRIANGLE_H
+#define CELLWALK_EDGE_TRIANGLE_H
+
+#include <cellwalk/edge/flood.h>
+
+namespace cellwalk {
+
+/// A walk that arrived, as Walk_options report it.
+template <int D>
+struct Way {
+  Particle<D> from, to;
+  std::span<const Cell> visited;
+  std::span<const Half_facet> crossed;
+};
+
+/// Sweeps the edge pq while p goes its way and q stands still. Returns the chain of the edge afterwards, or the first contact:
+/// contact->time is the share of the motion of p that is free, the exact root rounded down; point, normal, kind and facet are
+/// those of the wall that blocks it there.
+///
+/// Tried in this order: the ends share a cell; the edge passes its old chain still; no wall meets the swept triangle; the
+/// events, one by one, in exact rationals. Touching a wall is no contact.
+/// \pre `before` is the chain of the edge before the move
+/// Degenerate cases: all positions of facets, ridges and vertices against the swept triangle. A triangle that is a segment
+/// (p moves in the line of the edge) is checked by its third side; the time of a contact is then given as 0.
+/// Cost: a few ns to some hundred ns for the certificates; up to milliseconds for the events, which only edges that touch or
+/// hit a wall get to.
+template <int D>
+Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                               const Chain& before, Edge_counts& counts);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_EDGE_TRIANGLE_H

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The walk of a temporary particle along S(s+), the edge just after an event. Theory: docs/sweep.md, events.
+#ifndef CELLWALK_EDGE_MOVING_WALK_H
+#define CELLWALK_EDGE_MOVING_WALK_H
+
+#include "link.h"
+#include "moving_line.h"
+
+namespace cellwalk::detail {
+
+/// Walks from p(s+) to q, by all ways that the rule of the walk allows (more than one only in planes of walls), until one
+/// leads to the side of q and is accepted.
+template <int D, class Accept>
+class Moving_walk {
+ public:
+  Moving_walk(const Snapshot<D>& snapshot, const Moving_line<D>& line, const Particle<D>& q, Accept accept)
+      : snapshot_(snapshot), line_(line), q_(q), accept_(accept) {}
+
+  /// Goes on from a cell; true once accepted.
+  bool from(Cell c) {
+    const Cell_view<D> cell = snapshot_.view(c);
+    Walk_counts& counts = line_.counts();
+    bool outside = false;
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      if (side<Exact>(cell, i, q_.position, counts) <= 0) continue;
+      outside = true;
+      const Exit exit = exit_through(cell, i, line_);
+      if (exit.kind == Exit::none) continue;
+      return exit.kind == Exit::facet ? pass(Snapshot<D>::half_facet(c, i)) : pass_star(c, exit);
+    }
+    return !outside && arrive(c);
+  }
+
+  const Chain& chain() const { return chain_; }
+  /// The first wall that was in the way.
+  Half_facet wall() const { return wall_; }
+
+ private:
+  bool pass(Half_facet f) {
+    if (snapshot_.is_impassable(f)) return block(f);
+    chain_.push_back(f);
+    if (from(snapshot_.neighbor(f))) return true;
+    chain_.pop_back();
+    return false;
+  }
+
+  bool pass_star(Cell c, const Exit& exit) {
+    bool accepted = false;
+    const Half_facet wall = explore_star<Exact>(snapshot_, c, exit.u, exit.v, line_.triangle().a, q_.position,
+                                                line_.counts(), [&](Cell next, const Star_way& way) {
+                                                  const std::size_t before = chain_.size();
+                                                  for (const Half_facet f : way) chain_.push_back(f);
+                                                  accepted = from(next);
+                                                  if (!accepted) chain_.resize(before);
+                                                  return accepted;
+                                                });
+    return accepted || block(wall);
+  }
+
+  bool arrive(Cell c) {
+    const std::size_t before = chain_.size();
+    const Half_facet wall = append_link(snapshot_, chain_, c, q_.cell, q_.position, line_.counts());
+    if (wall != Half_facet::none) return block(wall);
+    if (accept_(chain_)) return true;
+    chain_.resize(before);
+    return false;
+  }
+
+  bool block(Half_facet wall) {
+    if (wall_ == Half_facet::none) wall_ = wall;
+    return false;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Moving_line<D>& line_;
+  const Particle<D>& q_;
+  Accept accept_;
+  Chain chain_;
+  Half_facet wall_ = Half_facet::none;
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_MOVING_WALK_H

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The complete sweep against brute force over all walls in rationals.
+#include <cellwalk/edge/triangle.h>
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "edge/edge_worlds.h"
+#include "walk/oracle_trial.h"
+
+namespace cellwalk::test {
+namespace {
+
+struct Seen {
+  int sweeps = 0, hits = 0, misses = 0, wrong_times = 0, only_blocked = 0, third_free = 0;
+  Edge_counts counts;
+};
+
+/// The first time at which a wall crosses the swept triangle.
+template <int D>
+std::optional<double> first_hit(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                                const Point<D>& q) {
+  std::optional<double> first;
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+    const Cell c = snapshot.cell(i);
+    for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
+      const Half_facet facet = Snapshot<D>::half_facet(c, f);
+      if (!snapshot.is_impassable(facet)) continue;
+      const auto time = first_crossing(a, b, q, polygon(snapshot, facet));
+      if (time && (!first || *time < *first)) first = time;
+    }
+  }
+  return first;
+}
+
+std::size_t worlds() { return oracle::scaled_count(4 * oracle::world_kinds); }
+
+template <int D>
+Seen sweep(bool generic) {
+  Seen seen;
+  for (std::uint64_t number = 0; number < worlds(); ++number) {
+    Edge_world<D> w(number, generic);
+    for (int k = 0; k < 60; ++k) {
+      Particle<D> p = w.start();
+      if (p.cell == Cell::none) continue;
+      const Particle<D> q = w.end(p);
+      if (q.cell == Cell::none) continue;
+      Chain_result<D> edge = find_chain(w.snapshot, p, q, seen.counts.walk);
+      for (int step = 0; step < 6 && !edge.contact; ++step) {
+        const Particle<D> from = p;
+        std::vector<Cell> visited;
+        std::vector<Half_facet> crossed;
+        w.choose_kind();
+        const auto walked = move(w.snapshot, p, w.target(p), seen.counts.walk,
+                                 {Walk_strategy::certified, &visited, &crossed});
+        if (walked.status != Walk_status::arrived) continue;
+        edge = sweep_triangle<D>(w.snapshot, {from, p, visited, crossed}, q, edge.chain, seen.counts);
+        const auto hit = first_hit(w.snapshot, from.position, p.position, q.position);
+        ++seen.sweeps;
+        seen.hits += hit.has_value();
+        if (!edge.contact) expect_leads(w.snapshot, edge.chain, p.cell, q.cell);
+        if (hit && !edge.contact) {
+          ++seen.misses;
+          ADD_FAILURE() << w.world.name << ": missed at " << *hit;
+        }
+        if (!hit && edge.contact) {
+          ++seen.only_blocked;
+          EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->time;
+        }
+        if (hit && edge.contact) {
+          // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a side.
+          constexpr double rounding = 0x1p-52;  // of both times
+          const double early = *hit - edge.contact->time;
+          seen.wrong_times += early < 0 || (generic && early > rounding);
+          EXPECT_GE(early, 0) << w.world.name;
+          if (generic) {
+            EXPECT_LE(early, rounding) << w.world.name;
+          }
+          seen.third_free += !find_chain(w.snapshot, p, q, seen.counts.walk).contact;
+        }
+      }
+    }
+  }
+  const Edge_counts& c = seen.counts;
+  std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.sweeps << " sweeps, "
+            << seen.hits << " crossed by a wall, " << seen.only_blocked << " blocked otherwise; "
+            << seen.third_free << " of these with a free third side; same cell " << c.same_cell
+            << ", same chain " << c.same_chain << ", clear " << c.clear << ", events " << c.event_sweeps
+            << "; missed " << seen.misses << "\n";
+  return seen;
+}
+
+template <int D>
+void test_sweeps() {
+  for (const bool generic : {true, false}) {
+    const Seen seen = sweep<D>(generic);
+    EXPECT_EQ(seen.misses, 0);
+    EXPECT_EQ(seen.wrong_times, 0);
+    if (worlds() < 2 * oracle::world_kinds) continue;  // too few to meet everything
+    EXPECT_GT(seen.sweeps, 1000);
+    EXPECT_GT(seen.hits, 50);
+    EXPECT_GT(seen.third_free, 3);
+    EXPECT_GT(seen.counts.event_sweeps, 50u);
+  }
+}
+
+TEST(Triangle, NeverMissesACrossing2) { test_sweeps<2>(); }
+TEST(Triangle, NeverMissesACrossing3) { test_sweeps<3>(); }
+
+}  // namespace
+}  // namespace cellwalk::test
