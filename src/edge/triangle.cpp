@@ -31,6 +31,7 @@ class Events {
         q_(q),
         counts_(counts) {
     plan(way);
+    if (way.blocked) limit_ = exit_time(way.visited.back());
   }
 
   Chain_result<D> run(const Chain& before) {
@@ -49,6 +50,10 @@ class Events {
       };
       detail::Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
       Chain_result<D> result;
+      if (limit_ && time >= *limit_) {
+        result.chain = chain;
+        return result;
+      }
       if (!walk.from(start_)) {
         result.contact = contact(time, segment, walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
@@ -56,7 +61,7 @@ class Events {
       chain = walk.chain();
       std::optional<Rational> next = end_of(chain, line);
       if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
-      if (!next) {
+      if (!next || (limit_ && *next >= *limit_)) {
         result.chain = chain;
         return result;
       }
@@ -142,6 +147,7 @@ class Events {
   const Particle<D>& q_;
   Walk_counts& counts_;
   std::vector<Step> steps_;
+  std::optional<Rational> limit_;  ///< p is blocked then
 };
 
 }  // namespace
@@ -149,10 +155,21 @@ class Events {
 template <int D>
 Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts) {
+  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
+  if (way.blocked) {
+    ++counts.edges;
+    ++counts.changed;
+    Chain_result<D> result{before, {}};
+    walk_start(snapshot, result.chain, way.crossed);
+    if (are_collinear(triangle.a, triangle.b, triangle.q) ||
+        is_clear(snapshot, way.from.cell, triangle, counts))
+      return result;
+    ++counts.event_sweeps;
+    return Events<D>(snapshot, way, q, counts.walk).run(before);
+  }
   Chain_result<D> result;
   if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, result, counts)) return result;
   ++counts.changed;
-  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
   if (are_collinear(triangle.a, triangle.b, triangle.q)) {
     if (result.contact) result.contact->time = 0;
     return result;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "edge/edge_worlds.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct Seen {
   int sweeps = 0, hits = 0, misses = 0, wrong_times = 0, only_blocked = 0, third_free = 0;
+  int blocked = 0, edge_first = 0;  ///< p was; the edge was before
   Edge_counts counts;
 };
 
@@ -34,6 +36,31 @@ std::optional<double> first_hit(const Snapshot<D>& snapshot, const Point<D>& a, 
   return first;
 }
 
+/// p is blocked on its way: the edge must be hit exactly if a wall crosses its triangle before that.
+template <int D>
+void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<D>& target,
+                   const std::vector<Cell>& visited, const std::vector<Half_facet>& crossed,
+                   const Wall_contact<D>& blocked, const Particle<D>& q, const Chain& chain, bool generic,
+                   Seen& seen) {
+  Particle<D> to = from;
+  to.position = target;
+  to.cell = visited.back();
+  const Chain_result<D> edge =
+      sweep_triangle<D>(w.snapshot, {from, to, visited, crossed, true}, q, chain, seen.counts);
+  const auto hit = first_hit(w.snapshot, from.position, target, q.position);
+  constexpr double rounding = 0x1p-50;  // of all three times
+  ++seen.blocked;
+  if (edge.contact) {
+    ++seen.edge_first;
+    EXPECT_LE(edge.contact->time, blocked.time + rounding);
+    if (generic) {
+      EXPECT_TRUE(hit && std::abs(*hit - edge.contact->time) <= rounding) << w.world.name;
+    }
+  } else if (hit) {
+    EXPECT_GE(*hit, blocked.time - rounding) << w.world.name << ": an edge hit before its end is missed";
+  }
+}
+
 std::size_t worlds() { return oracle::scaled_count(4 * oracle::world_kinds); }
 
 template <int D>
@@ -52,9 +79,13 @@ Seen sweep(bool generic) {
         std::vector<Cell> visited;
         std::vector<Half_facet> crossed;
         w.choose_kind();
-        const auto walked = move(w.snapshot, p, w.target(p), seen.counts.walk,
-                                 {Walk_strategy::certified, &visited, &crossed});
-        if (walked.status != Walk_status::arrived) continue;
+        const Point<D> target = w.target(p);
+        const auto walked =
+            move(w.snapshot, p, target, seen.counts.walk, {Walk_strategy::certified, &visited, &crossed});
+        if (walked.status != Walk_status::arrived) {
+          check_blocked(w, from, target, visited, crossed, *walked.contact, q, edge.chain, generic, seen);
+          continue;
+        }
         edge = sweep_triangle<D>(w.snapshot, {from, p, visited, crossed}, q, edge.chain, seen.counts);
         const auto hit = first_hit(w.snapshot, from.position, p.position, q.position);
         ++seen.sweeps;
@@ -101,6 +132,8 @@ void test_sweeps() {
     EXPECT_GT(seen.sweeps, 1000);
     EXPECT_GT(seen.hits, 50);
     EXPECT_GT(seen.third_free, 3);
+    EXPECT_GT(seen.blocked, 200);
+    EXPECT_GT(seen.edge_first, 10);
     EXPECT_GT(seen.counts.event_sweeps, 50u);
   }
 }

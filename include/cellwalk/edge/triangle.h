@@ -7,12 +7,14 @@
 
 namespace cellwalk {
 
-/// A walk that arrived, as Walk_options report it.
+/// A walk of p, as Walk_options report it.
 template <int D>
 struct Way {
   Particle<D> from, to;
   std::span<const Cell> visited;
   std::span<const Half_facet> crossed;
+  /// True if a wall blocked p: to.position is then where it was going, and the edge is swept until p is blocked.
+  bool blocked = false;
 };
 
 /// Sweeps the edge pq while p goes its way and q stands still. Returns the chain of the edge afterwards, or the first contact:
@@ -20,7 +22,8 @@ struct Way {
 /// those of the wall that blocks it there.
 ///
 /// Tried in this order: the ends share a cell; the edge passes its old chain still; no wall meets the swept triangle; the
-/// events, one by one, in exact rationals. Touching a wall is no contact.
+/// events, one by one, in exact rationals. Touching a wall is no contact. If p is blocked, a contact is one of the edge before
+/// that time (at that time, p's own comes first), and the chain returned is the last one.
 /// \pre `before` is the chain of the edge before the move
 /// Degenerate cases: all positions of facets, ridges and vertices against the swept triangle. A triangle that is a segment
 /// (p moves in the line of the edge) is checked by its third side; the time of a contact is then given as 0.
