@@ -3,6 +3,7 @@
 #ifndef CELLWALK_KERNEL_EXACT_VALUE_H
 #define CELLWALK_KERNEL_EXACT_VALUE_H
 
+#include <cellwalk/kernel/exact_time.h>
 #include <cellwalk/kernel/policies.h>
 
 #include <CGAL/Exact_rational.h>
@@ -10,6 +11,15 @@
 namespace cellwalk {
 
 using Rational = CGAL::Exact_rational;
+
+/// What an Exact_time holds.
+struct Exact_fraction {
+  Rational value;
+};
+
+/// \pre the fraction lies in the range of doubles
+Exact_time to_time(const Rational& fraction);
+Rational to_rational(const Exact_time& time);
 
 /// Like a number policy, but orientation() is the determinant itself, not its sign.
 struct Exact_value {

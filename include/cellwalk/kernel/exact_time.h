@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Times of impact: exact fractions, compared exactly, rounded only to be reported.
+#ifndef CELLWALK_KERNEL_EXACT_TIME_H
+#define CELLWALK_KERNEL_EXACT_TIME_H
+
+#include <compare>
+#include <memory>
+
+namespace cellwalk {
+
+struct Exact_fraction;  // <cellwalk/kernel/exact_value.h>
+
+/// A parameter of a motion as an exact number. Comparing two of them needs the fractions themselves only where they
+/// round to the same double. Copying is cheap; immutable.
+class Exact_time {
+ public:
+  Exact_time() = default;  ///< 0
+  /// Exactly this double. \pre finite
+  explicit Exact_time(double time) : rounded_(time) {}
+  /// A fraction and the greatest double that is not above it; use to_time().
+  Exact_time(double rounded, std::shared_ptr<const Exact_fraction> fraction)
+      : rounded_(rounded), fraction_(std::move(fraction)) {}
+
+  /// The greatest double that is not later: a time reported is never after the contact.
+  double rounded() const { return rounded_; }
+  /// The fraction, or null where rounded() is exact.
+  const Exact_fraction* fraction() const { return fraction_.get(); }
+
+  friend std::strong_ordering operator<=>(const Exact_time& s, const Exact_time& t);
+  friend bool operator==(const Exact_time& s, const Exact_time& t) { return (s <=> t) == 0; }
+
+ private:
+  double rounded_ = 0;
+  std::shared_ptr<const Exact_fraction> fraction_;
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_KERNEL_EXACT_TIME_H
