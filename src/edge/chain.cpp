@@ -14,15 +14,17 @@ namespace {
 template <int D>
 Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& arrival, const Point<D>& q,
                            Half_facet wall) {
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
+  const std::size_t i = snapshot.facet_of(wall);
   Wall_contact<D> contact;
   contact.time = 1;
   contact.point = q;
   contact.cell = arrival.cell;
-  contact.kind = arrival.dimension == 0       ? Contact_kind::vertex
-                 : arrival.dimension == D - 1 ? Contact_kind::facet
-                                              : Contact_kind::edge;
+  const detail::Facet_feature feature = detail::lowest_feature(cell, i, q);
+  contact.kind = feature.kind;
+  contact.corner = feature.corner;
   contact.facet = wall;
-  contact.normal = detail::inner_normal(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall));
+  contact.normal = detail::inner_normal(cell, i);
   return contact;
 }
 

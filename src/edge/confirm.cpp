@@ -21,7 +21,7 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
   const bool is_same = !result.contact && result.chain == chain;
   if (!is_same && !passes(snapshot, chain, p.position, q.position, counts.walk)) return false;
   ++counts.same_chain;
-  if (!is_same) result = {chain, {}};
+  if (!is_same) result = {chain, {}, {}};
   return true;
 }
 

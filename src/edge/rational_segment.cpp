@@ -73,23 +73,23 @@ std::optional<Span> Rational_segment<D>::in_facet(const Cell_view<D>& cell, std:
 }
 
 template <int D>
-Contact_kind lowest_feature(const Cell_view<D>& cell, std::size_t i, const Rational_point<D>& x) {
+Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Rational_point<D>& x) {
   const auto loop = cell.loop(i);
-  for (const std::uint16_t v : loop)
-    if (exact<D>(cell.point(v)) == x) return Contact_kind::vertex;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    if (exact<D>(cell.point(loop[k])) == x) return {Contact_kind::vertex, static_cast<std::uint16_t>(k)};
   if constexpr (D == 3) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const auto u = exact<3>(cell.point(loop[k])), v = exact<3>(cell.point(loop[(k + 1) % loop.size()]));
       const auto off = cross(minus(v, u), minus(x, u));
-      if (dot(off, off) == 0) return Contact_kind::edge;
+      if (dot(off, off) == 0) return {Contact_kind::edge, static_cast<std::uint16_t>(k)};
     }
   }
-  return Contact_kind::facet;
+  return {};
 }
 
 template class Rational_segment<2>;
 template class Rational_segment<3>;
-template Contact_kind lowest_feature<2>(const Cell_view<2>&, std::size_t, const Rational_point<2>&);
-template Contact_kind lowest_feature<3>(const Cell_view<3>&, std::size_t, const Rational_point<3>&);
+template Facet_feature lowest_feature<2>(const Cell_view<2>&, std::size_t, const Rational_point<2>&);
+template Facet_feature lowest_feature<3>(const Cell_view<3>&, std::size_t, const Rational_point<3>&);
 
 }  // namespace cellwalk::detail

@@ -5,7 +5,7 @@
 
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/kernel/exact_value.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/detail/signs.h>
 
 #include <array>
 #include <cstddef>
@@ -49,7 +49,7 @@ class Rational_segment {
 
 /// The lowest vertex, edge or facet of closed facet i of a cell that holds x, a point of it.
 template <int D>
-Contact_kind lowest_feature(const Cell_view<D>& cell, std::size_t i, const Rational_point<D>& x);
+Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Rational_point<D>& x);
 
 extern template class Rational_segment<2>;
 extern template class Rational_segment<3>;

@@ -1,182 +1,40 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/triangle.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "confirm.h"
-#include "equal_chains.h"
-#include "moving_walk.h"
+#include "events.h"
 
 namespace cellwalk {
 namespace {
 
-using detail::Moving_line;
-
-/// p leaves a cell: when, through which facets, and for which cell.
-struct Step {
-  Rational time;
-  std::span<const Half_facet> facets;
-  Cell next;
-};
-
+/// The sweep of an edge whose p is blocked on its way: no chain at the end to confirm.
 template <int D>
-class Events {
- public:
-  Events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, Walk_counts& counts)
-      : snapshot_(snapshot),
-        triangle_{way.from.position, way.to.position, q.position},
-        start_(way.from.cell),
-        q_(q),
-        counts_(counts) {
-    plan(way);
-    if (way.blocked) limit_ = exit_time(way.visited.back());
+Chain_result<D> sweep_until_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                    const Chain& before, Edge_counts& counts) {
+  ++counts.edges;
+  ++counts.changed;
+  if (is_clear(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts)) {
+    Chain_result<D> result{before, {}, {}};
+    walk_start(snapshot, result.chain, way.crossed);
+    return result;
   }
-
-  Chain_result<D> run(const Chain& before) {
-    Chain chain = before;
-    Rational time = 0;
-    for (auto step = steps_.begin();;) {
-      for (; step != steps_.end() && step->time <= time; ++step) {
-        walk_start(snapshot_, chain, step->facets);
-        start_ = step->next;
-      }
-      const Moving_line<D> line(triangle_, time, counts_);
-      const detail::Rational_segment<D> segment(moved(time), detail::exact<D>(triangle_.q));
-      Half_facet parting = Half_facet::none;
-      const auto accept = [&](const Chain& other) {
-        return detail::are_equal(snapshot_, segment, start_, chain, other, parting);
-      };
-      detail::Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
-      Chain_result<D> result;
-      if (limit_ && time >= *limit_) {
-        result.chain = chain;
-        return result;
-      }
-      if (!walk.from(start_)) {
-        result.contact = contact(time, segment, walk.wall() != Half_facet::none ? walk.wall() : parting);
-        return result;
-      }
-      chain = walk.chain();
-      std::optional<Rational> next = end_of(chain, line);
-      if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
-      if (!next || (limit_ && *next >= *limit_)) {
-        result.chain = chain;
-        return result;
-      }
-      time = *next;
-    }
-  }
-
- private:
-  void plan(const Way<D>& way) {
-    std::size_t passed = 0;
-    for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
-      const std::size_t first = passed;
-      Cell cell = way.visited[i];
-      while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
-      steps_.push_back({exit_time(way.visited[i]), way.crossed.subspan(first, passed - first), cell});
-    }
-  }
-
-  /// When p leaves a cell: it passes the plane of the first facet that has its target outside.
-  Rational exit_time(Cell c) const {
-    const Cell_view<D> cell = snapshot_.view(c);
-    std::optional<Rational> first;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (detail::side<Exact>(cell, i, triangle_.b, counts_) <= 0) continue;
-      const Rational at_a = detail::side<Exact_value>(cell, i, triangle_.a, counts_);
-      const Rational time = at_a / (at_a - detail::side<Exact_value>(cell, i, triangle_.b, counts_));
-      if (!first || time < *first) first = time;
-    }
-    return *first;
-  }
-
-  detail::Rational_point<D> moved(const Rational& time) const {
-    return detail::Rational_segment<D>(detail::exact<D>(triangle_.a), detail::exact<D>(triangle_.b)).at(time);
-  }
-
-  /// The next time at which one of the signs changes that make the edge pass its chain.
-  std::optional<Rational> end_of(const Chain& chain, const Moving_line<D>& line) const {
-    std::optional<Rational> end;
-    const auto note = [&](const auto& function) {
-      const auto root = function.root_after(line.time());
-      if (root && (!end || *root < *end)) end = root;
-    };
-    for (const Half_facet f : chain) {
-      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
-      const std::size_t i = snapshot_.facet_of(f);
-      const auto side = line.side_of(cell, i);
-      note(side);
-      for (std::size_t k = 0; k < cell.loop(i).size(); ++k) note(line.along_of(cell, i, k));
-      if constexpr (D == 3) {
-        const bool in_plane =
-            side.at_0 == 0 && side.at_1 == 0 && detail::side<Exact>(cell, i, triangle_.q, counts_) == 0;
-        if (in_plane)
-          for (const std::uint16_t v : cell.loop(i)) note(line.in_plane_of(cell.point(v)));
-      }
-    }
-    return end;
-  }
-
-  Wall_contact<D> contact(const Rational& time, const detail::Rational_segment<D>& segment,
-                          Half_facet wall) const {
-    const Cell c = snapshot_.cell_of(wall);
-    const Cell_view<D> cell = snapshot_.view(c);
-    const std::size_t i = snapshot_.facet_of(wall);
-    Wall_contact<D> contact;
-    contact.time = CGAL::to_double(time);
-    if (Rational(contact.time) > time) contact.time = std::nextafter(contact.time, 0.0);
-    contact.facet = wall;
-    contact.cell = c;
-    contact.normal = detail::inner_normal(cell, i);
-    contact.point = triangle_.q;
-    contact.kind = Contact_kind::facet;
-    if (const auto met = segment.in_facet(cell, i)) {
-      const auto x = segment.at(met->low);
-      for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
-      contact.kind = detail::lowest_feature<D>(cell, i, x);
-    }
-    return contact;
-  }
-
-  const Snapshot<D>& snapshot_;
-  const Swept_triangle<D> triangle_;
-  Cell start_;  ///< of p
-  const Particle<D>& q_;
-  Walk_counts& counts_;
-  std::vector<Step> steps_;
-  std::optional<Rational> limit_;  ///< p is blocked then
-};
+  ++counts.event_sweeps;
+  return detail::follow_events(snapshot, way, q, before, counts.walk);
+}
 
 }  // namespace
 
 template <int D>
 Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts) {
-  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  if (way.blocked) {
-    ++counts.edges;
-    ++counts.changed;
-    Chain_result<D> result{before, {}};
-    walk_start(snapshot, result.chain, way.crossed);
-    if (are_collinear(triangle.a, triangle.b, triangle.q) ||
-        is_clear(snapshot, way.from.cell, triangle, counts))
-      return result;
-    ++counts.event_sweeps;
-    return Events<D>(snapshot, way, q, counts.walk).run(before);
-  }
+  if (way.blocked) return sweep_until_blocked(snapshot, way, q, before, counts);
   Chain_result<D> result;
   if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, result, counts)) return result;
   ++counts.changed;
-  if (are_collinear(triangle.a, triangle.b, triangle.q)) {
-    if (result.contact) result.contact->time = 0;
-    return result;
-  }
+  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
   if (!result.contact && is_clear(snapshot, way.from.cell, triangle, counts)) return result;
   ++counts.event_sweeps;
-  return Events<D>(snapshot, way, q, counts.walk).run(before);
+  return detail::follow_events(snapshot, way, q, before, counts.walk);
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                     \

@@ -64,7 +64,9 @@ struct Wall_contact {
   Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
   Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; names its dart
-  Cell cell = Cell::none;               ///< the cell in which the motion ends
+  /// Which vertex or edge of it, if kind says so: the one at this place of its loop, or the one from there to the next.
+  std::uint16_t corner = 0;
+  Cell cell = Cell::none;  ///< the cell in which the motion ends
 };
 
 template <int D>

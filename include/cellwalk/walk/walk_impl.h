@@ -96,10 +96,13 @@ class Walker {
       contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), a_, b_);
     contact.point = point_on<D>(a_, b_, contact.time);
     const Cell wall_cell = snapshot_.cell_of(wall);
-    contact.normal = inner_normal(snapshot_.view(wall_cell), snapshot_.facet_of(wall));
+    const Cell_view<D> wall_view = snapshot_.view(wall_cell);
+    contact.normal = inner_normal(wall_view, snapshot_.facet_of(wall));
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
                    : exit.kind == Exit::vertex ? Contact_kind::vertex
                                                : Contact_kind::edge;
+    if (exit.kind != Exit::facet)
+      contact.corner = corner_of(wall_view, snapshot_.facet_of(wall), exit.u, exit.v);
     contact.facet = wall;
     contact.cell = cell_;
     return false;

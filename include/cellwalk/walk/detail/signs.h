@@ -150,6 +150,37 @@ inline bool in_facet(const Cell_view<3>& cell, std::size_t i, const Point<3>& x)
   return in_convex_polygon(polygon, x);
 }
 
+/// A vertex or edge of a facet by its place in the loop, or the facet itself.
+struct Facet_feature {
+  Contact_kind kind = Contact_kind::facet;
+  std::uint16_t corner = 0;
+};
+
+/// The place in the loop of facet i of ridge uv (3D) or vertex u = v; 0 if it is not there.
+template <int D>
+std::uint16_t corner_of(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, std::uint32_t v) {
+  const auto loop = cell.loop(i);
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const std::uint32_t here = cell.point_index(loop[k]);
+    const std::uint32_t next = u == v ? here : cell.point_index(loop[k + 1 == loop.size() ? 0 : k + 1]);
+    if ((here == u && next == v) || (here == v && next == u)) return static_cast<std::uint16_t>(k);
+  }
+  return 0;
+}
+
+/// The lowest feature of facet i that holds x, a point of the closed facet.
+template <int D>
+Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) {
+  const auto loop = cell.loop(i);
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    if (cell.point(loop[k]) == x) return {Contact_kind::vertex, static_cast<std::uint16_t>(k)};
+  if constexpr (D == 3)
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (on_segment<3>(cell.point(loop[k]), cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]), x))
+        return {Contact_kind::edge, static_cast<std::uint16_t>(k)};
+  return {};
+}
+
 /// Dimension of the lowest cell of the complex that holds x, given that x lies in the closed cell and on the
 /// planes of the facets for which on_plane(i) holds.
 template <int D, class On_plane>

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Contacts of bodies, however they were found. Paper: section III.
+#ifndef CELLWALK_EDGE_CONTACT_H
+#define CELLWALK_EDGE_CONTACT_H
+
+#include <cellwalk/kernel/exact_time.h>
+#include <cellwalk/walk/walk.h>
+
+#include <cstdint>
+
+namespace cellwalk {
+
+/// The feature of a body that meets a wall. Ties in time go to the first of them.
+enum class Body_feature : std::uint8_t { vertex, edge, face };
+
+/// When, where and by what the motion of a vertex p is blocked, be it itself, an edge at it or a face.
+///
+/// time: share of the motion of p that is free, never later than the contact; impact is the same before rounding, where the
+/// search is exact. point: rounded. normal: unit, on the free side. If the vertex is blocked, or an edge by the inside of a
+/// facet, that of the wall; if an edge is blocked by an edge or vertex, the direction that is perpendicular to both and
+/// against the motion. kind, facet, corner: the feature of the environment.
+template <int D>
+struct Contact : Wall_contact<D> {
+  Body_feature body = Body_feature::vertex;
+  Exact_time impact;
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_EDGE_CONTACT_H

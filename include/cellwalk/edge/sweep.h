@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Is the move of a vertex with an edge at it free, and if not, where is the first contact? One interface to all sweeps and
+// searches. Paper: section III. Theory: docs/sweep.md.
+#ifndef CELLWALK_EDGE_SWEEP_H
+#define CELLWALK_EDGE_SWEEP_H
+
+#include <cellwalk/edge/contact.h>
+#include <cellwalk/edge/triangle.h>
+
+#include <optional>
+
+namespace cellwalk {
+
+/// What is checked of a moving edge.
+enum class Sweep {
+  three_segments,  ///< the way of p, then the edge: the paper's; misses obstacles that fit between
+  triangle,        ///< the whole swept triangle
+  faces            ///< that, and what body faces sweep; a single edge has none
+};
+
+/// What counts as a contact.
+enum class Touch {
+  pass,  ///< a wall that cannot be passed: touching is free
+  stop   ///< also a closed wall that meets the closed swept triangle off its start
+};
+
+/// How a contact is located, once it is known that there is one.
+enum class Contact_search {
+  exact,      ///< the first event at which the motion cannot go on
+  dichotomic, ///< bisection: the longest motion found free, within a bound
+  exhaustive  ///< the first of the obstacle vertices (2D) or edges (3D) of the cells met that lie in the swept triangle
+};
+
+/// The cells whose obstacles an exhaustive search looks at.
+enum class Search_cells {
+  flooded,   ///< those that the swept triangle meets: complete
+  traversed  ///< those that the edge passes at its end: the paper's
+};
+
+struct Sweep_options {
+  Sweep sweep = Sweep::triangle;
+  Touch touch = Touch::pass;
+  Contact_search search = Contact_search::exact;
+  Search_cells cells = Search_cells::flooded;
+  double tolerance = 0x1p-20;  ///< of a dichotomic search: length of the last interval of time, in (0,1]
+};
+
+template <int D>
+struct Sweep_result {
+  std::optional<Contact<D>> contact;  ///< none: the move is free
+  Particle<D> p;                      ///< after the move, or where it was
+  Chain chain;                        ///< of the edge then
+  std::uint32_t cells = 0;            ///< visited by p
+};
+
+/// Moves p to a target, with an edge from it to q, which stands still.
+/// \pre p and q satisfy I1, `before` is the chain of the edge, the target is finite, options.tolerance lies in (0,1]
+/// Degenerate cases: all are decided, see sweep_triangle(). Cost: that of the walk and the sweep; then of the search:
+/// exact: included; dichotomic: log2(1/tolerance) sweeps; exhaustive: some rational arithmetic for each wall of the cells.
+template <int D>
+Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
+                           const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                           Edge_counts& counts);
+
+/// The same for one edge of a vertex whose walk is known: a contact of the edge, before p is blocked if it is. The result's
+/// p is not set.
+template <int D>
+Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                 const Chain& before, const Sweep_options& options, Edge_counts& counts);
+
+/// The contact of a vertex that its own walk reported.
+template <int D>
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
+                          Walk_counts& counts);
+
+/// The first point off its start at which the motion of p, without any edge, meets a closed wall: Touch::stop for particles.
+template <int D>
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
+                                      Edge_counts& counts);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_EDGE_SWEEP_H

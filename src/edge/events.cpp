@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "events.h"
+
+#include <vector>
+
+#include "equal_chains.h"
+#include "moving_walk.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// p leaves a cell: when, through which facets, and for which cell.
+struct Step {
+  Rational time;
+  std::span<const Half_facet> facets;
+  Cell next;
+};
+
+template <int D>
+class Events {
+ public:
+  Events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, Walk_counts& counts,
+         const std::optional<Rational>& until)
+      : snapshot_(snapshot),
+        triangle_{way.from.position, way.to.position, q.position},
+        start_(way.from.cell),
+        q_(q),
+        counts_(counts),
+        limit_(until) {
+    plan(way);
+    if (!way.blocked) return;
+    const Rational blocked = exit_time(snapshot, way.visited.back(), triangle_.a, triangle_.b, counts);
+    if (!limit_ || blocked < *limit_) limit_ = blocked;
+  }
+
+  Chain_result<D> run(const Chain& before) {
+    Chain_result<D> result{before, {}, {}};
+    Chain& chain = result.chain;
+    Rational time = 0;
+    for (auto step = steps_.begin(); !limit_ || time < *limit_;) {
+      for (; step != steps_.end() && step->time <= time; ++step) {
+        walk_start(snapshot_, chain, step->facets);
+        start_ = step->next;
+      }
+      const Moving_line<D> line(triangle_, time, counts_);
+      const Rational_segment<D> segment(moved(time), exact<D>(triangle_.q));
+      Half_facet parting = Half_facet::none;
+      const auto accept = [&](const Chain& other) {
+        return are_equal(snapshot_, segment, start_, chain, other, parting);
+      };
+      Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
+      if (!walk.from(start_)) {
+        chain.clear();
+        result.impact = to_time(time);
+        result.contact =
+            contact(result.impact, segment, walk.wall() != Half_facet::none ? walk.wall() : parting);
+        return result;
+      }
+      chain = walk.chain();
+      std::optional<Rational> next = end_of(chain, line);
+      if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
+      if (!next) break;
+      time = *next;
+    }
+    return result;
+  }
+
+ private:
+  void plan(const Way<D>& way) {
+    std::size_t passed = 0;
+    for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
+      const std::size_t first = passed;
+      Cell cell = way.visited[i];
+      while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
+      steps_.push_back({exit_time(snapshot_, way.visited[i], triangle_.a, triangle_.b, counts_),
+                        way.crossed.subspan(first, passed - first), cell});
+    }
+  }
+
+  Rational_point<D> moved(const Rational& time) const {
+    return Rational_segment<D>(exact<D>(triangle_.a), exact<D>(triangle_.b)).at(time);
+  }
+
+  /// The next time at which one of the signs changes that make the edge pass its chain.
+  std::optional<Rational> end_of(const Chain& chain, const Moving_line<D>& line) const {
+    std::optional<Rational> end;
+    const auto note = [&](const auto& function) {
+      const auto root = function.root_after(line.time());
+      if (root && (!end || *root < *end)) end = root;
+    };
+    for (const Half_facet f : chain) {
+      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
+      const std::size_t i = snapshot_.facet_of(f);
+      const auto side_of_p = line.side_of(cell, i);
+      note(side_of_p);
+      for (std::size_t k = 0; k < cell.loop(i).size(); ++k) note(line.along_of(cell, i, k));
+      if constexpr (D == 3) {
+        const bool in_plane =
+            side_of_p.at_0 == 0 && side_of_p.at_1 == 0 && side<Exact>(cell, i, triangle_.q, counts_) == 0;
+        if (in_plane)
+          for (const std::uint16_t v : cell.loop(i)) note(line.in_plane_of(cell.point(v)));
+      }
+    }
+    return end;
+  }
+
+  Wall_contact<D> contact(const Exact_time& time, const Rational_segment<D>& segment, Half_facet wall) const {
+    const Cell c = snapshot_.cell_of(wall);
+    const Cell_view<D> cell = snapshot_.view(c);
+    const std::size_t i = snapshot_.facet_of(wall);
+    Wall_contact<D> contact;
+    contact.time = time.rounded();
+    contact.facet = wall;
+    contact.cell = c;
+    contact.normal = inner_normal(cell, i);
+    contact.point = triangle_.q;
+    contact.kind = Contact_kind::facet;
+    if (const auto met = segment.in_facet(cell, i)) {
+      const auto x = segment.at(met->low);
+      for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
+      const Facet_feature feature = lowest_feature<D>(cell, i, x);
+      contact.kind = feature.kind;
+      contact.corner = feature.corner;
+    }
+    return contact;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Swept_triangle<D> triangle_;
+  Cell start_;  ///< of p
+  const Particle<D>& q_;
+  Walk_counts& counts_;
+  std::vector<Step> steps_;
+  std::optional<Rational> limit_;  ///< no event from then on matters
+};
+
+}  // namespace
+
+template <int D>
+Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+  const Cell_view<D> cell = snapshot.view(c);
+  std::optional<Rational> first;
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    if (side<Exact>(cell, i, b, counts) <= 0) continue;
+    const Rational at_a = side<Exact_value>(cell, i, a, counts);
+    const Rational time = at_a / (at_a - side<Exact_value>(cell, i, b, counts));
+    if (!first || time < *first) first = time;
+  }
+  return *first;
+}
+
+template <int D>
+Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                              const Chain& before, Walk_counts& counts, const std::optional<Rational>& until) {
+  return Events<D>(snapshot, way, q, counts, until).run(before);
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                        \
+  template Rational exit_time<D>(const Snapshot<D>&, Cell, const Point<D>&, const Point<D>&,           \
+                                 Walk_counts&);                                                        \
+  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,     \
+                                            const Chain&, Walk_counts&, const std::optional<Rational>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweep of an edge from event to event, in exact rationals. Theory: docs/sweep.md, events.
+#ifndef CELLWALK_EDGE_EVENTS_H
+#define CELLWALK_EDGE_EVENTS_H
+
+#include <cellwalk/edge/triangle.h>
+#include <cellwalk/kernel/exact_value.h>
+
+#include <optional>
+
+namespace cellwalk::detail {
+
+/// When the line from a to b leaves a cell that holds a: it passes the plane of the first facet that has b outside.
+/// \pre b does not lie in the cell
+template <int D>
+Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b,
+                   Walk_counts& counts);
+
+/// Carries the chain along until p arrives, is blocked, or `until`; contacts from then on do not count. Any position is legal,
+/// p moving in the line of its edge too.
+template <int D>
+Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                              const Chain& before, Walk_counts& counts,
+                              const std::optional<Rational>& until = {});
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_EVENTS_H
