@@ -77,13 +77,12 @@ std::optional<Clear_region<D>> clear_region(const Snapshot<D>& snapshot, const P
       if (!is_wall && std::find(found.begin(), found.end(), snapshot.neighbor(f)) != found.end()) continue;
       const double distance = distance_bound(cell, i, center.position);
       if (distance >= radius) continue;
-      if (!is_wall) {
-        if (found.size() == most_cells) return {};
+      if (!is_wall && found.size() < most_cells) {
         found.push_back(snapshot.neighbor(f));
-      } else {
-        radius = distance;
-        if (!(radius > least)) return {};
+        continue;
       }
+      radius = distance;  // beyond it is a wall, or what was not looked at
+      if (!(radius > least)) return {};
     }
   }
   // Underflow would void the bounds.

@@ -19,6 +19,8 @@ constexpr std::uint32_t steps_without_search = 8;
 constexpr double largest_region = 4;
 /// Nor are those smaller than this part of half the diagonal of its box.
 constexpr double smallest_region = 0.5;
+/// A search may look at so many cells: it must not cost more than the tests it saves.
+constexpr std::size_t cells_per_vertex = 128, most_cells = 4096;
 
 /// The part of a motion that two walls leave: none in the plane, that along their edge in space.
 Vector<2> along_both(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return {}; }
@@ -117,7 +119,8 @@ bool Body<D>::stays_in_region(std::span<const Point<D>> targets, const Body_opti
   ++counts.no_region;
   if (!is_finite(middle) || !std::isfinite(half)) return false;
   if (move(*snapshot_, center, middle, counts.edges.walk).status != Walk_status::arrived) return false;
-  region_ = clear_region(*snapshot_, center, smallest_region * half, std::max(largest_region * half, 1e-100));
+  region_ = clear_region(*snapshot_, center, smallest_region * half, std::max(largest_region * half, 1e-100),
+                         std::min(most_cells, cells_per_vertex * positions_.size()));
   if (!region_) return false;
   const auto holds_all = [&](std::span<const Point<D>> points) {
     return std::all_of(points.begin(), points.end(), is_inside);

@@ -24,9 +24,8 @@ struct Clear_region {
   }
 };
 
-/// The largest ball about a particle that a flood through passable facets proves free of walls, but at most of radius
-/// `most`. Every distance is a lower bound, rounding included.
-/// None if it is no larger than `least`, or would need more than `most_cells`.
+/// The largest ball about a particle that a flood of at most `most_cells` cells proves free of walls, but at most of radius
+/// `most`. Every distance is a lower bound, rounding included. None if it is no larger than `least`.
 /// \pre 0 <= least < most, finite
 /// Cost: about 50 ns a facet of the cells that the ball meets.
 template <int D>
