@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/body/body.h>
+#include <cellwalk/body/generate.h>
+#include <cellwalk/body/transform.h>
+#include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "body/rooms.h"
+
+namespace cellwalk::test {
+namespace {
+
+template <int D>
+std::string refusal(const Snapshot<D>& snapshot, const Body_soup<D>& soup) {
+  try {
+    Body<D>(snapshot, Locator<D>(snapshot), soup);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Error_code::outside);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Registration, FindsCellsAndChains) {
+  const Snapshot<3> snapshot = room<3>({3, 1, 1}, {});
+  const Body_soup<3> soup{{{0.5, 0.5, 0.5}, {2.5, 0.5, 0.25}, {0.25, 0.25, 0.25}}, {{0, 1}, {0, 2}}, {}};
+  const Body<3> body(snapshot, Locator<3>(snapshot), soup);
+  EXPECT_EQ(body.chain(0).size(), 2u);
+  EXPECT_TRUE(body.chain(1).empty());
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST(Registration, RefusesVerticesAndEdgesWithTheirPlace) {
+  const Snapshot<2> snapshot = room<2>({3, 1}, {});
+  EXPECT_EQ(refusal<2>(snapshot, {{{0.5, 0.5}, {4, 0.5}}, {{0, 1}}, {}}),
+            "vertex 1 of the body, at (4, 0.5), is outside the environment: move the body into free space");
+  const Snapshot<2> with_solid = room<2>({3, 1}, {1});
+  EXPECT_EQ(refusal<2>(with_solid, {{{1.5, 0.5}}, {}, {}}),
+            "vertex 0 of the body, at (1.5, 0.5), is in a solid cell: move the body into free space");
+  EXPECT_EQ(refusal<2>(with_solid, {{{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}}, {}}),
+            "edge 0 of the body, from vertex 0 at (0.5, 0.5) to vertex 1 at (2.5, 0.5), crosses a wall at "
+            "(1, 0.5), in cell 0: "
+            "move the body into free space");
+}
+
+/// A room of two cells with a membrane between them from y = 0 to 1; above it, they are joined.
+Snapshot<2> membrane() {
+  Cell_soup<2> soup;
+  soup.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}};
+  const auto cell = [&](std::array<std::uint32_t, 4> v, int wall) {
+    for (int i = 0; i < 4; ++i) soup.add_facet({v[i], v[(i + 1) % 4]}, i == wall);
+    soup.end_cell();
+  };
+  cell({0, 1, 4, 3}, 1);
+  cell({1, 2, 5, 4}, 3);
+  cell({3, 4, 7, 6}, -1);
+  cell({4, 5, 8, 7}, -1);
+  return compile(soup);
+}
+
+TEST(Registration, TakesTheSideFromWhichAllEdgesCanBePassed) {
+  const Snapshot<2> snapshot = membrane();
+  const Locator<2> locator(snapshot);
+  // A vertex on the membrane, joined to one on its left or on its right.
+  for (const double x : {0.5, 1.5}) {
+    const Body<2> body(snapshot, locator, {{{1, 0.5}, {x, 0.5}}, {{0, 1}}, {}});
+    EXPECT_EQ(body.particles()[0].cell, body.particles()[1].cell);
+    EXPECT_NO_THROW(body.validate());
+  }
+  // Two vertices on the membrane: the third decides for both, although the edge between the two may lie on either side.
+  for (const double x : {0.5, 1.5}) {
+    const Body<2> body(snapshot, locator, {{{1, 0.25}, {1, 0.5}, {x, 0.5}}, {{0, 1}, {1, 2}}, {}});
+    EXPECT_EQ(body.particles()[0].cell, body.particles()[2].cell);
+    EXPECT_NO_THROW(body.validate());
+  }
+  // One that would have to be on both.
+  EXPECT_NE(refusal<2>(snapshot, {{{1, 0.5}, {0.5, 0.5}, {1.5, 0.5}}, {{0, 1}, {0, 2}}, {}}), "");
+}
+
+TEST(Registration, AcceptsBodiesAtRestInWallPlanes) {
+  const Snapshot<3> snapshot = room<3>({4, 4, 2}, {});
+  Body_placement<3> placement;
+  placement.position = {2, 2, 0.5};
+  const Body<3> body(snapshot, Locator<3>(snapshot),
+                     transformed(generate_body(Hexahedron_shape{1, true}), placement));
+  EXPECT_EQ(body.positions()[0][2], 0) << "it stands on the floor";
+  EXPECT_NO_THROW(body.validate());
+}
+
+}  // namespace
+}  // namespace cellwalk::test
