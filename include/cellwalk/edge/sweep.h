@@ -26,8 +26,8 @@ enum class Touch {
 
 /// How a contact is located, once it is known that there is one.
 enum class Contact_search {
-  exact,      ///< the first event at which the motion cannot go on
-  dichotomic, ///< bisection: the longest motion found free, within a bound
+  exact,       ///< the first event at which the motion cannot go on
+  dichotomic,  ///< bisection: the longest motion found free, within a bound
   exhaustive  ///< the first of the obstacle vertices (2D) or edges (3D) of the cells met that lie in the swept triangle
 };
 
@@ -75,8 +75,8 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const 
 
 /// The first point off its start at which the motion of p, without any edge, meets a closed wall: Touch::stop for particles.
 template <int D>
-std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
-                                      Edge_counts& counts);
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
+                                      const Point<D>& target, Edge_counts& counts);
 
 }  // namespace cellwalk
 
