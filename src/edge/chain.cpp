@@ -40,6 +40,10 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   floods += other.floods;
   flooded_cells += other.flooded_cells;
   clear += other.clear;
+  searches += other.searches;
+  search_sweeps += other.search_sweeps;
+  search_walls += other.search_walls;
+  search_misses += other.search_misses;
   walk += other.walk;
   return *this;
 }

@@ -63,7 +63,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            Edge_counts& counts);
 
 /// The same for one edge of a vertex whose walk is known: a contact of the edge, before p is blocked if it is. The result's
-/// p is not set.
+/// p and cells are not set. Touch::stop counts what p touches as well.
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts);
@@ -73,7 +73,9 @@ template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
                           Walk_counts& counts);
 
-/// The first point off its start at which the motion of p, without any edge, meets a closed wall: Touch::stop for particles.
+/// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed wall, or where it
+/// is blocked.
+/// Cost: that of a walk and a flood along it, and rational arithmetic for each wall near it.
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
                                       const Point<D>& target, Edge_counts& counts);
