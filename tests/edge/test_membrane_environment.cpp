@@ -140,6 +140,13 @@ TEST(MembraneEnvironment, HoldsTrianglesFarFromTheOrigin) {
   });
 }
 
+TEST(MembraneEnvironment, HoldsTrianglesAtAnyScale) {
+  for (const double scale : {0x1p-300, 0x1p+300})
+    check_kind("scaled", 50, scale, [scale](Random& random) {
+      return Triangle{random_point(random, scale), random_point(random, scale), random_point(random, scale)};
+    });
+}
+
 TEST(MembraneEnvironment, RefusesPointsOnALine) {
   EXPECT_THROW(membrane_environment({{{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}}, {}), std::invalid_argument);
 }
