@@ -33,6 +33,7 @@ Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& ar
 Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   edges += other.edges;
   same_cell += other.same_cell;
+  convex_pair += other.convex_pair;
   same_chain += other.same_chain;
   chain_facets += other.chain_facets;
   changed += other.changed;

@@ -36,14 +36,16 @@ Contact<D> edge_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Pa
 /// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
 template <int D>
 Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                       const Chain& before, Sweep sweep, Edge_counts& counts) {
-  if (sweep != Sweep::three_segments) return sweep_triangle(snapshot, way, q, before, counts);
+                       const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+  if (options.sweep != Sweep::three_segments)
+    return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
   if (way.blocked) {
     Chain_result<D> result{before, {}, {}};
     walk_start(snapshot, result.chain, way.crossed);
     return result;
   }
-  Chain_result<D> result = check_third_segment(snapshot, before, way.crossed, way.to, q, counts);
+  Chain_result<D> result =
+      check_third_segment(snapshot, before, way.crossed, way.to, q, counts, options.certificates);
   if (!result.contact) return result;
   // The contact is one on the edge at its end; when the motion came to it, and whether it is only that the temporary particle
   // took another side of a wall in which the edge lies, is for the events to say.
@@ -73,7 +75,7 @@ template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   Sweep_result<D> result;
-  const Chain_result<D> found = detect(snapshot, way, q, before, options.sweep, counts);
+  const Chain_result<D> found = detect(snapshot, way, q, before, options, counts);
   result.chain = found.chain;
   if (found.contact) result.contact = locate(snapshot, way, q, before, found, options, counts);
   if (options.touch == Touch::stop)

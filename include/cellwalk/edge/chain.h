@@ -19,8 +19,10 @@ using Chain = boost::container::small_vector<Half_facet, 4>;
 
 /// What the checks of edges did. All counts are machine-independent.
 struct Edge_counts {
-  std::uint64_t edges = 0;          ///< edges checked
-  std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t edges = 0;      ///< edges checked
+  std::uint64_t same_cell = 0;  ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t convex_pair =
+      0;  ///< proved by their cells being neighbours with a convex union, no sign asked
   std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
   std::uint64_t chain_facets = 0;   ///< facets looked at for that
   std::uint64_t changed = 0;        ///< neither: the chain is another one, or there is none
@@ -35,6 +37,11 @@ struct Edge_counts {
   Walk_counts walk;                 ///< of all walks and signs
 
   Edge_counts& operator+=(const Edge_counts& other);
+};
+
+/// Which certificates a sweep tries before it follows events. Each is sound alone; leaving one out costs time only.
+struct Edge_certificates {
+  bool same_cell = true, convex_pair = true, same_chain = true, flood = true;
 };
 
 /// The chain of a segment, or what is in its way.
@@ -54,6 +61,18 @@ struct Chain_result {
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                            Walk_counts& counts);
+
+/// The same, but where the segment may pass a wall on either side, all ways are tried until one leads to the side of q.
+/// Cost: that of find_chain if that succeeds; else a walk by exact signs for each way.
+template <int D>
+Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                               Walk_counts& counts);
+
+/// Invariant I2: the chain leads from the cell of p to that of q through passable facets, and the segment passes them in
+/// order. Exact in every position. Cost: that of passes(), and rational arithmetic where that does not tell.
+template <int D>
+bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q, const Chain& chain,
+              Walk_counts& counts);
 
 /// The chain of qp, given that of pq. Cost: a search for each facet among those of its cell.
 template <int D>

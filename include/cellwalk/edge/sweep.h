@@ -42,6 +42,7 @@ struct Sweep_options {
   Touch touch = Touch::pass;
   Contact_search search = Contact_search::exact;
   Search_cells cells = Search_cells::flooded;
+  Edge_certificates certificates{};
   double tolerance = 0x1p-20;  ///< of a dichotomic search: length of the last interval of time, in (0,1]
 };
 

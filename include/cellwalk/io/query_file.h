@@ -27,6 +27,10 @@ std::vector<Move_query<D>> read_moves(const std::filesystem::path& path) {
   return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
 }
 
+extern template std::vector<Query_row<2, 1>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 1>&);
+extern template std::vector<Query_row<3, 1>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 1>&);
 extern template std::vector<Query_row<2, 2>> query_rows(const Csv_table&,
                                                         const std::array<std::string_view, 2>&);
 extern template std::vector<Query_row<3, 2>> query_rows(const Csv_table&,
