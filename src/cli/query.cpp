@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table exactly.
 #include <cellwalk/io/query_file.h>
-#include <cellwalk/walk/walk.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,7 @@
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
-#include "cli/query_answers.h"
+#include "cli/query_moves.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -24,7 +23,7 @@ enum class Query_mode { move };
 struct Query_options {
   std::string environment, queries, output, json;
   Query_mode mode = Query_mode::move;
-  Kernel_choice kernel = Kernel_choice::exact;
+  Move_options move;
   std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
   int threads = 0;
   Build_options build{.keep_map = false};
@@ -45,14 +44,12 @@ nlohmann::ordered_json to_json(const Walk_counts& c) {
           {"exact_fallbacks", c.predicates.fallbacks}};
 }
 
-template <int D>
-void query_environment(const Query_options& options, Walk_strategy strategy,
-                       const Environment<D>& environment) {
-  const std::vector<Move_query<D>> motions = io::read_moves<D>(options.queries);
-  Walk_counts counts;
-  const auto answers = answer_motions(environment.snapshot(), motions, options.kernel, strategy, counts);
-  write_answers(options.output, environment.snapshot(), motions, answers);
-
+/// Writes the answers and says how many there are of each status.
+template <int D, std::size_t N>
+void report(const Query_options& options, const Snapshot<D>& snapshot,
+            const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
+            const nlohmann::ordered_json& counts) {
+  write_answers(options.output, snapshot, rows, answers);
   std::array<std::size_t, std::size(status_names)> tally{};
   for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
   nlohmann::ordered_json by_status;
@@ -61,28 +58,35 @@ void query_environment(const Query_options& options, Walk_strategy strategy,
     by_status[status_names[s]] = tally[s];
     if (tally[s] != 0) line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], status_names[s]);
   }
-  write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", to_json(counts)}});
+  write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
   fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
   const auto invalid =
-      std::find_if(motions.begin(), motions.end(), [](const auto& m) { return !m.invalid.empty(); });
-  if (invalid != motions.end())
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
+  if (invalid != rows.end())
     fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, invalid->line,
                invalid->invalid, tally[static_cast<std::size_t>(Status::invalid)]);
 }
 
-void query(const Query_options& options) {
-  const bool has_certificates = options.kernel == Kernel_choice::exact;
+template <int D>
+void query_environment(const Query_options& options, const Environment<D>& environment) {
+  const std::vector<Move_query<D>> moves = io::read_moves<D>(options.queries);
+  Walk_counts counts;
+  const auto answers = answer_moves(environment.snapshot(), moves, options.move, counts);
+  report(options, environment.snapshot(), moves, answers, to_json(counts));
+}
+
+void query(Query_options& options) {
+  const bool has_certificates = options.move.kernel == Kernel_choice::exact;
   if (options.strategy == Walk_strategy::certified && !has_certificates)
     throw Error(Error_code::usage,
                 "--strategy certified needs --kernel exact; take exit_rule or predictive_simplex");
-  const Walk_strategy strategy =
+  options.move.strategy =
       options.strategy.value_or(has_certificates ? Walk_strategy::certified : Walk_strategy::exit_rule);
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const Loaded_environment loaded = load_environment(options.environment, options.build);
-  std::visit([&](const auto& environment) { query_environment(options, strategy, environment); },
-             loaded.environment);
+  std::visit([&](const auto& environment) { query_environment(options, environment); }, loaded.environment);
 }
 
 }  // namespace
@@ -105,7 +109,7 @@ void add_query(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("OUT.csv");
   add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}}, "What a row means");
-  add_choice(*command, "--kernel", options->kernel,
+  add_choice(*command, "--kernel", options->move.kernel,
              {{"exact", Kernel_choice::exact},
               {"lazy", Kernel_choice::lazy},
               {"double", Kernel_choice::double_precision},
