@@ -33,6 +33,7 @@ Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& ar
 Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   edges += other.edges;
   same_cell += other.same_cell;
+  convex_pair += other.convex_pair;
   same_chain += other.same_chain;
   chain_facets += other.chain_facets;
   changed += other.changed;
@@ -40,6 +41,10 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   floods += other.floods;
   flooded_cells += other.flooded_cells;
   clear += other.clear;
+  searches += other.searches;
+  search_sweeps += other.search_sweeps;
+  search_walls += other.search_walls;
+  search_misses += other.search_misses;
   walk += other.walk;
   return *this;
 }

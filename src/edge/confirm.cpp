@@ -2,22 +2,44 @@
 #include "confirm.h"
 
 namespace cellwalk {
+namespace {
+
+/// True if the union of the cells on both sides of a facet is convex, and it is the only facet they share: a segment between
+/// them passes it.
+template <int D>
+bool joins_convex_pair(const Snapshot<D>& snapshot, Half_facet f) {
+  if (!snapshot.is_convex_pair(f)) return false;
+  const Cell c = snapshot.cell_of(f), other = snapshot.neighbor(f);
+  int shared = 0;
+  for (std::size_t i = 0; i < snapshot.facet_count(c); ++i)
+    shared += snapshot.neighbor(Snapshot<D>::half_facet(c, i)) == other;
+  return shared == 1;
+}
+
+}  // namespace
 
 template <int D>
 bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
                           std::span<const Half_facet> crossed, const Particle<D>& p, const Particle<D>& q,
-                          Chain_result<D>& result, Edge_counts& counts) {
+                          const Edge_certificates& certificates, Chain_result<D>& result,
+                          Edge_counts& counts) {
   ++counts.edges;
   Chain chain = before;
   walk_start(snapshot, chain, crossed);
-  if (chain.empty()) {
+  if (certificates.same_cell && chain.empty()) {
     ++counts.same_cell;
     result = {};
+    return true;
+  }
+  if (certificates.convex_pair && chain.size() == 1 && joins_convex_pair(snapshot, chain.front())) {
+    ++counts.convex_pair;
+    result = {chain, {}, {}};
     return true;
   }
   counts.chain_facets += chain.size();
   // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
   result = find_chain(snapshot, p, q, counts.walk);
+  if (!certificates.same_chain) return false;
   const bool is_same = !result.contact && result.chain == chain;
   if (!is_same && !passes(snapshot, chain, p.position, q.position, counts.walk)) return false;
   ++counts.same_chain;
@@ -26,8 +48,10 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
 }
 
 template bool detail::is_confirmed<2>(const Snapshot<2>&, const Chain&, std::span<const Half_facet>,
-                                      const Particle<2>&, const Particle<2>&, Chain_result<2>&, Edge_counts&);
+                                      const Particle<2>&, const Particle<2>&, const Edge_certificates&,
+                                      Chain_result<2>&, Edge_counts&);
 template bool detail::is_confirmed<3>(const Snapshot<3>&, const Chain&, std::span<const Half_facet>,
-                                      const Particle<3>&, const Particle<3>&, Chain_result<3>&, Edge_counts&);
+                                      const Particle<3>&, const Particle<3>&, const Edge_certificates&,
+                                      Chain_result<3>&, Edge_counts&);
 
 }  // namespace cellwalk

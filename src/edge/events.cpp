@@ -137,7 +137,8 @@ class Events {
 }  // namespace
 
 template <int D>
-Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b,
+                   Walk_counts& counts) {
   const Cell_view<D> cell = snapshot.view(c);
   std::optional<Rational> first;
   for (std::size_t i = 0; i < cell.facet_count(); ++i) {
@@ -151,14 +152,14 @@ Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const
 
 template <int D>
 Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                              const Chain& before, Walk_counts& counts, const std::optional<Rational>& until) {
+                              const Chain& before, Walk_counts& counts,
+                              const std::optional<Rational>& until) {
   return Events<D>(snapshot, way, q, counts, until).run(before);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                        \
-  template Rational exit_time<D>(const Snapshot<D>&, Cell, const Point<D>&, const Point<D>&,           \
-                                 Walk_counts&);                                                        \
-  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,     \
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Rational exit_time<D>(const Snapshot<D>&, Cell, const Point<D>&, const Point<D>&, Walk_counts&); \
+  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,          \
                                             const Chain&, Walk_counts&, const std::optional<Rational>&);
 
 CELLWALK_INSTANTIATE(2)

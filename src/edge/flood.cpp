@@ -1,102 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/flood.h>
-#include <cellwalk/walk/detail/signs.h>
 
-#include <algorithm>
-#include <array>
+#include "may_meet.h"
 
 namespace cellwalk {
-namespace {
-
-/// Signs of which none is negative, or none is positive: a line passes the closed polygon whose sides they are of.
-class One_sided {
- public:
-  void add(int sign) {
-    some_negative_ |= sign < 0;
-    some_positive_ |= sign > 0;
-  }
-  explicit operator bool() const { return !(some_negative_ && some_positive_); }
-
- private:
-  bool some_negative_ = false, some_positive_ = false;
-};
-
-int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_counts& counts) {
-  return Exact::orientation(counts.predicates, u, v, x);
-}
-
-/// False proves that a segment misses the triangle, a polygon of the plane.
-bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts) {
-  const auto loop = cell.loop(i);
-  const Point<2>&u = cell.point(loop[0]), &v = cell.point(loop[1]);
-  // Convex sets of the plane are apart if and only if a side of one of them separates them.
-  const std::array<const Point<2>*, 3> corners{&t.a, &t.b, &t.q};
-  int sum = 0;
-  for (const auto* corner : corners) sum += sign_in_plane(u, v, *corner, counts);
-  if (std::abs(sum) == 3) return false;
-  const int turn = sign_in_plane(t.a, t.b, t.q, counts);
-  if (turn == 0) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point<2>&c = *corners[k], &d = *corners[(k + 1) % 3];
-    if (turn * sign_in_plane(c, d, u, counts) < 0 && turn * sign_in_plane(c, d, v, counts) < 0) return false;
-  }
-  return true;
-}
-
-/// False proves that a facet misses the triangle: no side of either meets the other, and they are not in one plane.
-bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts) {
-  const auto sign = [&](const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& x) {
-    return Exact::orientation(counts.predicates, u, v, w, x);
-  };
-  const std::array<const Point<3>*, 3> corners{&t.a, &t.b, &t.q};
-  std::array<int, 3> sides;
-  for (std::size_t k = 0; k < 3; ++k) sides[k] = detail::side<Exact>(cell, i, *corners[k], counts);
-  if (std::abs(sides[0] + sides[1] + sides[2]) == 3) return false;
-  const auto loop = cell.loop(i);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    if (sides[k] * sides[next] > 0) continue;
-    if (sides[k] == 0 && sides[next] == 0) return true;
-    One_sided passed;
-    for (std::size_t r = 0; r < loop.size() && passed; ++r)
-      passed.add(detail::along<Exact>(cell, i, r, *corners[k], *corners[next], counts));
-    if (passed) return true;
-  }
-  boost::container::small_vector<int, 8> heights;
-  for (const std::uint16_t v : loop) heights.push_back(sign(t.a, t.b, t.q, cell.point(v)));
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const std::size_t next = k + 1 == loop.size() ? 0 : k + 1;
-    if (heights[k] * heights[next] > 0) continue;
-    if (heights[k] == 0 && heights[next] == 0) return true;
-    const Point<3>&u = cell.point(loop[k]), &v = cell.point(loop[next]);
-    One_sided passed;
-    for (std::size_t r = 0; r < 3 && passed; ++r) passed.add(sign(u, v, *corners[r], *corners[(r + 1) % 3]));
-    if (passed) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 template <int D>
 bool is_clear(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle, Edge_counts& counts,
               std::size_t most_cells) {
-  ++counts.floods;
-  boost::container::small_vector<Cell, 64> found{start};
-  for (std::size_t head = 0; head < found.size(); ++head) {
-    const Cell c = found[head];
-    ++counts.flooded_cells;
-    const Cell_view<D> cell = snapshot.view(c);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      const bool is_wall = snapshot.is_impassable(f);
-      const Cell next = snapshot.neighbor(f);
-      if (!is_wall && std::find(found.begin(), found.end(), next) != found.end()) continue;
-      if (!may_meet(cell, i, triangle, counts.walk)) continue;
-      if (is_wall || found.size() == most_cells) return false;
-      found.push_back(next);
-    }
-  }
+  detail::Flooded found;
+  const auto no_wall = [](Half_facet) { return false; };
+  if (!detail::flood(snapshot, start, triangle, counts, most_cells, found, no_wall)) return false;
   ++counts.clear;
   return true;
 }

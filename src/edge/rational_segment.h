@@ -3,31 +3,19 @@
 #ifndef CELLWALK_EDGE_RATIONAL_SEGMENT_H
 #define CELLWALK_EDGE_RATIONAL_SEGMENT_H
 
-#include <cellwalk/environment/cell_shape.h>
-#include <cellwalk/kernel/exact_value.h>
 #include <cellwalk/walk/detail/signs.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
-#include <vector>
+
+#include "half_space.h"
 
 namespace cellwalk::detail {
-
-template <int D>
-using Rational_point = std::array<Rational, static_cast<std::size_t>(D)>;
 
 /// Closed interval of parameters.
 struct Span {
   Rational low, high;
 };
-
-template <int D>
-Rational_point<D> exact(const Point<D>& x) {
-  Rational_point<D> r;
-  for (int i = 0; i < D; ++i) r[i] = Rational(x[i]);
-  return r;
-}
 
 /// The segment from p (parameter 0) to q (parameter 1).
 template <int D>

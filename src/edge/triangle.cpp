@@ -10,10 +10,12 @@ namespace {
 /// The sweep of an edge whose p is blocked on its way: no chain at the end to confirm.
 template <int D>
 Chain_result<D> sweep_until_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                    const Chain& before, Edge_counts& counts) {
+                                    const Chain& before, Edge_counts& counts,
+                                    const Edge_certificates& certificates) {
   ++counts.edges;
   ++counts.changed;
-  if (is_clear(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts)) {
+  if (certificates.flood &&
+      is_clear(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts)) {
     Chain_result<D> result{before, {}, {}};
     walk_start(snapshot, result.chain, way.crossed);
     return result;
@@ -26,20 +28,23 @@ Chain_result<D> sweep_until_blocked(const Snapshot<D>& snapshot, const Way<D>& w
 
 template <int D>
 Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                               const Chain& before, Edge_counts& counts) {
-  if (way.blocked) return sweep_until_blocked(snapshot, way, q, before, counts);
+                               const Chain& before, Edge_counts& counts,
+                               const Edge_certificates& certificates) {
+  if (way.blocked) return sweep_until_blocked(snapshot, way, q, before, counts, certificates);
   Chain_result<D> result;
-  if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, result, counts)) return result;
+  if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, certificates, result, counts))
+    return result;
   ++counts.changed;
   const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  if (!result.contact && is_clear(snapshot, way.from.cell, triangle, counts)) return result;
+  if (certificates.flood && !result.contact && is_clear(snapshot, way.from.cell, triangle, counts))
+    return result;
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, way, q, before, counts.walk);
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                     \
   template Chain_result<D> sweep_triangle<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
-                                             const Chain&, Edge_counts&);
+                                             const Chain&, Edge_counts&, const Edge_certificates&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

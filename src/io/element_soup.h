@@ -6,14 +6,18 @@
 
 #include <cellwalk/io/mesh_file.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace cellwalk::io {
 
-/// What a file of elements holds: volume cells, and polygons that are facets of them or a surface of their own.
+/// What a file of elements holds: volume cells, polygons that are facets of them or a surface of their own, and lines.
 struct Element_soup {
   Cell_soup<3> volumes;  ///< its points are those of the polygons, too
   std::vector<std::vector<std::uint32_t>> polygons;
+  std::vector<std::array<std::uint32_t, 2>> lines{};  ///< only where a body is read
 };
 
 /// True if there are points and every z is zero.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "format.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <utility>
 
@@ -11,7 +13,7 @@ namespace {
 
 using Named = std::pair<std::string_view, Format>;
 
-constexpr std::array<Named, 15> extensions{{{".off", Format::off},
+constexpr std::array<Named, 16> extensions{{{".off", Format::off},
                                             {".obj", Format::obj},
                                             {".stl", Format::stl},
                                             {".ply", Format::ply},
@@ -25,7 +27,8 @@ constexpr std::array<Named, 15> extensions{{{".off", Format::off},
                                             {".unv", Format::unv},
                                             {".vtk", Format::vtk},
                                             {".vtu", Format::vtk_xml},
-                                            {".vtp", Format::vtk_xml}}};
+                                            {".vtp", Format::vtk_xml},
+                                            {".csv", Format::csv}}};
 
 /// Openings that occur in one format only.
 constexpr std::array<Named, 10> openings{{{"OVM", Format::ovm},
@@ -87,10 +90,23 @@ std::string_view format_name(Format format) {
       return "VTK legacy";
     case Format::vtk_xml:
       return "VTK XML";
+    case Format::csv:
+      return "CSV";
     case Format::unknown:
       break;
   }
   return "unknown";
+}
+
+Recognized_file load_recognized(const std::filesystem::path& path) {
+  Recognized_file file{load(path), Format::unknown, {}};
+  if (file.bytes.find_first_not_of(" \t\r\n") == std::string::npos) fail(path.string(), "is empty");
+  const Format named = format_by_extension(path), found = format_by_content(file.bytes);
+  file.format = found != Format::unknown ? found : named;
+  if (named != Format::unknown && named != file.format)
+    file.note = fmt::format("the extension says {}, the content {}: read by its content", format_name(named),
+                            format_name(file.format));
+  return file;
 }
 
 }  // namespace cellwalk::io

@@ -5,7 +5,7 @@
 
 namespace cellwalk::io {
 
-Mesh_file parse_by_gmsh(const std::string& name, std::string_view, Format) {
+Element_soup parse_by_gmsh(const std::string& name, std::string_view, Format, Lines, Read_report&) {
   fail(name,
        "this build lacks Gmsh, which reads .msh, .mesh and .unv: install libgmsh-dev and configure with "
        "-DCELLWALK_WITH_GMSH=ON, or convert the file to .ovm");

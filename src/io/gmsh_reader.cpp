@@ -74,12 +74,12 @@ struct Element {
 };
 
 struct Kinds {
-  std::size_t below_polygons = 0;  ///< points and lines
+  std::size_t left_out = 0;  ///< of a dimension below the lowest that is wanted
   std::size_t higher_order = 0;
 };
 
-/// Elements of dimension 2 and 3 with their corner nodes, in the order of the file.
-std::vector<Element> elements(const std::string& name, Kinds& kinds) {
+/// Elements of at least the dimension that is wanted with their corner nodes, in the order of the file.
+std::vector<Element> elements(const std::string& name, int lowest_dimension, Kinds& kinds) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
   gmsh::model::mesh::getElements(types, tags, nodes);
@@ -90,8 +90,8 @@ std::vector<Element> elements(const std::string& name, Kinds& kinds) {
     std::vector<double> local;
     gmsh::model::mesh::getElementProperties(types[t], kind, dimension, order, node_count, local,
                                             corner_count);
-    if (dimension < 2) {
-      kinds.below_polygons += tags[t].size();
+    if (dimension < lowest_dimension) {
+      kinds.left_out += tags[t].size();
       continue;
     }
     if (node_count <= 0 || nodes[t].size() != tags[t].size() * static_cast<std::size_t>(node_count))
@@ -172,12 +172,12 @@ void compare_counts(const std::string& name, const Msh_counts& announced, std::s
         fmt::format("{} nodes that belong to no element left out", *announced.nodes - nodes));
 }
 
-Element_soup model(const std::string& name, const Msh_counts& announced, Read_report& report) {
+Element_soup model(const std::string& name, const Msh_counts& announced, Lines lines, Read_report& report) {
   Element_soup soup;
   const auto index = points(name, soup.volumes.points);
   Kinds kinds;
-  const std::vector<Element> found = elements(name, kinds);
-  compare_counts(name, announced, index.size(), found.size() + kinds.below_polygons, report);
+  const std::vector<Element> found = elements(name, lines == Lines::read ? 1 : 2, kinds);
+  compare_counts(name, announced, index.size(), found.size() + kinds.left_out, report);
   std::vector<std::uint32_t> corners;
   for (const Element& e : found) {
     corners.clear();
@@ -189,11 +189,14 @@ Element_soup model(const std::string& name, const Msh_counts& announced, Read_re
     }
     if (e.dimension == 3)
       add_volume(name, soup.volumes, corners, e.tag);
+    else if (e.dimension == 1)
+      soup.lines.push_back({corners[0], corners[1]});
     else
       soup.polygons.push_back(corners);
   }
-  if (kinds.below_polygons > 0)
-    report.notes.push_back(fmt::format("{} point and line elements ignored", kinds.below_polygons));
+  if (kinds.left_out > 0)
+    report.notes.push_back(fmt::format("{} {} elements ignored", kinds.left_out,
+                                       lines == Lines::read ? "point" : "point and line"));
   if (kinds.higher_order > 0)
     report.notes.push_back(fmt::format("{} elements of higher order read by their corner nodes, as straight",
                                        kinds.higher_order));
@@ -231,10 +234,10 @@ Input prepare(const std::string& name, std::string_view bytes, Format format, Re
 
 }  // namespace
 
-Mesh_file parse_by_gmsh(const std::string& name, std::string_view bytes, Format format) {
+Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
+                           Read_report& report) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
-  Read_report report;
   const Input input = prepare(name, bytes, format, report);
   const Temporary_folder folder;
   const std::string path = folder.write(input.file_name, input.changed.empty() ? bytes : input.changed);
@@ -255,11 +258,11 @@ Mesh_file parse_by_gmsh(const std::string& name, std::string_view bytes, Format 
       for (std::size_t at; (at = why.find(path)) != std::string::npos;) why.replace(at, path.size(), name);
       fail(name, fmt::format("broken or cut short: Gmsh cannot read it as {} ({})", report.format, why));
     }
-    soup = model(name, input.counts, report);
+    soup = model(name, input.counts, lines, report);
     for (const std::string& warning : session.messages("Warning"))
       report.notes.push_back("Gmsh warns: " + warning);
   }
-  return volumes_or_polygons(name, std::move(soup), std::move(report));
+  return soup;
 }
 
 std::string gmsh_version() { return GMSH_API_VERSION; }

@@ -56,10 +56,10 @@ bool Json_node::is_string() const { return value_->is_string(); }
 bool Json_node::is_object() const { return value_->is_object(); }
 bool Json_node::is_array() const { return value_->is_array(); }
 
-void Json_node::expect_keys(std::initializer_list<std::string_view> allowed) const {
+void Json_node::expect_keys(std::span<const std::string_view> allowed) const {
   for (const std::string& key : keys())
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      std::vector<std::string_view> sorted(allowed);
+      std::vector<std::string_view> sorted(allowed.begin(), allowed.end());
       std::sort(sorted.begin(), sorted.end());
       at(key).fail(fmt::format("unknown key; known here: {}", fmt::join(sorted, ", ")));
     }

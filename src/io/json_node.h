@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,10 @@ class Json_node {
   bool is_array() const;
 
   /// \throw Error(input) unless the value is an object that has only these keys
-  void expect_keys(std::initializer_list<std::string_view> keys) const;
+  void expect_keys(std::span<const std::string_view> keys) const;
+  void expect_keys(std::initializer_list<std::string_view> keys) const {
+    expect_keys(std::span(keys.begin(), keys.size()));
+  }
   std::vector<std::string> keys() const;
   bool has(std::string_view key) const;
   /// The value of a key. \throw Error(input) if it is missing

@@ -11,6 +11,7 @@
 #include "element_soup.h"
 #include "format.h"
 #include "optional_readers.h"
+#include "parse_mesh.h"
 #include "text.h"
 
 namespace cellwalk::io {
@@ -29,7 +30,15 @@ Mesh_file domain(const std::string& name, std::string_view bytes, Parse parse) {
   return {std::move(result), std::move(report)};
 }
 
-Mesh_file parse(const std::string& name, const std::string& bytes, Format format) {
+Mesh_file elements_by_gmsh(const std::string& name, const std::string& bytes, Format format) {
+  Read_report report;
+  Element_soup soup = parse_by_gmsh(name, bytes, format, Lines::left_out, report);
+  return volumes_or_polygons(name, std::move(soup), std::move(report));
+}
+
+}  // namespace
+
+Mesh_file parse_mesh(const std::string& name, const std::string& bytes, Format format) {
   switch (format) {
     case Format::off:
       return surface(name, bytes, Surface_format::off);
@@ -48,10 +57,11 @@ Mesh_file parse(const std::string& name, const std::string& bytes, Format format
     case Format::msh:
     case Format::medit:
     case Format::unv:
-      return parse_by_gmsh(name, bytes, format);
+      return elements_by_gmsh(name, bytes, format);
     case Format::vtk:
     case Format::vtk_xml:
       return parse_by_vtk(name, bytes, format);
+    case Format::csv:
     case Format::unknown:
       break;
   }
@@ -59,22 +69,15 @@ Mesh_file parse(const std::string& name, const std::string& bytes, Format format
                          supported_formats()));
 }
 
-}  // namespace
-
 std::string_view kind_name(const Mesh& mesh) {
   constexpr std::array<std::string_view, 4> names{"surface", "volume", "planar cells", "planar domain"};
   return names[mesh.index()];
 }
 
 Mesh_file read_mesh(const std::filesystem::path& path) {
-  const std::string name = path.string(), bytes = load(path);
-  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos) fail(name, "is empty");
-  const Format named = format_by_extension(path), found = format_by_content(bytes);
-  const Format format = found != Format::unknown ? found : named;
-  Mesh_file file = parse(name, bytes, format);
-  if (named != Format::unknown && named != format)
-    file.report.notes.push_back(fmt::format("the extension says {}, the content {}: read by its content",
-                                            format_name(named), format_name(format)));
+  const Recognized_file recognized = load_recognized(path);
+  Mesh_file file = parse_mesh(path.string(), recognized.bytes, recognized.format);
+  if (!recognized.note.empty()) file.report.notes.push_back(recognized.note);
   return file;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Wavefront OBJ: vertices and faces. CGAL's reader names no line.
+// Wavefront OBJ: vertices and faces, lines for bodies. CGAL's reader names no line.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -15,21 +15,6 @@ namespace {
 /// How many of the keywords that were ignored a note names.
 constexpr std::size_t named_keywords = 12;
 
-/// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`: counted from 1, or backward from the last vertex.
-/// A vertex that is still to come is allowed here and checked at the end.
-std::uint32_t corner(Line_reader& in, std::string_view word, std::size_t point_count) {
-  const std::string_view digits = word.substr(0, word.find('/'));
-  std::int64_t index = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-  if (error != std::errc{} || end != digits.data() + digits.size() || index == 0)
-    in.fail(fmt::format("'{}' is not a corner of a face: an index counted from 1, or a negative one", word));
-  if (index < 0) index += static_cast<std::int64_t>(point_count) + 1;
-  constexpr std::int64_t most = 0xfffffffe;
-  if (index < 1 || index > most)
-    in.fail(fmt::format("corner '{}' of a face names a vertex that does not exist", word));
-  return static_cast<std::uint32_t>(index - 1);
-}
-
 bool is_keyword(std::string_view word) {
   constexpr std::size_t longest = 16;
   return word.size() <= longest &&
@@ -37,56 +22,103 @@ bool is_keyword(std::string_view word) {
              std::string_view::npos;
 }
 
-}  // namespace
+class Reader {
+ public:
+  Reader(const std::string& name, std::string_view bytes, Body_elements* body)
+      : in_(name, bytes), body_(body) {}
 
-Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report) {
-  report.format = "OBJ";
-  Surface_soup soup;
-  std::set<std::string, std::less<>> ignored;
-  struct Forward {
-    std::uint32_t vertex;
-    std::size_t line;
-  };
-  std::optional<Forward> forward;  // the face that reaches furthest ahead
-  Line_reader in(name, bytes);
-  while (in.next_line()) {
-    const std::string_view keyword = in.word();
+  Surface_soup read(Read_report& report) {
+    while (in_.next_line()) statement(in_.word());
+    if (furthest_ && furthest_->vertex >= soup_.points.size())
+      fail(in_.file(), furthest_->line,
+           fmt::format("a {} names vertex {}, of {}", furthest_->kind, furthest_->vertex + 1,
+                       soup_.points.size()));
+    if (!ignored_.empty()) report.notes.push_back(note());
+    return std::move(soup_);
+  }
+
+ private:
+  void statement(std::string_view keyword) {
     if (keyword == "v") {
       Point<3> p;
-      for (double& x : p) x = in.number("a coordinate");
-      soup.points.push_back(p);
+      for (double& x : p) x = in_.number("a coordinate");
+      check_planar(in_, body_, p);
+      soup_.points.push_back(p);
     } else if (keyword == "f") {
-      std::vector<std::uint32_t> loop;
-      while (!in.at_line_end()) {
-        const std::string_view w = in.word();
-        if (w == "\\") {  // the face goes on in the next line
-          in.need_line("the rest of a face");
-          continue;
-        }
-        loop.push_back(corner(in, w, soup.points.size()));
-        if (loop.back() >= soup.points.size() && (!forward || loop.back() > forward->vertex))
-          forward = Forward{loop.back(), in.line()};
-      }
-      if (loop.size() < 3) in.fail(fmt::format("a face of {} vertices: at least 3 are needed", loop.size()));
-      soup.facets.push_back(std::move(loop));
+      soup_.facets.push_back(corners("face", 3));
+    } else if (keyword == "l" && body_) {
+      const auto line = corners("line", 2);
+      for (std::size_t i = 1; i < line.size(); ++i) body_->edges.push_back({line[i - 1], line[i]});
     } else if (is_keyword(keyword)) {
-      if (!ignored.contains(keyword)) ignored.emplace(keyword);
+      if (!ignored_.contains(keyword)) ignored_.emplace(keyword);
+      while (in_.rest().ends_with('\\') && in_.next_line()) continue;
     } else {
-      in.fail(fmt::format("'{}' opens no statement of an OBJ file", keyword.substr(0, 20)));
+      in_.fail(fmt::format("'{}' opens no statement of an OBJ file", keyword.substr(0, 20)));
     }
   }
-  if (forward && forward->vertex >= soup.points.size())
-    fail(name, forward->line,
-         fmt::format("a face names vertex {}, of {}", forward->vertex + 1, soup.points.size()));
-  if (!ignored.empty()) {
+
+  /// The rest of the statement, at least `fewest` vertices.
+  std::vector<std::uint32_t> corners(const char* kind, std::size_t fewest) {
+    std::vector<std::uint32_t> result;
+    while (!in_.at_line_end()) {
+      const std::string_view w = in_.word();
+      if (w == "\\")  // it goes on in the next line
+        in_.need_line(fmt::format("the rest of a {}", kind));
+      else
+        result.push_back(corner(kind, w));
+    }
+    if (result.size() < fewest)
+      in_.fail(fmt::format("a {} of {} vertices: at least {} are needed", kind, result.size(), fewest));
+    return result;
+  }
+
+  /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`: counted from 1, or backward from the last vertex.
+  /// A vertex that is still to come is allowed here and checked at the end.
+  std::uint32_t corner(const char* kind, std::string_view word) {
+    const std::string_view digits = word.substr(0, word.find('/'));
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error != std::errc{} || end != digits.data() + digits.size() || index == 0)
+      in_.fail(fmt::format("'{}' is not a corner of a {}: an index counted from 1, or a negative one", word,
+                           kind));
+    if (index < 0) index += static_cast<std::int64_t>(soup_.points.size()) + 1;
+    constexpr std::int64_t most = 0xfffffffe;
+    if (index < 1 || index > most)
+      in_.fail(fmt::format("corner '{}' of a {} names a vertex that does not exist", word, kind));
+    const auto vertex = static_cast<std::uint32_t>(index - 1);
+    if (vertex >= soup_.points.size() && (!furthest_ || vertex > furthest_->vertex))
+      furthest_ = Ahead{vertex, in_.line(), kind};
+    return vertex;
+  }
+
+  std::string note() const {
     std::string list;
     std::size_t n = 0;
-    for (const std::string& k : ignored)
+    for (const std::string& k : ignored_)
       if (n++ < named_keywords) list += (list.empty() ? "" : ", ") + k;
-    report.notes.push_back(
-        fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : ""));
+    return fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : "");
   }
-  return soup;
+
+  /// A vertex that is named before it is given.
+  struct Ahead {
+    std::uint32_t vertex;
+    std::size_t line;
+    const char* kind;
+  };
+
+  Line_reader in_;
+  Body_elements* body_;
+  Surface_soup soup_;
+  std::set<std::string, std::less<>> ignored_;
+  std::optional<Ahead> furthest_;
+};
+
+}  // namespace
+
+Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
+  report.format = "OBJ";
+  return Reader(name, bytes, body).read(report);
 }
 
 }  // namespace cellwalk::io

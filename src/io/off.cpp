@@ -45,7 +45,7 @@ Header read_header(Line_reader& in, Read_report& report) {
 
 /// Binary: counts of vertices, facets and edges; vertices; facets with their colours. All big endian, of 32 bits.
 Surface_soup parse_binary(const std::string& name, std::string_view data, const Header& header,
-                          Read_report& report) {
+                          Read_report& report, Body_elements* body) {
   if (header.colours || header.normals) fail(name, "binary OFF is read without colours and normals only");
   report.format = "OFF (binary)";
   constexpr bool big_endian = true;
@@ -58,17 +58,23 @@ Surface_soup parse_binary(const std::string& name, std::string_view data, const 
     Point<3> p;
     for (double& x : p) x = in.take<float>("a vertex");
     if (!is_finite(p)) in.fail(fmt::format("vertex {} has a coordinate that is not finite", i));
+    check_planar(in, body, p);
     soup.points.push_back(p);
   }
   for (std::uint32_t f = 0; f < facet_count; ++f) {
     const auto n = in.take<std::uint32_t>("a facet");
-    if (n < 3 || n > in.left()) in.fail(fmt::format("facet {} has {} vertices: the file is broken", f, n));
+    const std::uint32_t fewest = body ? 2 : 3;
+    if (n < fewest || n > in.left())
+      in.fail(fmt::format("facet {} has {} vertices: the file is broken", f, n));
     std::vector<std::uint32_t> loop(n);
     for (std::uint32_t& v : loop) {
       v = in.take<std::uint32_t>("a facet");
       if (v >= point_count) in.fail(fmt::format("facet {} names vertex {}, of {}", f, v, point_count));
     }
-    soup.facets.push_back(std::move(loop));
+    if (n == 2)
+      body->edges.push_back({loop[0], loop[1]});
+    else
+      soup.facets.push_back(std::move(loop));
     in.skip(std::size_t{4} * in.take<std::uint32_t>("the number of colours of a facet"));
   }
   return soup;
@@ -76,10 +82,11 @@ Surface_soup parse_binary(const std::string& name, std::string_view data, const 
 
 }  // namespace
 
-Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report) {
+Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
   Line_reader in(name, bytes);
   const Header header = read_header(in, report);
-  if (header.binary) return parse_binary(name, in.remaining(), header, report);
+  if (header.binary) return parse_binary(name, in.remaining(), header, report, body);
   report.format = "OFF";
   if (in.at_line_end()) in.need_line("the numbers of vertices and facets");
   const std::uint64_t point_count = in.count("the number of vertices");
@@ -100,6 +107,7 @@ Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_rep
     next_row(fmt::format("vertex {} of {}", i + 1, point_count));
     Point<3> p;
     for (double& x : p) x = in.number("a coordinate");
+    check_planar(in, body, p);
     extra |= !in.at_line_end();
     soup.points.push_back(p);
   }
@@ -112,6 +120,8 @@ Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_rep
     for (std::uint64_t k = 0; k < n; ++k) loop.push_back(in.index("vertex", soup.points.size()));
     if (n >= 3)
       soup.facets.push_back(std::move(loop));
+    else if (n == 2 && body)
+      body->edges.push_back({loop[0], loop[1]});
     else
       ++degenerate;
   }
@@ -119,7 +129,8 @@ Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_rep
     report.notes.push_back("values after the three coordinates of vertices ignored");
   if (groups > 0) report.notes.push_back(fmt::format("{} 'group' lines ignored", groups));
   if (degenerate > 0)
-    report.notes.push_back(fmt::format("{} facets of fewer than 3 vertices ignored", degenerate));
+    report.notes.push_back(
+        fmt::format("{} facets of fewer than {} vertices ignored", degenerate, body ? 2 : 3));
   return soup;
 }
 

@@ -9,12 +9,16 @@
 #include <string>
 #include <string_view>
 
+#include "element_soup.h"
 #include "format.h"
 
 namespace cellwalk::io {
 
+enum class Lines { left_out, read };
+
 /// .msh, .mesh and .unv by Gmsh. `bytes` are the whole file, inflated.
-Mesh_file parse_by_gmsh(const std::string& name, std::string_view bytes, Format format);
+Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
+                           Read_report& report);
 /// Empty where this build lacks Gmsh.
 std::string gmsh_version();
 

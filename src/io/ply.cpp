@@ -24,7 +24,7 @@ class Source {
   virtual double next(Ply_type type, const char* what) = 0;
   /// A bound for how many values are left.
   virtual std::size_t left() const = 0;
-  [[noreturn]] virtual void fail(const std::string& what) = 0;
+  [[noreturn]] virtual void fail(const std::string& what) const = 0;
 };
 
 class Text_source : public Source {
@@ -41,7 +41,7 @@ class Text_source : public Source {
     return *value;
   }
   std::size_t left() const override { return in_.rest().size() + in_.remaining().size(); }
-  [[noreturn]] void fail(const std::string& what) override {
+  [[noreturn]] void fail(const std::string& what) const override {
     io::fail(name_, header_lines_ + in_.line(), what);
   }
 
@@ -78,7 +78,7 @@ class Binary_source : public Source {
     return in_.take<double>(what);
   }
   std::size_t left() const override { return in_.left(); }
-  [[noreturn]] void fail(const std::string& what) override { in_.fail(what); }
+  [[noreturn]] void fail(const std::string& what) const override { in_.fail(what); }
 
  private:
   Binary_reader in_;
@@ -86,7 +86,7 @@ class Binary_source : public Source {
 
 class Reader {
  public:
-  explicit Reader(std::unique_ptr<Source> source) : in_(std::move(source)) {}
+  Reader(std::unique_ptr<Source> source, Body_elements* body) : in_(std::move(source)), body_(body) {}
 
   Surface_soup read(const Ply_header& header, Read_report& report) {
     for (const Ply_element& element : header.elements) {
@@ -94,6 +94,8 @@ class Reader {
         vertices(element);
       else if (element.name == "face")
         faces(element);
+      else if (element.name == "edge" && body_)
+        edges(element);
       else if (element.count > 0)
         report.notes.push_back(fmt::format("{} elements '{}' ignored", element.count, element.name)),
             skip(element);
@@ -102,6 +104,7 @@ class Reader {
       for (std::uint32_t v : soup_.facets[f])
         if (v >= soup_.points.size())
           in_->fail(fmt::format("facet {} names vertex {}, of {}", f, v, soup_.points.size()));
+    if (body_) check_edges();
     return std::move(soup_);
   }
 
@@ -120,6 +123,7 @@ class Reader {
       soup_.points.push_back({row[axes[0]], row[axes[1]], row[axes[2]]});
       if (!is_finite(soup_.points.back()))
         in_->fail(fmt::format("vertex {} has a coordinate that is not finite", i));
+      check_planar(*in_, body_, soup_.points.back());
     }
   }
 
@@ -137,17 +141,36 @@ class Reader {
   }
 
   void facet(std::uint64_t i, const Ply_property& property) {
-    constexpr double most = 0xfffffffe;  // an index of 32 bits
     std::vector<std::uint32_t> loop(length(property));
     if (loop.size() < 3)
       in_->fail(fmt::format("facet {} has {} vertices: at least 3 are needed", i, loop.size()));
-    for (std::uint32_t& v : loop) {
-      const double index = in_->next(property.type, "a facet");
-      if (!(index >= 0 && index <= most && index == static_cast<std::uint32_t>(index)))
-        in_->fail(fmt::format("facet {} names vertex {}", i, index));
-      v = static_cast<std::uint32_t>(index);
-    }
+    for (std::uint32_t& v : loop) v = index("facet", i, in_->next(property.type, "a facet"));
     soup_.facets.push_back(std::move(loop));
+  }
+
+  /// The edges of a body: properties vertex1 and vertex2.
+  void edges(const Ply_element& element) {
+    const auto first = element.find("vertex1", false), second = element.find("vertex2", false);
+    if (!first || !second) in_->fail("the header gives edges no properties 'vertex1' and 'vertex2'");
+    std::vector<double> row(element.properties.size());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] = value(element.properties[j], "an edge");
+      body_->edges.push_back({index("edge", i, row[*first]), index("edge", i, row[*second])});
+    }
+  }
+
+  void check_edges() const {
+    for (std::size_t i = 0; i < body_->edges.size(); ++i)
+      for (std::uint32_t v : body_->edges[i])
+        if (v >= soup_.points.size())
+          in_->fail(fmt::format("edge {} names vertex {}, of {}", i, v, soup_.points.size()));
+  }
+
+  std::uint32_t index(const char* kind, std::uint64_t i, double value) const {
+    constexpr double most = 0xfffffffe;  // an index of 32 bits
+    if (!(value >= 0 && value <= most && value == static_cast<std::uint32_t>(value)))
+      in_->fail(fmt::format("{} {} names vertex {}", kind, i, value));
+    return static_cast<std::uint32_t>(value);
   }
 
   /// The length of a list: no more than the file can hold.
@@ -173,17 +196,19 @@ class Reader {
   }
 
   std::unique_ptr<Source> in_;
+  Body_elements* body_;
   Surface_soup soup_;
 };
 
 }  // namespace
 
-Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report) {
+Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
   const Ply_header header = read_ply_header(name, bytes);
   const bool text = header.encoding == Ply_encoding::text;
   report.format = text ? "PLY" : "PLY (binary)";
-  if (text) return Reader(std::make_unique<Text_source>(name, bytes, header)).read(header, report);
-  return Reader(std::make_unique<Binary_source>(name, bytes, header)).read(header, report);
+  if (text) return Reader(std::make_unique<Text_source>(name, bytes, header), body).read(header, report);
+  return Reader(std::make_unique<Binary_source>(name, bytes, header), body).read(header, report);
 }
 
 }  // namespace cellwalk::io

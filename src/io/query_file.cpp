@@ -34,6 +34,8 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
   return rows;
 }
 
+template std::vector<Query_row<2, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&);
+template std::vector<Query_row<3, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&);
 template std::vector<Query_row<2, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&);
 template std::vector<Query_row<3, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&);
 template std::vector<Query_row<2, 3>> query_rows(const Csv_table&, const std::array<std::string_view, 3>&);

@@ -8,14 +8,14 @@
 #include <iterator>
 
 #include "json_node.h"
+#include "scene_bodies.h"
 
 namespace cellwalk::io {
 namespace {
 
 using detail::Json_node;
 
-constexpr std::uint64_t max_particles = 10'000'000, max_steps = 100'000'000;
-constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;  // kept exactly by every JSON reader
+constexpr std::uint64_t max_steps = 100'000'000;
 
 Environment_source environment_source(const Json_node& node) {
   if (node.is_string()) {
@@ -34,11 +34,7 @@ template <int D>
 std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node& node) {
   if (node.has("count")) {
     node.expect_keys({"count", "seed", "speed"});
-    Particle_cloud cloud;
-    cloud.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, max_particles));
-    if (const auto seed = node.find("seed")) cloud.seed = seed->integer_in(0, max_seed);
-    if (const auto speed = node.find("speed")) cloud.speed = speed->number_in(0, 1e300);
-    return cloud;
+    return detail::cloud(node);
   }
   node.expect_keys({"position", "velocity", "count", "seed", "speed"});
   if (!node.has("position")) node.fail("expected \"position\" or \"count\"");
@@ -57,16 +53,11 @@ Catheter<D> catheter(const Json_node& node) {
   result.spacing = node.at("spacing").positive();
   result.advance = result.spacing / 2;
   if (const auto n = node.find("particles"))
-    result.particles = static_cast<std::uint32_t>(n->integer_in(1, max_particles));
+    result.particles = static_cast<std::uint32_t>(n->integer_in(1, detail::max_particles));
   if (const auto advance = node.find("advance")) result.advance = advance->positive();
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
-  for (const Json_node& point : node.at("path").elements()) {
-    result.path.push_back(point.tuple<D>());
-    if (result.path.size() > 1 && result.path.back() == result.path[result.path.size() - 2])
-      point.fail("the same way point twice in a row");
-  }
-  if (result.path.size() < 2) node.at("path").fail("expected at least 2 way points");
+  result.path = detail::way_points<D>(node.at("path"));
   return result;
 }
 
@@ -104,16 +95,18 @@ Scene_output output(const Json_node& node) {
 
 template <int D>
 Scene<D> scene(const Json_node& node) {
-  node.expect_keys({"dimension", "title", "environment", "particles", "catheter", "gravity", "restitution",
-                    "friction", "time_step", "steps", "output"});
+  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "gravity",
+                    "restitution", "friction", "time_step", "steps", "output"});
   Scene<D> result;
   result.environment = environment_source(node.at("environment"));
   if (const auto title = node.find("title")) result.title = title->string();
   if (const auto particles = node.find("particles"))
     for (const Json_node& p : particles->elements()) result.particles.push_back(particle_source<D>(p));
+  if (const auto bodies = node.find("bodies"))
+    for (const Json_node& b : bodies->elements()) result.bodies.push_back(detail::body_start<D>(b));
   if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
-  if (result.particles.empty() && !result.catheter)
-    node.fail("nothing moves: give \"particles\" or \"catheter\"");
+  if (result.particles.empty() && result.bodies.empty() && !result.catheter)
+    node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();
   if (const auto restitution = node.find("restitution")) result.restitution = restitution->number_in(0, 1);
   if (const auto friction = node.find("friction")) result.friction = friction->number_in(0, 1);
@@ -141,8 +134,11 @@ Any_scene read_scene(const std::filesystem::path& path) {
   Any_scene result = parse_scene(path.string(), text);
   std::visit(
       [&](auto& s) {
-        if (auto* mesh = std::get_if<std::string>(&s.environment))
-          *mesh = (path.parent_path() / *mesh).string();
+        const auto resolve = [&](auto& source) {
+          if (auto* name = std::get_if<std::string>(&source)) *name = (path.parent_path() / *name).string();
+        };
+        resolve(s.environment);
+        for (auto& body : s.bodies) resolve(body.source);
       },
       result);
   return result;

@@ -47,7 +47,14 @@ std::uint32_t triangle_count(std::string_view bytes) {
   return n;
 }
 
-Surface_soup parse_binary(const std::string& name, std::string_view bytes, Read_report& report) {
+/// Fails as the other readers do, for a binary file, which has no lines.
+struct Whole_file {
+  const std::string& name;
+  [[noreturn]] void fail(const std::string& what) const { io::fail(name, what); }
+};
+
+Surface_soup parse_binary(const std::string& name, std::string_view bytes, Read_report& report,
+                          Body_elements* body) {
   report.format = "STL (binary)";
   const std::uint64_t n = triangle_count(bytes), whole = (bytes.size() - header_size) / triangle_size;
   if (n > whole)
@@ -66,6 +73,7 @@ Surface_soup parse_binary(const std::string& name, std::string_view bytes, Read_
       std::memcpy(x, bytes.data() + header_size + t * triangle_size + corner_offset + k * sizeof x, sizeof x);
       const Point<3> p{x[0], x[1], x[2]};
       if (!is_finite(p)) fail(name, fmt::format("triangle {} has a coordinate that is not finite", t));
+      check_planar(Whole_file{name}, body, p);
       loop.push_back(merged(p));
     }
     soup.facets.push_back(std::move(loop));
@@ -73,7 +81,8 @@ Surface_soup parse_binary(const std::string& name, std::string_view bytes, Read_
   return soup;
 }
 
-Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_report& report) {
+Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_report& report,
+                        Body_elements* body) {
   report.format = "STL";
   Surface_soup soup;
   Merged_points merged(soup.points);
@@ -88,6 +97,7 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
       if (!in_facet) in.fail("a vertex outside any facet");
       Point<3> p;
       for (double& x : p) x = in.number("a coordinate");
+      check_planar(in, body, p);
       loop.push_back(merged(p));
     } else if (keyword == "facet") {
       if (in_facet) in.fail("a facet begins before the one before it ended");
@@ -111,17 +121,18 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
 
 }  // namespace
 
-Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report) {
+Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
   // Binary files may begin with `solid` too: the size decides, then whether there are bytes that no text has.
   const bool sized = bytes.size() >= header_size;
   if (sized && header_size + std::uint64_t{triangle_count(bytes)} * triangle_size == bytes.size())
-    return parse_binary(name, bytes, report);
+    return parse_binary(name, bytes, report, body);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const bool is_text = bytes.find('\0') == std::string_view::npos;
   if (is_text && first != std::string_view::npos && same_word(bytes.substr(first, 5), "solid"))
-    return parse_text(name, bytes, report);
+    return parse_text(name, bytes, report, body);
   if (!sized) fail(name, "too short for an STL file");
-  return parse_binary(name, bytes, report);
+  return parse_binary(name, bytes, report, body);
 }
 
 }  // namespace cellwalk::io

@@ -19,27 +19,27 @@ Surface_format format_of(const std::filesystem::path& path) {
        "not a surface by its extension: .off, .obj, .stl and .ply are read, also with .gz after it");
 }
 
-Surface_soup parse(const std::string& name, std::string_view bytes, Surface_format format,
-                   Read_report& report) {
+}  // namespace
+
+Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Surface_format format,
+                            Read_report& report, Body_elements* body) {
   switch (format) {
     case Surface_format::off:
-      return parse_off(name, bytes, report);
+      return parse_off(name, bytes, report, body);
     case Surface_format::obj:
-      return parse_obj(name, bytes, report);
+      return parse_obj(name, bytes, report, body);
     case Surface_format::stl:
-      return parse_stl(name, bytes, report);
+      return parse_stl(name, bytes, report, body);
     case Surface_format::ply:
       break;
   }
-  return parse_ply(name, bytes, report);
+  return parse_ply(name, bytes, report, body);
 }
-
-}  // namespace
 
 Surface_soup parse_surface(const std::string& name, std::string_view bytes, Surface_format format,
                            Read_report* report) {
   Read_report own;
-  Surface_soup soup = parse(name, bytes, format, own);
+  Surface_soup soup = parse_polygons(name, bytes, format, own);
   if (soup.facets.empty()) fail(name, "holds no polygons: a surface is needed");
   own.points = soup.points.size();
   own.facets = soup.facets.size();

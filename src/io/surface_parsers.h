@@ -5,12 +5,39 @@
 
 #include <cellwalk/io/surface_file.h>
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace cellwalk::io {
 
-Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report);
-Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report);
-Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report);
-Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report);
+/// What a body may have beside polygons. A parser that is given none leaves lines out: surfaces have no use for them.
+struct Body_elements {
+  bool planar = false;  ///< asked: a body of the plane, points whose z is not zero are refused
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< answered: lines, cut into edges
+};
+
+Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+
+/// The parser of a format; whether there are polygons is left to the caller.
+Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Surface_format format,
+                            Read_report& report, Body_elements* body = nullptr);
+
+/// Refuses a point off the plane where a body of the plane is asked for; `in` knows the place in the file.
+template <class Reader>
+void check_planar(const Reader& in, const Body_elements* body, const Point<3>& p) {
+  if (body && body->planar && p[2] != 0)
+    in.fail(fmt::format("z is {}, in a body of the plane: make every z zero, or use it in space", p[2]));
+}
 
 }  // namespace cellwalk::io
 

@@ -13,7 +13,10 @@
 namespace cellwalk::test {
 namespace {
 
+constexpr Edge_certificates no_certificates{false, false, false, false};
+
 struct Seen {
+  std::uint64_t compared = 0;  ///< with the sweep without certificates
   int sweeps = 0, hits = 0, misses = 0, wrong_times = 0, only_blocked = 0, third_free = 0;
   int blocked = 0, edge_first = 0;  ///< p was; the edge was before
   Edge_counts counts;
@@ -86,7 +89,16 @@ Seen sweep(bool generic) {
           check_blocked(w, from, target, visited, crossed, *walked.contact, q, edge.chain, generic, seen);
           continue;
         }
-        edge = sweep_triangle<D>(w.snapshot, {from, p, visited, crossed}, q, edge.chain, seen.counts);
+        const Way<D> way{from, p, visited, crossed};
+        Edge_counts bare;
+        const bool is_compared = seen.sweeps % 4 == 0;
+        const bool is_free =
+            is_compared && !sweep_triangle<D>(w.snapshot, way, q, edge.chain, bare, no_certificates).contact;
+        seen.compared += bare.event_sweeps;
+        edge = sweep_triangle<D>(w.snapshot, way, q, edge.chain, seen.counts);
+        if (is_compared) {
+          EXPECT_EQ(is_free, !edge.contact) << w.world.name << ": a certificate changes the answer";
+        }
         const auto hit = first_hit(w.snapshot, from.position, p.position, q.position);
         ++seen.sweeps;
         seen.hits += hit.has_value();
@@ -117,8 +129,8 @@ Seen sweep(bool generic) {
   std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.sweeps << " sweeps, "
             << seen.hits << " crossed by a wall, " << seen.only_blocked << " blocked otherwise; "
             << seen.third_free << " of these with a free third side; same cell " << c.same_cell
-            << ", same chain " << c.same_chain << ", clear " << c.clear << ", events " << c.event_sweeps
-            << "; missed " << seen.misses << "\n";
+            << ", convex pair " << c.convex_pair << ", same chain " << c.same_chain << ", clear " << c.clear
+            << ", events " << c.event_sweeps << "; missed " << seen.misses << "\n";
   return seen;
 }
 
@@ -130,11 +142,16 @@ void test_sweeps() {
     EXPECT_EQ(seen.wrong_times, 0);
     if (worlds() < 2 * oracle::world_kinds) continue;  // too few to meet everything
     EXPECT_GT(seen.sweeps, 1000);
+    EXPECT_GT(seen.compared, 400u);
     EXPECT_GT(seen.hits, 50);
     EXPECT_GT(seen.third_free, 3);
     EXPECT_GT(seen.blocked, 200);
     EXPECT_GT(seen.edge_first, 10);
     EXPECT_GT(seen.counts.event_sweeps, 50u);
+    EXPECT_GT(seen.counts.same_cell, 100u);
+    EXPECT_GT(seen.counts.convex_pair, 20u);
+    EXPECT_GT(seen.counts.same_chain, 100u);
+    EXPECT_GT(seen.counts.clear, 10u);
   }
 }
 

@@ -103,11 +103,13 @@ const Refusal refusals[] = {
      "s.json: environment.a: expected a number or a list of numbers"},
     {R"({"environment": {"generate": "x", "a": [1, null]}})", "s.json: environment.a[1]: expected a number"},
     {R"({"environment": "e", "particle": []})",
-     "s.json: particle: unknown key; known here: catheter, dimension, environment, friction, gravity, "
+     "s.json: particle: unknown key; known here: bodies, catheter, dimension, environment, friction, "
+     "gravity, "
      "output, particles, "
      "restitution, steps, time_step, title"},
     {R"({"environment": "e", "title": 3})", "s.json: title: expected a text"},
-    {R"({"environment": "e", "steps": 1})", "s.json: nothing moves: give \"particles\" or \"catheter\""},
+    {R"({"environment": "e", "steps": 1})",
+     "s.json: nothing moves: give \"particles\", \"bodies\" or \"catheter\""},
     {R"({"environment": "e", "particles": {}})", "s.json: particles: expected a list [...]"},
     {R"({"environment": "e", "particles": [1]})", "s.json: particles[0]: expected an object {...}"},
     {R"({"environment": "e", "particles": [{}]})",

@@ -19,8 +19,10 @@ using Chain = boost::container::small_vector<Half_facet, 4>;
 
 /// What the checks of edges did. All counts are machine-independent.
 struct Edge_counts {
-  std::uint64_t edges = 0;          ///< edges checked
-  std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t edges = 0;      ///< edges checked
+  std::uint64_t same_cell = 0;  ///< proved by both ends being in one cell, no sign asked
+  std::uint64_t convex_pair =
+      0;  ///< proved by their cells being neighbours with a convex union, no sign asked
   std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
   std::uint64_t chain_facets = 0;   ///< facets looked at for that
   std::uint64_t changed = 0;        ///< neither: the chain is another one, or there is none
@@ -28,9 +30,18 @@ struct Edge_counts {
   std::uint64_t floods = 0;         ///< swept triangles flooded
   std::uint64_t flooded_cells = 0;  ///< cells met by them
   std::uint64_t clear = 0;          ///< proved to meet no wall
+  std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
+  std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic ones
+  std::uint64_t search_walls = 0;   ///< walls looked at by exhaustive ones, and for touches
+  std::uint64_t search_misses = 0;  ///< exhaustive ones that found no obstacle in their cells
   Walk_counts walk;                 ///< of all walks and signs
 
   Edge_counts& operator+=(const Edge_counts& other);
+};
+
+/// Which certificates a sweep tries before it follows events. Each is sound alone; leaving one out costs time only.
+struct Edge_certificates {
+  bool same_cell = true, convex_pair = true, same_chain = true, flood = true;
 };
 
 /// The chain of a segment, or what is in its way.

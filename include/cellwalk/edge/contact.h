@@ -7,6 +7,7 @@
 #include <cellwalk/walk/walk.h>
 
 #include <cstdint>
+#include <tuple>
 
 namespace cellwalk {
 
@@ -24,6 +25,14 @@ struct Contact : Wall_contact<D> {
   Body_feature body = Body_feature::vertex;
   Exact_time impact;
 };
+
+/// The order of contacts: by exact time, then vertices of the body before edges before faces, then features of the environment
+/// in that order, then half-facets.
+template <int D>
+bool is_before(const Contact<D>& a, const Contact<D>& b) {
+  if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
+  return std::tuple(a.body, a.kind, a.facet) < std::tuple(b.body, b.kind, b.facet);
+}
 
 }  // namespace cellwalk
 

@@ -26,8 +26,8 @@ enum class Touch {
 
 /// How a contact is located, once it is known that there is one.
 enum class Contact_search {
-  exact,      ///< the first event at which the motion cannot go on
-  dichotomic, ///< bisection: the longest motion found free, within a bound
+  exact,       ///< the first event at which the motion cannot go on
+  dichotomic,  ///< bisection: the longest motion found free, within a bound
   exhaustive  ///< the first of the obstacle vertices (2D) or edges (3D) of the cells met that lie in the swept triangle
 };
 
@@ -42,6 +42,7 @@ struct Sweep_options {
   Touch touch = Touch::pass;
   Contact_search search = Contact_search::exact;
   Search_cells cells = Search_cells::flooded;
+  Edge_certificates certificates{};
   double tolerance = 0x1p-20;  ///< of a dichotomic search: length of the last interval of time, in (0,1]
 };
 
@@ -63,7 +64,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            Edge_counts& counts);
 
 /// The same for one edge of a vertex whose walk is known: a contact of the edge, before p is blocked if it is. The result's
-/// p is not set.
+/// p and cells are not set. Touch::stop counts what p touches as well.
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts);
@@ -73,10 +74,12 @@ template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
                           Walk_counts& counts);
 
-/// The first point off its start at which the motion of p, without any edge, meets a closed wall: Touch::stop for particles.
+/// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed wall, or where it
+/// is blocked.
+/// Cost: that of a walk and a flood along it, and rational arithmetic for each wall near it.
 template <int D>
-std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
-                                      Edge_counts& counts);
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
+                                      const Point<D>& target, Edge_counts& counts);
 
 }  // namespace cellwalk
 

@@ -19,7 +19,8 @@ namespace cellwalk {
 template <int D>
 Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Chain& before,
                                     std::span<const Half_facet> crossed, const Particle<D>& p,
-                                    const Particle<D>& q, Edge_counts& counts);
+                                    const Particle<D>& q, Edge_counts& counts,
+                                    const Edge_certificates& certificates = {});
 
 }  // namespace cellwalk
 

@@ -30,7 +30,8 @@ struct Way {
 /// hit a wall get to.
 template <int D>
 Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                               const Chain& before, Edge_counts& counts);
+                               const Chain& before, Edge_counts& counts,
+                               const Edge_certificates& certificates = {});
 
 }  // namespace cellwalk
 

@@ -34,6 +34,10 @@ std::vector<Sweep_query<D>> read_sweeps(const std::filesystem::path& path) {
   return query_rows<D, 3>(Csv_table::read(path), {"p", "t", "q"});
 }
 
+extern template std::vector<Query_row<2, 1>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 1>&);
+extern template std::vector<Query_row<3, 1>> query_rows(const Csv_table&,
+                                                        const std::array<std::string_view, 1>&);
 extern template std::vector<Query_row<2, 2>> query_rows(const Csv_table&,
                                                         const std::array<std::string_view, 2>&);
 extern template std::vector<Query_row<3, 2>> query_rows(const Csv_table&,

@@ -12,11 +12,11 @@
 namespace cellwalk::io {
 
 /// Reads a scene. Nothing is guessed: unknown, repeated and missing keys, wrong types and values out of range are
-/// refused. A file name of an environment is resolved against the scene's folder.
+/// refused. File names of environments and bodies are resolved against the scene's folder.
 /// \throw Error(input) `FILE: key.path[2].key: what is wrong`, or `FILE:LINE: ...` where the file is not JSON
 Any_scene read_scene(const std::filesystem::path& path);
 
-/// The same from text in memory; `name` stands for the file in errors, environment files stay as written.
+/// The same from text in memory; `name` stands for the file in errors, the names of files stay as written.
 Any_scene parse_scene(const std::string& name, std::string_view text);
 
 }  // namespace cellwalk::io

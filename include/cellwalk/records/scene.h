@@ -4,7 +4,9 @@
 #define CELLWALK_RECORDS_SCENE_H
 
 #include <cellwalk/kernel/point.h>
+#include <cellwalk/records/body_shape.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -30,11 +32,38 @@ struct Particle_start {
   Vector<D> velocity{};
 };
 
-/// Free particles at random, uniform in free space, with velocities of one speed in random directions.
+/// Particles or bodies at random, uniform in free space, with velocities of one speed in random directions.
 struct Particle_cloud {
   std::uint32_t count = 0;
   double speed = 0;
   std::uint64_t seed = 1;
+};
+
+/// Where a body comes from: a file (relative to the scene's folder) or a shape.
+template <int D>
+using Body_source = std::variant<std::string, Body_shape<D>>;
+
+/// An angular velocity in radians per unit of time: about the axis it points along, or in the plane counterclockwise.
+template <int D>
+using Spin = std::array<double, D == 2 ? 1 : 3>;
+
+/// Motion that is prescribed: along a path, instead of free flight.
+template <int D>
+struct Guided_motion {
+  std::vector<Point<D>> path;  ///< of the body's origin: at least two way points, no two in a row alike
+  double speed = 1;            ///< along the path, in lengths per unit of time
+};
+
+/// One body, or copies of it at random places.
+template <int D>
+struct Body_start {
+  Body_source<D> source;
+  Placement<D>
+      placement{};       ///< of guided bodies at the first way point; the position of random ones is not used
+  Vector<D> velocity{};  ///< of a single thrown body
+  Spin<D> spin{};
+  std::optional<Particle_cloud> cloud{};     ///< so many copies, each with its place and velocity
+  std::optional<Guided_motion<D>> guided{};  ///< nothing: thrown, it flies freely under gravity
 };
 
 /// A catheter tip as a chain of particles: the first steers along the path, the others follow.
@@ -63,6 +92,7 @@ struct Scene {
   std::string title;
   Environment_source environment;
   std::vector<std::variant<Particle_start<D>, Particle_cloud>> particles;
+  std::vector<Body_start<D>> bodies;
   std::optional<Catheter<D>> catheter;
   Vector<D> gravity{};
   double restitution = 1;  ///< share of the normal speed that a free particle keeps when it bounces

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/body/transform.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "turn.h"
+
+namespace cellwalk {
+namespace {
+
+using detail::Turn;
+using detail::Wide;
+
+template <int D>
+using Matrix = std::array<std::array<Wide, static_cast<std::size_t>(D)>, static_cast<std::size_t>(D)>;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::usage, "placement: " + what); }
+
+Turn turn_of(double degrees) {
+  if (!std::isfinite(degrees)) refuse("the angle of the rotation must be a finite number of degrees");
+  return detail::turn(std::fmod(degrees, 360.0));  // exact
+}
+
+Matrix<2> matrix(const Rotation<2>& rotation) {
+  const auto [c, s] = turn_of(rotation.degrees);
+  return {{{c, -s}, {s, c}}};
+}
+
+/// Rodrigues' formula: c I + (1 - c) u u^T + s [u]x for the unit vector u along the axis.
+Matrix<3> matrix(const Rotation<3>& rotation) {
+  if (!is_finite(rotation.axis) || rotation.axis == Vector<3>{})
+    refuse("the axis of the rotation must be finite and not zero");
+  const std::array<Wide, 3> a{rotation.axis[0], rotation.axis[1], rotation.axis[2]};
+  const Wide squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  const auto [c, s] = turn_of(rotation.degrees);
+  const Wide sine = s / sqrt(squared), rest = 1 - c;
+  Matrix<3> m;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) m[i][j] = rest * a[i] * a[j] / squared;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    m[i][i] += c;
+    m[k][j] += sine * a[i];
+    m[j][k] -= sine * a[i];
+  }
+  return m;
+}
+
+}  // namespace
+
+template <int D>
+Body_soup<D> transformed(Body_soup<D> body, const Placement<D>& placement) {
+  if (!(placement.scale > 0) || !std::isfinite(placement.scale))
+    refuse(fmt::format("the scale must be a positive number, not {}", placement.scale));
+  Matrix<D> m = matrix(placement.rotation);
+  for (auto& row : m)
+    for (Wide& x : row) x *= placement.scale;
+  for (std::size_t v = 0; v < body.points.size(); ++v) {
+    const Point<D> p = body.points[v];
+    for (std::size_t i = 0; i < D; ++i) {
+      Wide sum = placement.position[i];
+      for (std::size_t j = 0; j < D; ++j) sum += m[i][j] * p[j];
+      body.points[v][i] = detail::nearest(sum) + 0.0;  // no -0
+    }
+    if (!is_finite(body.points[v]))
+      refuse(fmt::format("vertex {} gets a coordinate that is not finite: choose a smaller scale or position",
+                         v));
+  }
+  return body;
+}
+
+template Body_soup<2> transformed(Body_soup<2>, const Placement<2>&);
+template Body_soup<3> transformed(Body_soup<3>, const Placement<3>&);
+
+}  // namespace cellwalk

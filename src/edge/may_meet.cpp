@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "may_meet.h"
+
+#include <cellwalk/walk/detail/signs.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <array>
+#include <cstdlib>
+
+namespace cellwalk::detail {
+namespace {
+
+/// Signs of which none is negative, or none is positive: a line passes the closed polygon whose sides they are of.
+class One_sided {
+ public:
+  void add(int sign) {
+    some_negative_ |= sign < 0;
+    some_positive_ |= sign > 0;
+  }
+  explicit operator bool() const { return !(some_negative_ && some_positive_); }
+
+ private:
+  bool some_negative_ = false, some_positive_ = false;
+};
+
+int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_counts& counts) {
+  return Exact::orientation(counts.predicates, u, v, x);
+}
+
+}  // namespace
+
+bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts) {
+  const auto loop = cell.loop(i);
+  const Point<2>&u = cell.point(loop[0]), &v = cell.point(loop[1]);
+  // Convex sets of the plane are apart if and only if a side of one of them separates them.
+  const std::array<const Point<2>*, 3> corners{&t.a, &t.b, &t.q};
+  int sum = 0;
+  for (const auto* corner : corners) sum += sign_in_plane(u, v, *corner, counts);
+  if (std::abs(sum) == 3) return false;
+  const int turn = sign_in_plane(t.a, t.b, t.q, counts);
+  if (turn == 0) return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point<2>&c = *corners[k], &d = *corners[(k + 1) % 3];
+    if (turn * sign_in_plane(c, d, u, counts) < 0 && turn * sign_in_plane(c, d, v, counts) < 0) return false;
+  }
+  return true;
+}
+
+bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts) {
+  const auto sign = [&](const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& x) {
+    return Exact::orientation(counts.predicates, u, v, w, x);
+  };
+  const std::array<const Point<3>*, 3> corners{&t.a, &t.b, &t.q};
+  std::array<int, 3> sides;
+  for (std::size_t k = 0; k < 3; ++k) sides[k] = detail::side<Exact>(cell, i, *corners[k], counts);
+  if (std::abs(sides[0] + sides[1] + sides[2]) == 3) return false;
+  const auto loop = cell.loop(i);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (sides[k] * sides[next] > 0) continue;
+    if (sides[k] == 0 && sides[next] == 0) return true;
+    One_sided passed;
+    for (std::size_t r = 0; r < loop.size() && passed; ++r)
+      passed.add(detail::along<Exact>(cell, i, r, *corners[k], *corners[next], counts));
+    if (passed) return true;
+  }
+  boost::container::small_vector<int, 8> heights;
+  for (const std::uint16_t v : loop) heights.push_back(sign(t.a, t.b, t.q, cell.point(v)));
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const std::size_t next = k + 1 == loop.size() ? 0 : k + 1;
+    if (heights[k] * heights[next] > 0) continue;
+    if (heights[k] == 0 && heights[next] == 0) return true;
+    const Point<3>&u = cell.point(loop[k]), &v = cell.point(loop[next]);
+    One_sided passed;
+    for (std::size_t r = 0; r < 3 && passed; ++r) passed.add(sign(u, v, *corners[r], *corners[(r + 1) % 3]));
+    if (passed) return true;
+  }
+  return false;
+}
+
+}  // namespace cellwalk::detail

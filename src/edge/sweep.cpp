@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/edge/three_segments.h>
+
+#include <vector>
+
+#include "contact_search.h"
+#include "events.h"
+#include "swept_meeting.h"
+#include "touch.h"
+
+namespace cellwalk {
+namespace {
+
+template <int D>
+Swept_triangle<D> triangle_of(const Way<D>& way, const Particle<D>& q) {
+  return {way.from.position, way.to.position, q.position};
+}
+
+template <int D>
+void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>>& other) {
+  if (other && (!first || is_before(*other, *first))) first = other;
+}
+
+template <int D>
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                        const Chain_result<D>& found) {
+  Contact<D> contact;
+  static_cast<Wall_contact<D>&>(contact) = *found.contact;
+  contact.body = Body_feature::edge;
+  contact.impact = found.impact;
+  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), contact, contact.normal);
+  return contact;
+}
+
+/// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
+template <int D>
+Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                       const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+  if (options.sweep != Sweep::three_segments)
+    return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
+  if (way.blocked) {
+    Chain_result<D> result{before, {}, {}};
+    walk_start(snapshot, result.chain, way.crossed);
+    return result;
+  }
+  Chain_result<D> result =
+      check_third_segment(snapshot, before, way.crossed, way.to, q, counts, options.certificates);
+  if (!result.contact) return result;
+  // The contact is one on the edge at its end; when the motion came to it, and whether it is only that the temporary particle
+  // took another side of a wall in which the edge lies, is for the events to say.
+  ++counts.event_sweeps;
+  return detail::follow_events(snapshot, way, q, before, counts.walk);
+}
+
+template <int D>
+Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
+                  const Chain_result<D>& found, const Sweep_options& options, Edge_counts& counts) {
+  switch (options.search) {
+    case Contact_search::exact:
+      break;
+    case Contact_search::dichotomic:
+      return detail::dichotomic_search(snapshot, way, q, before, options.tolerance, counts);
+    case Contact_search::exhaustive:
+      if (const auto contact = detail::exhaustive_search(snapshot, way, q, options.cells, counts))
+        return *contact;
+      break;
+  }
+  return edge_contact(snapshot, way, q, found);
+}
+
+}  // namespace
+
+template <int D>
+Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                 const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+  Sweep_result<D> result;
+  const Chain_result<D> found = detect(snapshot, way, q, before, options, counts);
+  result.chain = found.chain;
+  if (found.contact) result.contact = locate(snapshot, way, q, before, found, options, counts);
+  if (options.touch == Touch::stop)
+    keep_first(result.contact, detail::first_touch(snapshot, way.from.cell, triangle_of(way, q), counts));
+  return result;
+}
+
+template <int D>
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
+                          Walk_counts& counts) {
+  Contact<D> result;
+  static_cast<Wall_contact<D>&>(result) = contact;
+  result.impact =
+      to_time(detail::exit_time(snapshot, way.visited.back(), way.from.position, way.to.position, counts));
+  result.time = result.impact.rounded();
+  return result;
+}
+
+template <int D>
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
+                                      const Point<D>& target, Edge_counts& counts) {
+  std::vector<Cell> visited;
+  Walk_options options;
+  options.visited = &visited;
+  const Walk_result<D> walked = walk(snapshot, p, target, counts.walk, options);
+  std::optional<Contact<D>> first =
+      detail::first_touch<D>(snapshot, p.cell, {p.position, target, p.position}, counts);
+  if (walked.contact) {
+    Way<D> way{p, p, visited, {}, true};
+    way.to.position = target;
+    keep_first<D>(first, vertex_contact(snapshot, way, *walked.contact, counts.walk));
+  }
+  return first;
+}
+
+template <int D>
+Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
+                           const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                           Edge_counts& counts) {
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  Particle<D> moved = p;
+  const Walk_result<D> walked =
+      move(snapshot, moved, target, counts.walk, {Walk_strategy::certified, &visited, &crossed});
+  moved.position = target;
+  const Way<D> way{p, moved, visited, crossed, walked.contact.has_value()};
+  Sweep_result<D> result = sweep_edge_along(snapshot, way, q, before, options, counts);
+  if (walked.contact)
+    keep_first<D>(result.contact, vertex_contact(snapshot, way, *walked.contact, counts.walk));
+  result.cells = walked.cells;
+  result.p = result.contact ? p : moved;
+  if (result.contact) result.chain = before;
+  return result;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                              \
+  template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,        \
+                                               const Chain&, const Sweep_options&, Edge_counts&);            \
+  template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Way<D>&, const Wall_contact<D>&,           \
+                                        Walk_counts&);                                                       \
+  template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \
+                                                    Edge_counts&);                                           \
+  template Sweep_result<D> sweep_edge<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,            \
+                                         const Particle<D>&, const Chain&, const Sweep_options&,             \
+                                         Edge_counts&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk

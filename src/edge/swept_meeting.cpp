@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "swept_meeting.h"
+
+#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/detail/star.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "rational_segment.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// A point of the triangle by its weights at a, b and q. Unlike coordinates these serve where the triangle is a segment.
+using Weights = std::array<Rational, 3>;
+
+/// The part of a polygon on which a function, given by its values at the corners of the triangle, is >= 0.
+std::vector<Weights> clip(const std::vector<Weights>& polygon, const Weights& values) {
+  std::vector<Weights> kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Weights &here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
+    const Rational at = exact_dot(values, here), at_next = exact_dot(values, next);
+    if (at >= 0) kept.push_back(here);
+    if (CGAL::sign(at) * CGAL::sign(at_next) >= 0) continue;
+    const Rational t = at / (at - at_next);
+    Weights root;
+    for (std::size_t i = 0; i < 3; ++i) root[i] = here[i] + t * (next[i] - here[i]);
+    kept.push_back(root);
+  }
+  return kept;
+}
+
+/// True if x lies on the segment from u to v, all three being on one line.
+template <int D>
+bool lies_between(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
+  for (int i = 0; i < D; ++i)
+    if (x[i] < std::min(u[i], v[i]) || x[i] > std::max(u[i], v[i])) return false;
+  return true;
+}
+
+template <int D>
+std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
+                                              std::span<const Half_space<D>> feature) {
+  const std::array<Rational_point<D>, 3> corners{exact<D>(triangle.a), exact<D>(triangle.b),
+                                                 exact<D>(triangle.q)};
+  std::vector<Weights> polygon{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Half_space<D>& h : feature)
+    polygon = clip(polygon, {h.at(corners[0]), h.at(corners[1]), h.at(corners[2])});
+  const Weights* first = nullptr;
+  Rational time;
+  bool goes_on = false;
+  for (const Weights& w : polygon) {
+    const Rational off_q = w[0] + w[1];
+    if (CGAL::is_zero(off_q)) continue;
+    const Rational here = w[1] / off_q;
+    goes_on |= here > 0;
+    if (first && (here > time || (here == time && w[2] >= (*first)[2]))) continue;
+    first = &w;
+    time = here;
+  }
+  if (!first || !goes_on) return {};
+  Meeting<D> meeting{time, {}, CGAL::is_zero((*first)[2])};
+  for (int i = 0; i < D; ++i)
+    meeting.point[i] =
+        (*first)[0] * corners[0][i] + (*first)[1] * corners[1][i] + (*first)[2] * corners[2][i];
+  return meeting;
+}
+
+/// p moves in the line of the edge. What is swept off its start is a part of the way of p.
+template <int D>
+std::optional<Meeting<D>> meeting_in_line(const Swept_triangle<D>& t,
+                                          std::span<const Half_space<D>> feature) {
+  if (lies_between<D>(t.a, t.q, t.b)) return {};
+  if (!lies_between<D>(t.a, t.b, t.q)) return meeting_in_triangle<D>({t.a, t.b, t.a}, feature);
+  auto meeting = meeting_in_triangle<D>({t.q, t.b, t.q}, feature);
+  if (!meeting) return {};
+  int axis = 0;
+  while (t.a[axis] == t.b[axis]) ++axis;
+  const Rational a(t.a[axis]), b(t.b[axis]), q(t.q[axis]);
+  const Rational at_q = (q - a) / (b - a);
+  meeting->time = at_q + meeting->time * (1 - at_q);
+  return meeting;
+}
+
+template <int D>
+Vector<D> unit(Vector<D> v) {
+  double largest = 0;
+  for (const double x : v) largest = std::max(largest, std::abs(x));
+  if (!(largest > 0) || !std::isfinite(largest)) return {};
+  for (double& x : v) x /= largest;
+  return (1 / length(v)) * v + Vector<D>{};  // no negative zeros for readers of tables
+}
+
+/// v less its part along a direction.
+template <int D>
+Vector<D> across(const Vector<D>& v, const Vector<D>& direction) {
+  const Vector<D> along = unit<D>(direction);
+  return v - dot(v, along) * along;
+}
+
+/// A direction at right angles to the edge and the feature that it meets.
+Vector<2> perpendicular(const Snapshot<2>&, const Wall_contact<2>&, const Vector<2>& edge, const Vector<2>&) {
+  return {-edge[1], edge[0]};
+}
+
+Vector<3> perpendicular(const Snapshot<3>& snapshot, const Wall_contact<3>& contact, const Vector<3>& edge,
+                        const Vector<3>& back) {
+  if (contact.kind == Contact_kind::vertex) return across<3>(unit<3>(back), edge);
+  const Cell_view<3> cell = snapshot.view(snapshot.cell_of(contact.facet));
+  const auto loop = cell.loop(snapshot.facet_of(contact.facet));
+  const Point<3>&u = cell.point(loop[contact.corner]),
+        &v = cell.point(loop[(contact.corner + 1) % loop.size()]);
+  return cross(unit<3>(edge), unit<3>(v - u));
+}
+
+/// Below this, a difference of unit vectors is rounding.
+constexpr double parallel = 0x1p-40;
+
+}  // namespace
+
+template <int D>
+std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle,
+                                        std::span<const Half_space<D>> feature) {
+  if (are_collinear(triangle.a, triangle.b, triangle.q)) return meeting_in_line<D>(triangle, feature);
+  return meeting_in_triangle<D>(triangle, feature);
+}
+
+template <int D>
+Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
+                      const Wall_contact<D>& contact, const Vector<D>& of_wall) {
+  if (contact.kind == Contact_kind::facet) return of_wall;
+  const Point<D> p = point_on<D>(triangle.a, triangle.b, contact.time);
+  const Vector<D> back = triangle.a - triangle.b;
+  const Vector<D> normal = perpendicular(snapshot, contact, triangle.q - p, back);
+  if (!(length(normal) > parallel)) return of_wall;
+  return unit<D>((dot(normal, back) < 0 ? -1.0 : 1.0) * normal);
+}
+
+template <int D>
+Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, Half_facet wall,
+                        const Meeting<D>& meeting) {
+  const Cell c = snapshot.cell_of(wall);
+  const Cell_view<D> cell = snapshot.view(c);
+  const std::size_t i = snapshot.facet_of(wall);
+  Contact<D> contact;
+  contact.impact = to_time(meeting.time);
+  contact.time = contact.impact.rounded();
+  for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(meeting.point[k]);
+  const Facet_feature feature = lowest_feature<D>(cell, i, meeting.point);
+  contact.kind = feature.kind;
+  contact.corner = feature.corner;
+  contact.facet = wall;
+  contact.cell = c;
+  contact.body = meeting.at_p ? Body_feature::vertex : Body_feature::edge;
+  const Vector<D> of_wall = inner_normal(cell, i);
+  contact.normal = meeting.at_p ? of_wall : edge_normal(snapshot, triangle, contact, of_wall);
+  return contact;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                           \
+  template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&,                           \
+                                                      std::span<const Half_space<D>>);                    \
+  template Vector<D> edge_normal<D>(const Snapshot<D>&, const Swept_triangle<D>&, const Wall_contact<D>&, \
+                                    const Vector<D>&);                                                    \
+  template Contact<D> contact_with<D>(const Snapshot<D>&, const Swept_triangle<D>&, Half_facet,           \
+                                      const Meeting<D>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// When the edge that sweeps a triangle meets closed features of the environment, in rationals. Theory: docs/sweep.md, touches.
+#ifndef CELLWALK_EDGE_SWEPT_MEETING_H
+#define CELLWALK_EDGE_SWEPT_MEETING_H
+
+#include <cellwalk/edge/contact.h>
+#include <cellwalk/edge/flood.h>
+
+#include <optional>
+#include <span>
+
+#include "half_space.h"
+
+namespace cellwalk::detail {
+
+/// The edge meets a feature.
+template <int D>
+struct Meeting {
+  Rational time;
+  Rational_point<D> point;
+  bool at_p = false;  ///< the point is p itself
+};
+
+/// The first meeting of the edge with an intersection of half-spaces, off the edge where it starts: 0 if the two meet there
+/// and go on to do so. Of several points at that time, the one nearest to p.
+/// Degenerate cases: the triangle may be a segment; a and q may coincide.
+template <int D>
+std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle,
+                                        std::span<const Half_space<D>> feature);
+
+/// A contact with a wall at a point of it: its lowest feature there, and the normal that goes with it.
+template <int D>
+Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, Half_facet wall,
+                        const Meeting<D>& meeting);
+
+/// The unit normal of a contact of the edge at a time: see Contact. `of_wall` where no other can be made.
+template <int D>
+Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
+                      const Wall_contact<D>& contact, const Vector<D>& of_wall);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_SWEPT_MEETING_H
