@@ -14,6 +14,8 @@ namespace {
 /// Not a number, which a table leaves empty.
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
+constexpr const char* body_names[] = {"vertex", "edge", "face"};
+
 /// Three fields, without negative zeros; in the plane the third is empty.
 template <std::size_t D>
 std::array<double, 3> fields(const std::array<double, D>& p) {
@@ -27,25 +29,35 @@ std::array<double, 3> fields(const std::array<double, D>& p) {
 template <int D, std::size_t N>
 void write_answers(const std::string& path, const Snapshot<D>& snapshot,
                    const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
-  io::Csv_writer table(path,
-                       {"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"});
+  constexpr bool has_body = N == 3;
+  std::vector<std::string> columns{"row",  "status", "time", "x",  "y",     "z",
+                                   "kind", "nx",     "ny",   "nz", "cells", "cell"};
+  if (has_body) columns.insert(columns.begin() + 7, "body");
+  io::Csv_writer table(path, columns);
   for (std::size_t row = 0; row < answers.size(); ++row) {
-    const auto& [status, cells, cell, contact] = answers[row];
+    const Answer<D>& answer = answers[row];
     double time = absent;
     std::array<double, 3> end{absent, absent, absent}, normal = end;
-    const char* kind = "";
-    if (status == Status::free) {
+    const char *kind = "", *body = "";
+    if (answer.status == Status::free) {
       time = 1;
       end = fields(rows[row].points[1]);
-    } else if (contact) {
+    } else if (const auto& contact = answer.contact) {
       time = contact->time;
       end = fields(contact->point);
       normal = fields(contact->normal);
       kind = kind_names[static_cast<std::size_t>(contact->kind)];
+      body = body_names[static_cast<std::size_t>(contact->body)];
     }
-    table.row(row, status_names[static_cast<std::size_t>(status)], time, end[0], end[1], end[2], kind,
-              normal[0], normal[1], normal[2], cells,
-              cell == Cell::none ? std::string{} : std::to_string(snapshot.index(cell)));
+    const auto write = [&](const auto&... body_field) {
+      table.row(row, status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1], end[2],
+                kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
+                answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell)));
+    };
+    if constexpr (has_body)
+      write(body);
+    else
+      write();
   }
   table.commit();
 }
@@ -53,6 +65,11 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
 template void write_answers(const std::string&, const Snapshot<2>&, const std::vector<Query_row<2, 2>>&,
                             const std::vector<Answer<2>>&);
 template void write_answers(const std::string&, const Snapshot<3>&, const std::vector<Query_row<3, 2>>&,
+                            const std::vector<Answer<3>>&);
+
+template void write_answers(const std::string&, const Snapshot<2>&, const std::vector<Query_row<2, 3>>&,
+                            const std::vector<Answer<2>>&);
+template void write_answers(const std::string&, const Snapshot<3>&, const std::vector<Query_row<3, 3>>&,
                             const std::vector<Answer<3>>&);
 
 }  // namespace cellwalk::cli

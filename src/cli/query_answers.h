@@ -24,7 +24,7 @@ namespace cellwalk::cli {
 enum class Status : std::uint8_t {
   free,     ///< the motion arrives
   contact,  ///< a wall blocks it
-  outside,  ///< it does not start in free space
+  outside,  ///< it does not start in free space, or across a wall
   invalid,  ///< its row cannot be used
   lost      ///< inexact kernels only: the walk found no way on
 };
@@ -33,8 +33,8 @@ inline constexpr const char* status_names[] = {"free", "contact", "outside", "in
 template <int D>
 struct Answer {
   Status status = Status::invalid;
-  std::uint32_t cells = 0;            ///< visited
-  Cell cell = Cell::none;             ///< in which the motion ends; none if outside or invalid
+  std::uint32_t cells = 0;  ///< visited by the point that moves
+  Cell cell = Cell::none;   ///< in which the motion ends, or its contact is; none if outside or invalid
   std::optional<Contact<D>> contact;  ///< if status is contact
 };
 
@@ -59,8 +59,9 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
   return answers;
 }
 
-/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell. Rows and cells count from 0; cells are
-/// those of the file; what does not apply is empty. A free motion ends at the second point of its row.
+/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three points, with
+/// `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not apply is empty. A free motion
+/// ends at the second point of its row.
 /// \throw Error(other) where it cannot be written
 template <int D, std::size_t N>
 void write_answers(const std::string& path, const Snapshot<D>& snapshot,
