@@ -178,7 +178,7 @@ void add_sweep_options(CLI::App& command, Sweep_options& options) {
       ->check([](const std::string& text) {
         double value = 0;
         const bool fits = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1;
-        return fits ? std::string{} : "must lie in (0,1], and not be " + text;
+        return fits ? std::string{} : "takes a number in (0,1], not " + text;
       })
       ->type_name("T")
       ->default_str("2^-20")

@@ -37,7 +37,10 @@ class Ovm_text {
 
   std::string text() const {
     std::string text;
-    for (const std::string& line : lines_) text += line + "\n";
+    for (const std::string& line : lines_) {
+      text += line;
+      text += '\n';
+    }
     text += in_space_ ? "CProp bool \"solid\"\n" : "FProp bool \"solid\"\n";
     for (const bool solid : solid_) text += solid ? "1\n" : "0\n";
     return text;

@@ -42,25 +42,25 @@ double number(const std::string& text) { return std::stod(text); }
 TEST_F(Query_sweep, AnswersEveryStatusInThePlane) {
   make_room(2);
   const auto rows = query(std::string(plane) +
-                          "0.5,0.5,4.5,0.5,2.5,0.5\n"  // in one line
-                          "0.5,0.5,0.5,6.5,3.5,0.5\n"  // p leaves the room
-                          "0.5,1.5,3.5,1.5,1/2,7/2\n"  // the edge turns over the obstacle
-                          "0.5,2.5,0.5,3.5,4.5,2.5\n"  // the edge begins across the obstacle
-                          "2.5,2.5,0.5,3.5,4.5,4.5\n"  // p begins in the obstacle
-                          "0.5,0.5,0.5,3.5,-1,0.5\n"   // q begins outside
-                          "0.5,0.5,0.5,1/3,4.5,0.5\n"  // 1/3 is no double
+                          "0.5,0.5,4.5,0.5,2.5,0.5\n"   // in one line
+                          "0.5,0.5,0.5,6.5,0.75,0.5\n"  // p leaves the room
+                          "0.5,1.5,3.5,1.5,1/2,7/2\n"   // the edge turns over the obstacle
+                          "0.5,2.5,0.5,3.5,4.5,2.5\n"   // the edge begins across the obstacle
+                          "2.5,2.5,0.5,3.5,4.5,4.5\n"   // p begins in the obstacle
+                          "0.5,0.5,0.5,3.5,-1,0.5\n"    // q begins outside
+                          "0.5,0.5,0.5,1/3,4.5,0.5\n"   // 1/3 is no double
                           "0x1p-1,1/2,0.5,3/4,3/4,.5\n");
   ASSERT_EQ(rows.size(), 8u);
   EXPECT_EQ(rows[0], (Row{"0", "free", "1", "4.5", "0.5", "", "", "", "", "", "", "5", "4"}));
   EXPECT_EQ(rows[1],
             (Row{"1", "contact", "0.75", "0.5", "5", "", "facet", "vertex", "0", "-1", "", "5", "20"}));
-  // From (1/2,7/2) over the corner (2,3) to (7/2,5/2), and on: at y = 3/2 after the motion has ended; over (2,2), x = 5/2.
+  // The line from q = (1/2,7/2) through the corner (2,2) meets the way of p at x = 5/2.
   EXPECT_EQ(rows[2][status], "contact");
   EXPECT_NEAR(number(rows[2][time]), 2. / 3, 1e-15);
   EXPECT_EQ(rows[2][x] + " " + rows[2][y] + " " + rows[2][z], "2 2 ");
   EXPECT_EQ(rows[2][kind] + " " + rows[2][body], "vertex edge");
-  EXPECT_NEAR(number(rows[2][nx]), -0.6, 1e-15);
-  EXPECT_NEAR(number(rows[2][ny]), -0.8, 1e-15);
+  EXPECT_NEAR(number(rows[2][nx]), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(number(rows[2][ny]), -std::sqrt(0.5), 1e-15);
   EXPECT_EQ(rows[3], (Row{"3", "outside", "", "", "", "", "", "", "", "", "", "0", ""}));
   EXPECT_EQ(rows[4][status], "outside");
   EXPECT_EQ(rows[5][status], "outside");
@@ -212,7 +212,7 @@ TEST_F(Query_sweep_random, ThreadsGiveTheSameAnswers) {
 }
 
 TEST_F(Query_sweep_random, DichotomicIsWithinItsBoundAndNeverLater) {
-  const auto rows = query(motions_, {"--contact", "dichotomic", "--tolerance", "1/1024"});
+  const auto rows = query(motions_, {"--contact", "dichotomic", "--tolerance", "0x1p-10"});
   int earlier = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i][status], exact_[i][status]) << i;
