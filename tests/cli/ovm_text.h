@@ -64,8 +64,8 @@ class Ovm_text {
   }
 
   void set_wall(std::size_t facet) {
-    lines_.at(line_of(in_space_ ? "FProp bool \"impassable\"" : "EProp bool \"impassable\"") + 1 + facet) =
-        "1";
+    const std::size_t walls = line_of(in_space_ ? "FProp bool \"impassable\"" : "EProp bool \"impassable\"");
+    lines_.at(walls + 1 + facet).assign(1, '1');
   }
 
   std::vector<std::string> lines_;
