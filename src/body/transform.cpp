@@ -53,7 +53,7 @@ Matrix<3> matrix(const Rotation<3>& rotation) {
 }  // namespace
 
 template <int D>
-Body_soup<D> transformed(Body_soup<D> body, const Placement<D>& placement) {
+Body_soup<D> transformed(Body_soup<D> body, const Body_placement<D>& placement) {
   if (!(placement.scale > 0) || !std::isfinite(placement.scale))
     refuse(fmt::format("the scale must be a positive number, not {}", placement.scale));
   Matrix<D> m = matrix(placement.rotation);
@@ -73,7 +73,7 @@ Body_soup<D> transformed(Body_soup<D> body, const Placement<D>& placement) {
   return body;
 }
 
-template Body_soup<2> transformed(Body_soup<2>, const Placement<2>&);
-template Body_soup<3> transformed(Body_soup<3>, const Placement<3>&);
+template Body_soup<2> transformed(Body_soup<2>, const Body_placement<2>&);
+template Body_soup<3> transformed(Body_soup<3>, const Body_placement<3>&);
 
 }  // namespace cellwalk

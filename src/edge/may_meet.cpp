@@ -5,6 +5,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -24,6 +25,23 @@ class One_sided {
   bool some_negative_ = false, some_positive_ = false;
 };
 
+/// False if a facet lies beyond the triangle along an axis: their boxes are apart.
+template <int D>
+bool boxes_meet(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t) {
+  const auto loop = cell.loop(i);
+  for (int k = 0; k < D; ++k) {
+    const auto [low, high] = std::minmax({t.a[k], t.b[k], t.q[k]});
+    bool is_below = true, is_above = true;
+    for (const std::uint16_t v : loop) {
+      const double x = cell.point(v)[k];
+      is_below &= x < low;
+      is_above &= x > high;
+    }
+    if (is_below || is_above) return false;
+  }
+  return true;
+}
+
 int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_counts& counts) {
   return Exact::orientation(counts.predicates, u, v, x);
 }
@@ -31,6 +49,7 @@ int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_
 }  // namespace
 
 bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts) {
+  if (!boxes_meet<2>(cell, i, t)) return false;
   const auto loop = cell.loop(i);
   const Point<2>&u = cell.point(loop[0]), &v = cell.point(loop[1]);
   // Convex sets of the plane are apart if and only if a side of one of them separates them.
@@ -48,6 +67,7 @@ bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& 
 }
 
 bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts) {
+  if (!boxes_meet<3>(cell, i, t)) return false;
   const auto sign = [&](const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& x) {
     return Exact::orientation(counts.predicates, u, v, w, x);
   };

@@ -90,6 +90,7 @@ struct From_mesh {
  private:
   static std::vector<Point<3>> in_space(const std::vector<Point<2>>& points) {
     std::vector<Point<3>> result;
+    result.reserve(points.size());
     for (const auto& p : points) result.push_back({p[0], p[1], 0});
     return result;
   }

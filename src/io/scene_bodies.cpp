@@ -135,6 +135,7 @@ Body_source<D> source(const Json_node& node) {
   const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.name == name; });
   if (found == known.end()) {
     std::vector<std::string_view> names;
+    names.reserve(known.size());
     for (const auto& k : known) names.push_back(k.name);
     shape.fail(
         fmt::format("'{}' is no shape of dimension {}; known are {}", name, D, fmt::join(names, ", ")));

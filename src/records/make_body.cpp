@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace cellwalk {
 namespace {
@@ -77,23 +78,18 @@ class Maker {
 
   /// Keeps the first of the triangles that have the same corners.
   void drop_repeated_faces() {
-    struct Sorted {
-      Triangle corners;
-      std::size_t place;
-      auto operator<=>(const Sorted&) const = default;
-    };
     std::vector<Triangle>& faces = made_.body.faces;
-    std::vector<Sorted> sorted;
+    std::vector<std::pair<Triangle, std::size_t>> sorted;  // corners in order, place
     sorted.reserve(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
       Triangle t = faces[i];
       std::sort(t.begin(), t.end());
-      sorted.push_back({t, i});
+      sorted.emplace_back(t, i);
     }
     std::sort(sorted.begin(), sorted.end());
     std::vector<bool> repeated(faces.size());
     for (std::size_t i = 1; i < sorted.size(); ++i)
-      if (sorted[i].corners == sorted[i - 1].corners) repeated[sorted[i].place] = true;
+      if (sorted[i].first == sorted[i - 1].first) repeated[sorted[i].second] = true;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
       if (!repeated[i]) faces[kept++] = faces[i];

@@ -18,7 +18,7 @@ namespace {
 using Number = boost::multiprecision::cpp_bin_float_100;
 
 template <int D>
-std::string refusal(const Placement<D>& placement) {
+std::string refusal(const Body_placement<D>& placement) {
   try {
     transformed(Body_soup<D>{{Point<D>{1}}, {}, {}}, placement);
   } catch (const Error& e) {
@@ -68,7 +68,7 @@ TEST(Transform, RoundsOnce) {
   Random random(5);
   std::size_t rounded = 0;
   for (int round = 0; round < 2000; ++round) {
-    Placement<3> placement;
+    Body_placement<3> placement;
     Point<3> p;
     for (double& x : p) x = random.real(-3, 3);
     for (double& x : placement.rotation.axis) x = random.real(-1, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Files damaged at random: whatever the damage, they are read or refused with a reason.
+#include <cellwalk/io/body_file.h>
 #include <cellwalk/io/csv.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/planar_file.h>
@@ -11,6 +12,7 @@
 #include <set>
 
 #include "io_fixture.h"
+#include "records/body_checks.h"
 
 namespace cellwalk::io {
 namespace {
@@ -102,6 +104,26 @@ TEST(DamagedFiles, Surfaces) {
   binary += std::string(36, '\0') + std::string("\3\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0", 16);
   expect_both_outcomes(
       damage(binary, [](const std::string& t) { parse_surface("t", t, Surface_format::ply); }));
+}
+
+TEST(DamagedFiles, Bodies) {
+  const Folder folder;
+  const auto expect_bodies_or_reasons = [&](const std::string& name, const std::string& text) {
+    SCOPED_TRACE(name);
+    const Damage result = damage(text, [&](const std::string& t) {
+      ASSERT_EQ(test::flaw(read_body<2>(folder.write(name, t)).body), "");
+    });
+    expect_both_outcomes(result);
+  };
+  expect_bodies_or_reasons("b.off",
+                           "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 3 0\n3 0 2 1\n2 0 3\n1 2\n# no more\n");
+  expect_bodies_or_reasons("b.obj",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 \\\n 3 -1\nf 1/1 2/2 3\nl 3 2\n# no more\n");
+  expect_bodies_or_reasons("b.ply",
+                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nelement edge 2\nproperty int vertex1\nproperty int vertex2\n"
+                           "end_header\n0 0 0\n1 0 0\n0 1 0\n0 1\n2 1\n");
+  expect_bodies_or_reasons("b.csv", "x,y,name\n0,1,a\n1/2,0x1p-3,b\n-1e5,+3,c\n# no more\n");
 }
 
 TEST(DamagedFiles, DomainsOfThePlane) {

@@ -15,10 +15,10 @@ namespace cellwalk {
 ///        coordinates that come out are finite
 /// Cost: about 1.3 us a vertex.
 template <int D>
-Body_soup<D> transformed(Body_soup<D> body, const Placement<D>& placement);
+Body_soup<D> transformed(Body_soup<D> body, const Body_placement<D>& placement);
 
-extern template Body_soup<2> transformed(Body_soup<2>, const Placement<2>&);
-extern template Body_soup<3> transformed(Body_soup<3>, const Placement<3>&);
+extern template Body_soup<2> transformed(Body_soup<2>, const Body_placement<2>&);
+extern template Body_soup<3> transformed(Body_soup<3>, const Body_placement<3>&);
 
 }  // namespace cellwalk
 

@@ -62,6 +62,18 @@ template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                            Walk_counts& counts);
 
+/// The same, but where the segment may pass a wall on either side, all ways are tried until one leads to the side of q.
+/// Cost: that of find_chain if that succeeds; else a walk by exact signs for each way.
+template <int D>
+Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                               Walk_counts& counts);
+
+/// Invariant I2: the chain leads from the cell of p to that of q through passable facets, and the segment passes them in
+/// order. Exact in every position. Cost: that of passes(), and rational arithmetic where that does not tell.
+template <int D>
+bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q, const Chain& chain,
+              Walk_counts& counts);
+
 /// The chain of qp, given that of pq. Cost: a search for each facet among those of its cell.
 template <int D>
 Chain reversed(const Snapshot<D>& snapshot, const Chain& chain);

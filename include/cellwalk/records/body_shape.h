@@ -101,7 +101,7 @@ struct Rotation<3> {
 
 /// Where a body is put: scaled, then rotated, both about the origin, then moved.
 template <int D>
-struct Placement {
+struct Body_placement {
   double scale = 1;
   Rotation<D> rotation{};
   Point<D> position{};  ///< where the origin of the body comes to lie

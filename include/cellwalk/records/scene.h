@@ -58,7 +58,7 @@ struct Guided_motion {
 template <int D>
 struct Body_start {
   Body_source<D> source;
-  Placement<D>
+  Body_placement<D>
       placement{};       ///< of guided bodies at the first way point; the position of random ones is not used
   Vector<D> velocity{};  ///< of a single thrown body
   Spin<D> spin{};

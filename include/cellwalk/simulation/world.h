@@ -20,10 +20,6 @@
 
 namespace cellwalk {
 
-/// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle.
-template <int D>
-bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point);
-
 /// Everything that moves, and what it met. Deterministic: the same scene gives the same bits.
 /// Refers to the snapshot, which must outlive it.
 template <int D>

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies in motion: thrown, or led along a path. Each vertex is drawn to its place in the rigid shape, and walls hold it back.
+#ifndef CELLWALK_SIMULATION_FLIGHT_H
+#define CELLWALK_SIMULATION_FLIGHT_H
+
+#include <cellwalk/body/body.h>
+#include <cellwalk/records/scene.h>
+
+#include <optional>
+#include <vector>
+
+namespace cellwalk {
+
+/// What acts on all bodies of a scene.
+template <int D>
+struct Flight_conditions {
+  double time_step = 0.01;
+  Vector<D> gravity{};
+  double restitution = 1;  ///< share of the speed against a wall that a body keeps, [0,1]
+  double friction = 0;     ///< share of its speed along the wall that it loses, [0,1]
+  Body_options body;
+};
+
+/// A body and how it moves. Its shape is rigid as long as nothing is in the way; a vertex that a wall holds back is drawn to its
+/// place again in the next step.
+template <int D>
+class Flight {
+ public:
+  /// A body thrown from where it stands.
+  Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin);
+  /// A body whose first position is that of the first way point.
+  Flight(Body<D> body, Guided_motion<D> guide);
+
+  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet.
+  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
+            Body_counts& counts);
+
+  Body<D>& body() { return body_; }
+  const Body<D>& body() const { return body_; }
+  const Vector<D>& velocity() const { return velocity_; }
+  /// True once a guided body has been led to the end of its path.
+  bool has_arrived() const { return guide_ && travelled_ >= path_length_; }
+
+ private:
+  Point<D> middle() const;
+  Point<D> on_path() const;
+
+  Body<D> body_;
+  std::vector<Vector<D>> shape_;  ///< from the middle of the vertices
+  Vector<D> velocity_{};
+  Spin<D> spin_{};
+  double angle_ = 0;    ///< turned so far, about the axis of the spin
+  double turning_ = 1;  ///< 1 or -1: the sense in which it turns
+  std::optional<Guided_motion<D>> guide_;
+  double travelled_ = 0, path_length_ = 0;
+  std::vector<Point<D>> targets_;
+};
+
+extern template class Flight<2>;
+extern template class Flight<3>;
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_SIMULATION_FLIGHT_H

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/body/body.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "registration.h"
+
+namespace cellwalk {
+
+Body_counts& Body_counts::operator+=(const Body_counts& other) {
+  moves += other.moves;
+  in_region += other.in_region;
+  regions += other.regions;
+  no_region += other.no_region;
+  catch_ups += other.catch_ups;
+  contacts += other.contacts;
+  stop_tries += other.stop_tries;
+  held += other.held;
+  edges += other.edges;
+  return *this;
+}
+
+template <int D>
+Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
+    : snapshot_(&snapshot), positions_(soup.points), edges_(soup.edges) {
+  detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);
+  particles_ = std::move(registered.particles);
+  chains_ = std::move(registered.chains);
+  link_edges();
+}
+
+template <int D>
+void Body<D>::link_edges() {
+  corner_begin_.assign(positions_.size() + 1, 0);
+  for (const auto& [u, v] : edges_) {
+    ++corner_begin_[u + 1];
+    ++corner_begin_[v + 1];
+  }
+  for (std::size_t v = 0; v < positions_.size(); ++v) corner_begin_[v + 1] += corner_begin_[v];
+  corners_.resize(2 * edges_.size());
+  std::vector<std::uint32_t> next(corner_begin_.begin(), corner_begin_.end() - 1);
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    const auto [u, v] = edges_[e];
+    corners_[next[u]++] = {e, v, false};
+    corners_[next[v]++] = {e, u, true};
+  }
+}
+
+template <int D>
+Chain Body<D>::seen_from(const Corner& corner) const {
+  const Chain& chain = chains_[corner.edge];
+  return corner.is_reversed && !chain.empty() ? reversed(*snapshot_, chain) : chain;
+}
+
+template <int D>
+std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                                    const Body_options& options, Body_counts& counts) {
+  const Particle<D> from = particles_[vertex];
+  Particle<D> to = from;
+  visited_.clear();
+  crossed_.clear();
+  const Walk_result<D> walked =
+      move(*snapshot_, to, target, counts.edges.walk, {Walk_strategy::certified, &visited_, &crossed_});
+  to.position = target;
+  const Way<D> way{from, to, visited_, crossed_, walked.contact.has_value()};
+  std::optional<Body_contact<D>> first;
+  if (walked.contact)
+    first = {vertex_contact(*snapshot_, way, *walked.contact, counts.edges.walk), vertex, vertex};
+  else if (options.sweep.touch == Touch::stop)
+    if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
+      first = {*touch, vertex, vertex};
+
+  moved_chains_.resize(corner_begin_[vertex + 1] - corner_begin_[vertex]);
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
+    const Corner& corner = corners_[i];
+    Sweep_result<D> swept = sweep_edge_along(*snapshot_, way, particles_[corner.other], seen_from(corner),
+                                             options.sweep, counts.edges);
+    if (swept.contact && (!first || is_before(*swept.contact, first->contact))) {
+      const bool is_edge = swept.contact->body == Body_feature::edge;
+      first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
+    }
+    moved_chains_[i - corner_begin_[vertex]] = swept.chain;
+  }
+  if (first) return first;
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
+    const Corner& corner = corners_[i];
+    const Chain& moved = moved_chains_[i - corner_begin_[vertex]];
+    chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
+  }
+  particles_[vertex] = to;
+  positions_[vertex] = target;
+  return {};
+}
+
+template <int D>
+void Body<D>::validate() const {
+  Walk_counts counts;
+  for (std::size_t v = 0; v < particles_.size(); ++v) {
+    const Particle<D>& p = particles_[v];
+    if (p.position == positions_[v] && p.cell != Cell::none && !snapshot_->is_solid(p.cell) &&
+        in_closure(*snapshot_, p.cell, p.position))
+      continue;
+    throw Error(Error_code::other,
+                fmt::format("vertex {} of a body is not in the closure of its cell, at ({})", v,
+                            fmt::join(p.position, ", ")));
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [u, v] = edges_[e];
+    if (is_chain(*snapshot_, particles_[u], particles_[v], chains_[e], counts)) continue;
+    throw Error(Error_code::other,
+                fmt::format("edge {} of a body has no valid chain, from ({}) to ({})", e,
+                            fmt::join(positions_[u], ", "), fmt::join(positions_[v], ", ")));
+  }
+}
+
+template Body<2>::Body(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
+template void Body<2>::link_edges();
+template Chain Body<2>::seen_from(const Corner&) const;
+template std::optional<Body_contact<2>> Body<2>::move_vertex(std::uint32_t, const Point<2>&,
+                                                             const Body_options&, Body_counts&);
+template void Body<2>::validate() const;
+template Body<3>::Body(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
+template void Body<3>::link_edges();
+template Chain Body<3>::seen_from(const Corner&) const;
+template std::optional<Body_contact<3>> Body<3>::move_vertex(std::uint32_t, const Point<3>&,
+                                                             const Body_options&, Body_counts&);
+template void Body<3>::validate() const;
+
+}  // namespace cellwalk

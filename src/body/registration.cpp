@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "registration.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace cellwalk::detail {
+namespace {
+
+template <int D>
+class Registration {
+ public:
+  Registration(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
+      : snapshot_(snapshot), soup_(soup), sides_(soup.points.size()), edges_at_(soup.points.size()) {
+    for (std::uint32_t v = 0; v < soup.points.size(); ++v) sides_[v] = sides(v, locator);
+    for (std::uint32_t e = 0; e < soup.edges.size(); ++e)
+      for (const std::uint32_t v : soup.edges[e]) edges_at_[v].push_back(e);
+  }
+
+  Registered<D> run() {
+    for (std::uint32_t e = 0; e < soup_.edges.size(); ++e) narrow_all(e);
+    // What is left agrees edge by edge. A vertex with a choice takes one side, and its neighbours follow.
+    for (std::uint32_t v = 0; v < sides_.size(); ++v)
+      if (sides_[v].size() > 1) choose(v);
+    Registered<D> result;
+    for (const auto& sides : sides_) result.particles.push_back(sides.front());
+    for (const auto& [u, v] : soup_.edges) {
+      const auto found = find_any_chain(snapshot_, sides_[u].front(), sides_[v].front(), counts_);
+      result.chains.push_back(found.chain);
+    }
+    return result;
+  }
+
+ private:
+  using Sides = std::vector<Particle<D>>;
+
+  std::string place(std::uint32_t v) const { return fmt::format("({})", fmt::join(soup_.points[v], ", ")); }
+
+  /// A particle for each side of the walls at a vertex.
+  Sides sides(std::uint32_t v, const Locator<D>& locator) {
+    const Location<D> location = locator.locate(soup_.points[v]);
+    if (location.status != Location_status::free)
+      throw Error(
+          Error_code::outside,
+          fmt::format(
+              "vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
+              location.status == Location_status::solid ? "in a solid cell" : "outside the environment"));
+    Sides result;
+    for (const Cell cell : location.cells) {
+      const Particle<D> here{soup_.points[v], cell, location.dimension, 0};
+      const auto is_linked = [&](const Particle<D>& other) {
+        return !find_any_chain(snapshot_, other, here, counts_).contact;
+      };
+      if (std::none_of(result.begin(), result.end(), is_linked)) result.push_back(here);
+      if (location.sides <= 1) break;
+    }
+    return result;
+  }
+
+  /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were dropped; none at
+  /// all are left where the edge crosses a wall.
+  bool narrow(std::uint32_t e, std::optional<Wall_contact<D>>& contact) {
+    Sides &of_u = sides_[soup_.edges[e][0]], &of_v = sides_[soup_.edges[e][1]];
+    if (of_u.size() == 1 && of_v.size() == 1 && is_checked_[e]) return false;
+    std::vector<bool> keep_u(of_u.size()), keep_v(of_v.size());
+    for (std::size_t i = 0; i < of_u.size(); ++i)
+      for (std::size_t j = 0; j < of_v.size(); ++j) {
+        const auto found = find_any_chain(snapshot_, of_u[i], of_v[j], counts_);
+        if (found.contact) {
+          if (!contact) contact = found.contact;
+          continue;
+        }
+        keep_u[i] = keep_v[j] = true;
+      }
+    const std::size_t before = of_u.size() + of_v.size();
+    keep(of_u, keep_u);
+    keep(of_v, keep_v);
+    is_checked_[e] = of_u.size() == 1 && of_v.size() == 1;
+    return of_u.size() + of_v.size() < before;
+  }
+
+  static void keep(Sides& sides, const std::vector<bool>& kept) {
+    Sides result;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      if (kept[i]) result.push_back(sides[i]);
+    sides = result;
+  }
+
+  /// Narrows an edge, and all that depend on it. False if an edge has no chain then.
+  bool narrow_from(std::uint32_t first, std::uint32_t& failed, std::optional<Wall_contact<D>>& contact) {
+    std::vector<std::uint32_t> todo{first};
+    while (!todo.empty()) {
+      const std::uint32_t e = todo.back();
+      todo.pop_back();
+      contact.reset();
+      if (!narrow(e, contact)) continue;
+      const auto [u, v] = soup_.edges[e];
+      if (sides_[u].empty() || sides_[v].empty()) {
+        failed = e;
+        return false;
+      }
+      for (const std::uint32_t w : {u, v})
+        for (const std::uint32_t other : edges_at_[w])
+          if (other != e) todo.push_back(other);
+    }
+    return true;
+  }
+
+  void narrow_all(std::uint32_t e) {
+    std::optional<Wall_contact<D>> contact;
+    std::uint32_t failed = e;
+    if (!narrow_from(e, failed, contact)) refuse(failed, *contact);
+  }
+
+  void choose(std::uint32_t v) {
+    const std::vector<Sides> saved = sides_;
+    const std::vector<bool> saved_checks = is_checked_;
+    std::optional<Wall_contact<D>> contact;
+    std::uint32_t failed = 0;
+    for (std::size_t i = 0; i < saved[v].size(); ++i) {
+      sides_[v] = {saved[v][i]};
+      bool is_good = true;
+      for (const std::uint32_t e : edges_at_[v]) is_good = is_good && narrow_from(e, failed, contact);
+      if (is_good) return;
+      sides_ = saved;
+      is_checked_ = saved_checks;
+    }
+    refuse(failed, *contact);
+  }
+
+  [[noreturn]] void refuse(std::uint32_t e, const Wall_contact<D>& contact) const {
+    const auto [u, v] = soup_.edges[e];
+    throw Error(
+        Error_code::outside,
+        fmt::format("edge {} of the body, from vertex {} at {} to vertex {} at {}, crosses a wall at ({}), "
+                    "in cell {}: move the body into free space",
+                    e, u, place(u), v, place(v), fmt::join(contact.point, ", "),
+                    snapshot_.index(contact.cell)));
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Body_soup<D>& soup_;
+  std::vector<Sides> sides_;
+  std::vector<std::vector<std::uint32_t>> edges_at_;
+  std::vector<bool> is_checked_ = std::vector<bool>(soup_.edges.size());
+  Walk_counts counts_;
+};
+
+}  // namespace
+
+template <int D>
+Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator,
+                            const Body_soup<D>& soup) {
+  return Registration<D>(snapshot, locator, soup).run();
+}
+
+template Registered<2> register_body<2>(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
+template Registered<3> register_body<3>(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "stop_candidates.h"
+
+#include <cellwalk/kernel/exact_value.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace cellwalk::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int largest_shift = 1024;  // ulp
+constexpr int shrink_steps = 20;
+
+}  // namespace
+
+template <int D>
+double ulp(const Point<D>& p) {
+  double m = 0;
+  for (const double x : p) m = std::max(m, std::abs(x));
+  return std::nextafter(m, infinity) - m;
+}
+
+template <int D>
+bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,
+               const std::function<bool(const Point<D>&)>& try_at) {
+  const Rational time = to_rational(contact.impact);
+  Point<D> nearer, farther;  // as seen from p
+  for (int k = 0; k < D; ++k) {
+    const Rational from(p[k]);
+    const Rational x = from + time * (Rational(target[k]) - from);
+    const double below = to_time(x).rounded();
+    const double above = Rational(below) == x ? below : std::nextafter(below, infinity);
+    nearer[k] = target[k] >= p[k] ? below : above;
+    farther[k] = target[k] >= p[k] ? above : below;
+  }
+  for (unsigned mask = 0; mask < 1u << D; ++mask) {
+    Point<D> x = nearer;
+    bool is_new = true;
+    for (int k = 0; k < D; ++k)
+      if (mask >> k & 1) {
+        is_new = is_new && farther[k] != nearer[k];
+        x[k] = farther[k];
+      }
+    if (is_new && try_at(x)) return true;
+  }
+  const double unit = ulp<D>(nearer);
+  for (int shift = 1; shift <= largest_shift; shift *= 2) {
+    const Point<D> x = nearer + (shift * unit) * contact.normal;
+    if (is_finite(x) && try_at(x)) return true;
+  }
+  for (int k = shrink_steps; k >= 1; --k) {
+    const Point<D> x = p + contact.time * (1 - std::ldexp(1.0, -k)) * (target - p);
+    if (is_finite(x) && try_at(x)) return true;
+  }
+  return false;
+}
+
+template double ulp<2>(const Point<2>&);
+template double ulp<3>(const Point<3>&);
+template bool try_stops<2>(const Point<2>&, const Point<2>&, const Contact<2>&,
+                           const std::function<bool(const Point<2>&)>&);
+template bool try_stops<3>(const Point<3>&, const Point<3>&, const Contact<3>&,
+                           const std::function<bool(const Point<3>&)>&);
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Double positions just before a contact, in the order in which they are tried.
+#ifndef CELLWALK_BODY_STOP_CANDIDATES_H
+#define CELLWALK_BODY_STOP_CANDIDATES_H
+
+#include <cellwalk/edge/contact.h>
+
+#include <functional>
+
+namespace cellwalk::detail {
+
+/// Offers positions to `try_at` until it returns true: the exact point p(impact) with each coordinate rounded up or down,
+/// towards p first; these points shifted along the normal by 1, 2, 4 .. 1024 ulp of the largest coordinate; then
+/// p(s (1 - 2^-k)) for k = 20 .. 1, s being the time of the contact. False if it never does.
+/// \pre the contact is not at time 0
+template <int D>
+bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,
+               const std::function<bool(const Point<D>&)>& try_at);
+
+/// The distance between doubles of the size of a point's largest coordinate.
+template <int D>
+double ulp(const Point<D>& p);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_STOP_CANDIDATES_H

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes anything, and nothing
+// gets stuck.
+#include <cellwalk/body/generate.h>
+#include <cellwalk/body/transform.h>
+#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/simulation/flight.h>
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <string>
+
+#include "simulation/throws.h"
+#include "simulation/worlds.h"
+
+namespace cellwalk::test {
+namespace {
+
+TEST(Flight, KeepsItsInvariantsInAGrid2) {
+  const Snapshot<2> snapshot = rooms<2>({8, 8}, {18, 21, 42, 45, 28});
+  expect_flights_are_sound<2>(snapshot, generate_body(Polygon_shape{5, 0.4}), 12, 800);
+}
+
+TEST(Flight, KeepsItsInvariantsInAGrid3) {
+  const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {21, 42, 5, 58});
+  expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 200);
+}
+
+TEST(Flight, KeepsItsInvariantsInAVessel) {
+  const Snapshot<3> snapshot = compile(branching_vessel({}));
+  expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 300);
+}
+
+}  // namespace
+}  // namespace cellwalk::test
