@@ -157,6 +157,19 @@ TEST_F(Query_sweep, AStartOnAWallBelongsToTheSideThatGetsFurthest) {
   }
 }
 
+TEST_F(Query_sweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
+  // A membrane from (2,0) to (2,1), and edges in its line.
+  succeed({"generate", "squares", "--cells", "4", "-o", "env.ovm"});
+  write("env.ovm", Ovm_text(text("env.ovm")).separate(1, 2).text());
+  const auto rows = query(std::string(plane) +
+                          "2,1.5,1.5,1.5,2,0.5\n"
+                          "2,1.5,2.5,1.5,2,0.5\n"
+                          "2,0.5,1.5,0.5,2,1.5\n"
+                          "2,0.5,2.5,0.5,2,1.5\n");
+  ASSERT_EQ(rows.size(), 4u);
+  for (const Row& r : rows) EXPECT_EQ(r[status], "free") << r[row];
+}
+
 /// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of them short.
 std::string random_motions(int count, int size) {
   std::mt19937_64 random(11);
