@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table exactly.
+// cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table, of points or of edges, exactly.
 #include <cellwalk/io/query_file.h>
-#include <cellwalk/walk/walk.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -15,16 +14,18 @@
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
-#include "cli/query_answers.h"
+#include "cli/query_moves.h"
+#include "cli/query_sweeps.h"
 
 namespace cellwalk::cli {
 namespace {
 
-enum class Query_mode { move };
+enum class Query_mode { move, sweep };
 struct Query_options {
   std::string environment, queries, output, json;
   Query_mode mode = Query_mode::move;
-  Kernel_choice kernel = Kernel_choice::exact;
+  Move_options move;
+  Sweep_options sweep;                    // its `touch` holds for moves too
   std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
   int threads = 0;
   Build_options build{.keep_map = false};
@@ -45,14 +46,30 @@ nlohmann::ordered_json to_json(const Walk_counts& c) {
           {"exact_fallbacks", c.predicates.fallbacks}};
 }
 
-template <int D>
-void query_environment(const Query_options& options, Walk_strategy strategy,
-                       const Environment<D>& environment) {
-  const std::vector<Move_query<D>> motions = io::read_moves<D>(options.queries);
-  Walk_counts counts;
-  const auto answers = answer_motions(environment.snapshot(), motions, options.kernel, strategy, counts);
-  write_answers(options.output, environment.snapshot(), motions, answers);
+nlohmann::ordered_json to_json(const Edge_counts& c) {
+  return {{"edges", c.edges},
+          {"same_cell", c.same_cell},
+          {"convex_pair", c.convex_pair},
+          {"same_chain", c.same_chain},
+          {"chain_facets", c.chain_facets},
+          {"changed", c.changed},
+          {"event_sweeps", c.event_sweeps},
+          {"floods", c.floods},
+          {"flooded_cells", c.flooded_cells},
+          {"clear", c.clear},
+          {"searches", c.searches},
+          {"search_sweeps", c.search_sweeps},
+          {"search_walls", c.search_walls},
+          {"search_misses", c.search_misses},
+          {"walk", to_json(c.walk)}};
+}
 
+/// Writes the answers and says how many there are of each status.
+template <int D, std::size_t N>
+void report(const Query_options& options, const Snapshot<D>& snapshot,
+            const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
+            const nlohmann::ordered_json& counts) {
+  write_answers(options.output, snapshot, rows, answers);
   std::array<std::size_t, std::size(status_names)> tally{};
   for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
   nlohmann::ordered_json by_status;
@@ -61,67 +78,153 @@ void query_environment(const Query_options& options, Walk_strategy strategy,
     by_status[status_names[s]] = tally[s];
     if (tally[s] != 0) line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], status_names[s]);
   }
-  write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", to_json(counts)}});
+  write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
   fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
   const auto invalid =
-      std::find_if(motions.begin(), motions.end(), [](const auto& m) { return !m.invalid.empty(); });
-  if (invalid != motions.end())
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
+  if (invalid != rows.end())
     fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, invalid->line,
                invalid->invalid, tally[static_cast<std::size_t>(Status::invalid)]);
 }
 
-void query(const Query_options& options) {
-  const bool has_certificates = options.kernel == Kernel_choice::exact;
-  if (options.strategy == Walk_strategy::certified && !has_certificates)
-    throw Error(Error_code::usage,
-                "--strategy certified needs --kernel exact; take exit_rule or predictive_simplex");
-  const Walk_strategy strategy =
-      options.strategy.value_or(has_certificates ? Walk_strategy::certified : Walk_strategy::exit_rule);
+template <int D>
+void query_environment(const Query_options& options, const Environment<D>& environment) {
+  const Snapshot<D>& snapshot = environment.snapshot();
+  Edge_counts counts;
+  if (options.mode == Query_mode::move) {
+    const auto moves = io::read_moves<D>(options.queries);
+    const auto answers = answer_moves(snapshot, moves, options.move, counts);
+    report(options, snapshot, moves, answers, to_json(counts.walk));
+  } else {
+    const auto sweeps = io::read_sweeps<D>(options.queries);
+    const auto answers = answer_sweeps(snapshot, sweeps, options.sweep, counts);
+    report(options, snapshot, sweeps, answers, to_json(counts));
+  }
+}
+
+/// Options that say nothing where others are as they are, or that contradict them, are mistakes.
+void refuse_misfits(const Query_options& options, const CLI::App& command) {
+  const auto need = [&command](std::initializer_list<const char*> names, const char* condition) {
+    for (const char* name : names)
+      if (command.count(name) != 0)
+        throw Error(Error_code::usage,
+                    fmt::format("{} needs {}; see cellwalk query --help", name, condition));
+  };
+  const bool is_exact = options.move.kernel == Kernel_choice::exact;
+  if (options.mode == Query_mode::move) {
+    need({"--sweep", "--contact", "--tolerance", "--search-cells"}, "--mode sweep");
+    if (options.strategy == Walk_strategy::certified && !is_exact)
+      throw Error(Error_code::usage,
+                  "--strategy certified needs --kernel exact; take exit_rule or predictive_simplex");
+    if (options.sweep.touch == Touch::stop && !is_exact)
+      throw Error(Error_code::usage, "--touch stop needs --kernel exact: touches are found exactly only");
+    return;
+  }
+  need({"--strategy"}, "--mode move");
+  if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
+  if (options.sweep.search != Contact_search::dichotomic) need({"--tolerance"}, "--contact dichotomic");
+  if (options.sweep.search != Contact_search::exhaustive) need({"--search-cells"}, "--contact exhaustive");
+}
+
+void query(Query_options& options, const CLI::App& command) {
+  refuse_misfits(options, command);
+  options.move.strategy = options.strategy.value_or(
+      options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
+  options.move.touch = options.sweep.touch;
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const Loaded_environment loaded = load_environment(options.environment, options.build);
-  std::visit([&](const auto& environment) { query_environment(options, strategy, environment); },
-             loaded.environment);
+  std::visit([&](const auto& environment) { query_environment(options, environment); }, loaded.environment);
+}
+
+void add_move_options(CLI::App& command, Query_options& options) {
+  constexpr const char* group = "With --mode move";
+  add_choice(command, "--kernel", options.move.kernel,
+             {{"exact", Kernel_choice::exact},
+              {"lazy", Kernel_choice::lazy},
+              {"double", Kernel_choice::double_precision},
+              {"float", Kernel_choice::float_precision}},
+             "Number policy; double and float may miss walls and are for experiments")
+      ->group(group);
+  add_choice(command, "--strategy", options.strategy,
+             {{"certified", std::optional(Walk_strategy::certified)},
+              {"exit_rule", std::optional(Walk_strategy::exit_rule)},
+              {"predictive_simplex", std::optional(Walk_strategy::predictive_simplex)}},
+             "How the exit of a cell is found (default: certified, with other kernels exit_rule)")
+      ->group(group);
+}
+
+void add_sweep_options(CLI::App& command, Sweep_options& options) {
+  constexpr const char* group = "With --mode sweep";
+  add_choice(
+      command, "--sweep", options.sweep,
+      {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}},
+      "What is checked. three_segments: the way of p, then the edge, as in the paper; misses what fits "
+      "between. "
+      "triangle: all that the edge sweeps. faces: the same here, since an edge has no face")
+      ->group(group);
+  add_choice(
+      command, "--contact", options.search,
+      {{"exact", Contact_search::exact},
+       {"dichotomic", Contact_search::dichotomic},
+       {"exhaustive", Contact_search::exhaustive}},
+      "How a contact of the edge is located. exact: where the motion cannot go on. dichotomic: by bisection. "
+      "exhaustive: the first obstacle vertex (2D) or edge (3D) in the swept triangle")
+      ->group(group);
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "With --contact dichotomic: the time is at most this much too early; in (0,1]")
+      ->check([](const std::string& text) {
+        double value = 0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1;
+        return fits ? std::string{} : "takes a number in (0,1], not " + text;
+      })
+      ->type_name("T")
+      ->default_str("2^-20")
+      ->group(group);
+  add_choice(
+      command, "--search-cells", options.cells,
+      {{"flooded", Search_cells::flooded}, {"traversed", Search_cells::traversed}},
+      "With --contact exhaustive: the obstacles of which cells are looked at. flooded: those that the swept "
+      "triangle meets. traversed: those that the edge passes at its end, as in the paper")
+      ->group(group);
 }
 
 }  // namespace
 
 void add_query(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<Query_options>();
-  CLI::App* command =
-      app.add_subcommand("query", "Answer every motion of a table exactly: free, or a contact");
+  CLI::App* command = app.add_subcommand(
+      "query", "Answer every motion of a table, of points or of edges, exactly: free, or a contact");
   command->add_option("environment", options->environment, "A certified environment")
       ->required()
       ->type_name("ENV");
   command
       ->add_option(
           "queries", options->queries,
-          "A table with the columns ax,ay,az,bx,by,bz (from a to b; without z in 2D). Numbers are decimal, "
+          "A table with a motion in each row; --mode says which columns it has. Numbers are decimal, "
           "hexadecimal, or fractions n/d that are exactly a double")
       ->required()
       ->type_name("QUERIES.csv");
   command->add_option("-o,--output", options->output, "The answers, a row each")
       ->required()
       ->type_name("OUT.csv");
-  add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}}, "What a row means");
-  add_choice(*command, "--kernel", options->kernel,
-             {{"exact", Kernel_choice::exact},
-              {"lazy", Kernel_choice::lazy},
-              {"double", Kernel_choice::double_precision},
-              {"float", Kernel_choice::float_precision}},
-             "Number policy; double and float may miss walls and are for experiments");
-  add_choice(*command, "--strategy", options->strategy,
-             {{"certified", std::optional(Walk_strategy::certified)},
-              {"exit_rule", std::optional(Walk_strategy::exit_rule)},
-              {"predictive_simplex", std::optional(Walk_strategy::predictive_simplex)}},
-             "How the exit of a cell is found (default: certified, with other kernels exit_rule)");
+  add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}, {"sweep", Query_mode::sweep}},
+             "What moves. move: a point from a to b, columns ax,ay,az,bx,by,bz. sweep: an edge, its end p to "
+             "t while "
+             "its end q stands still, columns px,py,pz,tx,ty,tz,qx,qy,qz. Without z in 2D");
+  add_choice(*command, "--touch", options->sweep.touch, {{"pass", Touch::pass}, {"stop", Touch::stop}},
+             "Whether a motion may touch a wall that it does not cross, or stops there");
   command->add_option("--threads", options->threads, "Threads; 0: all. The answers do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
-  command->callback([options, &chosen] { chosen = [options] { query(*options); }; });
+  add_move_options(*command, *options);
+  add_sweep_options(*command, options->sweep);
+  command->callback(
+      [options, command, &chosen] { chosen = [options, command] { query(*options, *command); }; });
 }
 
 }  // namespace cellwalk::cli

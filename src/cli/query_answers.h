@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The answers to a table of motions: what `cellwalk query` computes, and the table it writes.
+// The answers to a table of motions, whatever moves: what they hold, and the table `cellwalk query` writes of them.
 #ifndef CELLWALK_CLI_QUERY_ANSWERS_H
 #define CELLWALK_CLI_QUERY_ANSWERS_H
 
+#include <cellwalk/edge/contact.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/records/queries.h>
-#include <cellwalk/walk/walk.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace cellwalk::cli {
+#include "cli/progress.h"
 
-enum class Kernel_choice { exact, lazy, double_precision, float_precision };
+namespace cellwalk::cli {
 
 enum class Status : std::uint8_t {
   free,     ///< the motion arrives
   contact,  ///< a wall blocks it
-  outside,  ///< it does not start in free space
+  outside,  ///< it does not start in free space, or across a wall
   invalid,  ///< its row cannot be used
   lost      ///< inexact kernels only: the walk found no way on
 };
@@ -27,21 +33,39 @@ inline constexpr const char* status_names[] = {"free", "contact", "outside", "in
 template <int D>
 struct Answer {
   Status status = Status::invalid;
-  Walk_result<D> walk;  ///< unless outside or invalid
+  std::uint32_t cells = 0;  ///< visited by the point that moves
+  Cell cell = Cell::none;   ///< in which the motion ends, or its contact is; none if outside or invalid
+  std::optional<Contact<D>> contact;  ///< if status is contact
 };
 
-/// Answers every motion, in parallel; the answers do not depend on the number of threads.
-/// A start on a wall with free space on several sides belongs to any of them: the side on which the motion gets furthest
-/// is taken, the cell of lowest index first.
-template <int D>
-std::vector<Answer<D>> answer_motions(const Snapshot<D>& snapshot, const std::vector<Move_query<D>>& motions,
-                                      Kernel_choice kernel, Walk_strategy strategy, Walk_counts& counts);
+/// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on the number of
+/// threads.
+template <class Counts, int D, std::size_t N, class Answer_row>
+std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Counts& total,
+                                   Answer_row answer) {
+  constexpr std::size_t batch = 1 << 16;  // rows between two looks at the progress bar
+  std::vector<Answer<D>> answers(rows.size());
+  tbb::enumerable_thread_specific<Counts> counts;
+  Progress progress(label, rows.size());
+  for (std::size_t begin = 0; begin < rows.size(); begin += batch) {
+    const std::size_t end = std::min(begin + batch, rows.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        if (rows[i].invalid.empty()) answers[i] = answer(rows[i], counts.local());
+    });
+    progress.update(end);
+  }
+  for (const Counts& c : counts) total += c;
+  return answers;
+}
 
-/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell. Rows and cells count from 0; cells are
-/// those of the file; what does not apply is empty. \throw Error(other) where it cannot be written
-template <int D>
+/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three points, with
+/// `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not apply is empty. A free motion
+/// ends at the second point of its row.
+/// \throw Error(other) where it cannot be written
+template <int D, std::size_t N>
 void write_answers(const std::string& path, const Snapshot<D>& snapshot,
-                   const std::vector<Move_query<D>>& motions, const std::vector<Answer<D>>& answers);
+                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers);
 
 }  // namespace cellwalk::cli
 

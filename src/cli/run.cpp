@@ -17,6 +17,7 @@
 #include "cli/environment_file.h"
 #include "cli/generators.h"
 #include "cli/interruption.h"
+#include "cli/kind_names.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/run_files.h"

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "cli/kind_names.h"
+
 namespace cellwalk::cli {
 namespace {
 

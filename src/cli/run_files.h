@@ -15,8 +15,6 @@
 
 namespace cellwalk::cli {
 
-inline constexpr const char* kind_names[] = {"vertex", "edge", "facet"};
-
 /// Written along with the run, step by step.
 template <int D>
 class Run_files {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/meshes.h"
-#include "cli/program.h"
+#include "cli/query_table.h"
 
 namespace cellwalk::test {
 namespace {
@@ -14,39 +14,10 @@ namespace {
 /// Columns of the answers.
 enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
 
-class Query : public Program {
+class Query : public Query_table {
  protected:
-  using Row = std::vector<std::string>;
-
-  /// Runs the query `queries.csv` on `env.ovm` and returns the rows of answers.
-  std::vector<Row> query(const std::string& queries, const std::vector<std::string>& options = {}) const {
-    write("queries.csv", queries);
-    std::vector<std::string> arguments{"query", "env.ovm", "queries.csv", "-o", "out.csv"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    said_ = outcome.out;
-    warned_ = outcome.err;
-    auto rows = read_table(path("out.csv"));
-    const Row header{"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"};
-    EXPECT_EQ(rows.at(0), header);
-    rows.erase(rows.begin());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_EQ(rows[i].size(), header.size());
-      EXPECT_EQ(rows[i].at(row), std::to_string(i));
-    }
-    return rows;
-  }
-
-  void expect_refused(int exit_code, const std::string& queries, const std::vector<std::string>& texts,
-                      const std::vector<std::string>& options = {}) const {
-    write("queries.csv", queries);
-    std::vector<std::string> arguments{"query", "env.ovm", "queries.csv", "-o", "out.csv"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    expect_failure(exit_code, arguments, texts);
-  }
-
-  mutable std::string said_, warned_;  // by the last query
+  Query()
+      : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {}
 };
 
 constexpr const char* header = "ax,ay,az,bx,by,bz\n";

@@ -36,8 +36,8 @@ TEST_F(Usage, MistakesEndWithExitCode2AndOneLine) {
 }
 
 TEST_F(Usage, ModesThatDoNotExistAreRefused) {
-  expect_failure(2, {"query", "a.ovm", "q.csv", "-o", "out.csv", "--mode", "sweep"},
-                 {"--mode", "takes move"});
+  expect_failure(2, {"query", "a.ovm", "q.csv", "-o", "out.csv", "--mode", "fly"},
+                 {"--mode", "takes move|sweep"});
 }
 
 TEST_F(Usage, ReportsThatCannotBeWrittenAreErrors) {

@@ -89,6 +89,21 @@ TEST(Queries, TheDimensionMustFit) {
   EXPECT_TRUE(read_moves<3>(space).empty());
 }
 
+TEST(Queries, SweepsHaveAnEndThatMovesAndOneThatStands) {
+  const Folder folder;
+  const auto plane = folder.write("p.csv", "qx,qy,px,py,tx,ty\n5,6,1,2,3,4\n");
+  const auto rows = read_sweeps<2>(plane);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].points, (std::array<Point<2>, 3>{{{1, 2}, {3, 4}, {5, 6}}}));
+  EXPECT_EQ(refusal([&] { read_sweeps<3>(plane); }),
+            plane.string() + ": has no column 'pz': its header names qx,qy,px,py,tx,ty");
+  EXPECT_EQ(refusal([&] { read_moves<2>(plane); }),
+            plane.string() + ": has no column 'ax': its header names qx,qy,px,py,tx,ty");
+  const auto mixed = folder.write("m.csv", "px,py,tx,ty,qx,qy,qz\n1,2,3,4,5,6,7\n");
+  EXPECT_EQ(refusal([&] { read_sweeps<2>(mixed); }),
+            mixed.string() + ": has a column 'qz', and the environment is one of the plane: leave z out");
+}
+
 TEST(Json, IsWrittenInOrder) {
   const Folder folder;
   nlohmann::ordered_json value;

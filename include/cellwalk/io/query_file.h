@@ -27,6 +27,13 @@ std::vector<Move_query<D>> read_moves(const std::filesystem::path& path) {
   return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
 }
 
+/// Motions of edges: columns px,py,pz,tx,ty,tz,qx,qy,qz (in the plane without z); p moves to t, q stands still.
+/// \throw Error(input)
+template <int D>
+std::vector<Sweep_query<D>> read_sweeps(const std::filesystem::path& path) {
+  return query_rows<D, 3>(Csv_table::read(path), {"p", "t", "q"});
+}
+
 extern template std::vector<Query_row<2, 1>> query_rows(const Csv_table&,
                                                         const std::array<std::string_view, 1>&);
 extern template std::vector<Query_row<3, 1>> query_rows(const Csv_table&,

@@ -23,6 +23,10 @@ struct Query_row {
 template <int D>
 using Move_query = Query_row<D, 2>;
 
+/// A motion of an edge: one end from points[0] to points[1], the other at points[2].
+template <int D>
+using Sweep_query = Query_row<D, 3>;
+
 }  // namespace cellwalk
 
 #endif  // CELLWALK_RECORDS_QUERIES_H

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What tables and reports call the features of an environment.
+#ifndef CELLWALK_CLI_KIND_NAMES_H
+#define CELLWALK_CLI_KIND_NAMES_H
+
+namespace cellwalk::cli {
+
+/// By Contact_kind.
+inline constexpr const char* kind_names[] = {"vertex", "edge", "facet"};
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_KIND_NAMES_H

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cli/query_sweeps.h"
+
+#include <cellwalk/walk/locate.h>
+
+#include <algorithm>
+#include <list>
+
+namespace cellwalk::cli {
+namespace {
+
+/// An edge before it moves.
+template <int D>
+struct Start {
+  Particle<D> p, q;
+  Chain chain;
+};
+
+/// A particle for each side of a point, in the first cell of that side; none outside free space.
+template <int D>
+std::vector<Particle<D>> particles_at(const Snapshot<D>& snapshot, const Locator<D>& locator,
+                                      const Point<D>& x, Walk_counts& counts) {
+  const Location<D> location = locator.locate(x);
+  std::vector<Particle<D>> particles;
+  for (const Cell cell : location.cells) {
+    if (particles.size() == static_cast<std::size_t>(location.sides)) break;
+    const Particle<D> particle{x, cell, location.dimension, 0};
+    // Cells are linked at a point if a segment of no length has a chain from one to the other.
+    const auto is_linked = [&](const Particle<D>& other) {
+      return !find_chain(snapshot, other, particle, counts).contact;
+    };
+    if (std::none_of(particles.begin(), particles.end(), is_linked)) particles.push_back(particle);
+  }
+  return particles;
+}
+
+/// False if the edge crosses a wall.
+template <int D>
+bool find_start_chain(const Snapshot<D>& snapshot, Start<D>& start, Walk_counts& counts) {
+  const Chain_result<D> there = find_chain(snapshot, start.p, start.q, counts);
+  if (!there.contact) {
+    start.chain = there.chain;
+    return true;
+  }
+  // A walk past the rim of a wall takes one side of it; one that starts on the wall has no choice.
+  const Chain_result<D> back = find_chain(snapshot, start.q, start.p, counts);
+  if (!back.contact) start.chain = reversed(snapshot, back.chain);
+  return !back.contact;
+}
+
+/// The starts of an edge that crosses no wall.
+template <int D>
+std::list<Start<D>> starts(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& p_at,
+                           const Point<D>& q_at, Walk_counts& counts) {
+  const auto all_p = particles_at(snapshot, locator, p_at, counts);
+  const auto all_q = particles_at(snapshot, locator, q_at, counts);
+  std::list<Start<D>> found;
+  for (const Particle<D>& p : all_p)
+    for (const Particle<D>& q : all_q) {
+      Start<D> start{p, q, {}};
+      if (find_start_chain(snapshot, start, counts)) found.push_back(start);
+    }
+  return found;
+}
+
+template <int D>
+Answer<D> to_answer(const Sweep_result<D>& result) {
+  if (result.contact) return {Status::contact, result.cells, result.contact->cell, result.contact};
+  return {Status::free, result.cells, result.p.cell, {}};
+}
+
+template <int D>
+Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Sweep_query<D>& row,
+                 const Sweep_options& options, Edge_counts& counts) {
+  const auto& [p, target, q] = row.points;
+  const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {
+    return to_answer(sweep_edge(snapshot, start.p, target, start.q, start.chain, chosen, counts));
+  };
+  const std::list<Start<D>> all = starts(snapshot, locator, p, q, counts.walk);
+  Answer<D> best;
+  best.status = Status::outside;
+  if (all.empty()) return best;
+  if (all.size() == 1) return sweep(all.front(), options);
+
+  Sweep_options exact = options;
+  exact.search = Contact_search::exact;
+  const Start<D>* best_start = nullptr;
+  for (const Start<D>& start : all) {
+    const Answer<D> result = sweep(start, exact);
+    if (best_start && result.contact && result.contact->impact <= best.contact->impact) continue;
+    best = result;
+    best_start = &start;
+    if (best.status == Status::free) return best;
+  }
+  return options.search == Contact_search::exact ? best : sweep(*best_start, options);
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Answer<D>> answer_sweeps(const Snapshot<D>& snapshot, const std::vector<Sweep_query<D>>& sweeps,
+                                     const Sweep_options& options, Edge_counts& counts) {
+  const Locator<D> locator(snapshot);
+  return answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& row, Edge_counts& local) {
+    return answer(snapshot, locator, row, options, local);
+  });
+}
+
+template std::vector<Answer<2>> answer_sweeps(const Snapshot<2>&, const std::vector<Sweep_query<2>>&,
+                                              const Sweep_options&, Edge_counts&);
+template std::vector<Answer<3>> answer_sweeps(const Snapshot<3>&, const std::vector<Sweep_query<3>>&,
+                                              const Sweep_options&, Edge_counts&);
+
+}  // namespace cellwalk::cli
