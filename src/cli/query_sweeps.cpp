@@ -37,15 +37,9 @@ std::vector<Particle<D>> particles_at(const Snapshot<D>& snapshot, const Locator
 /// False if the edge crosses a wall.
 template <int D>
 bool find_start_chain(const Snapshot<D>& snapshot, Start<D>& start, Walk_counts& counts) {
-  const Chain_result<D> there = find_chain(snapshot, start.p, start.q, counts);
-  if (!there.contact) {
-    start.chain = there.chain;
-    return true;
-  }
-  // A walk past the rim of a wall takes one side of it; one that starts on the wall has no choice.
-  const Chain_result<D> back = find_chain(snapshot, start.q, start.p, counts);
-  if (!back.contact) start.chain = reversed(snapshot, back.chain);
-  return !back.contact;
+  const Chain_result<D> found = find_any_chain(snapshot, start.p, start.q, counts);
+  start.chain = found.chain;
+  return !found.contact;
 }
 
 /// The starts of an edge that crosses no wall.

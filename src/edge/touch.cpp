@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "touch.h"
 
+#include <cellwalk/walk/detail/signs.h>
+
 #include <limits>
 #include <vector>
 
@@ -8,6 +10,31 @@
 #include "swept_meeting.h"
 
 namespace cellwalk::detail {
+namespace {
+
+/// True if the edge comes from the side of a wall that a contact names.
+template <int D>
+bool is_faced(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
+              Walk_counts& counts) {
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
+  const std::size_t i = snapshot.facet_of(contact.facet);
+  const int of_a = side<Exact>(cell, i, triangle.a, counts);
+  return (of_a != 0 ? of_a : side<Exact>(cell, i, triangle.q, counts)) <= 0;
+}
+
+/// The order of contacts; but of two sides of a wall, or several walls at one place, one from whose side the edge comes. A
+/// triangle may reach round a rim, so that both sides are met.
+template <int D>
+bool is_preferred(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
+                  const Contact<D>& other, Walk_counts& counts) {
+  if (contact.impact == other.impact && contact.body == other.body && contact.kind == other.kind) {
+    const bool is_first = is_faced(snapshot, triangle, contact, counts);
+    if (is_first != is_faced(snapshot, triangle, other, counts)) return is_first;
+  }
+  return is_before(contact, other);
+}
+
+}  // namespace
 
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
@@ -19,7 +46,7 @@ std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
     const auto meeting = first_meeting<D>(triangle, half_spaces(cell, snapshot.facet_of(wall)));
     if (!meeting) return true;
     const Contact<D> contact = contact_with(snapshot, triangle, wall, *meeting);
-    if (!first || is_before(contact, *first)) first = contact;
+    if (!first || is_preferred(snapshot, triangle, contact, *first, counts.walk)) first = contact;
     return true;
   };
   Flooded cells;
