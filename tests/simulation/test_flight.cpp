@@ -2,18 +2,11 @@
 // Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes anything, and nothing
 // gets stuck.
 #include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
 #include <cellwalk/environment/generate/vessel.h>
-#include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/flight.h>
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-#include <string>
-
-#include "simulation/throws.h"
+#include "simulation/long_flight.h"
 #include "simulation/worlds.h"
 
 namespace cellwalk::test {
@@ -33,6 +26,8 @@ TEST(Flight, KeepsItsInvariantsInAVessel) {
   const Snapshot<3> snapshot = compile(branching_vessel({}));
   expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 300);
 }
+
+TEST(LongFlight, InAVessel) { expect_long_flights_are_sound(compile(branching_vessel({})), 0.5, 150'000); }
 
 }  // namespace
 }  // namespace cellwalk::test
