@@ -7,6 +7,7 @@
 
 #include "confirm.h"
 #include "equal_chains.h"
+#include "exit_time.h"
 #include "moving_walk.h"
 
 namespace cellwalk {
@@ -80,17 +81,8 @@ class Events {
     }
   }
 
-  /// When p leaves a cell: it passes the plane of the first facet that has its target outside.
   Rational exit_time(Cell c) const {
-    const Cell_view<D> cell = snapshot_.view(c);
-    std::optional<Rational> first;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (detail::side<Exact>(cell, i, triangle_.b, counts_) <= 0) continue;
-      const Rational at_a = detail::side<Exact_value>(cell, i, triangle_.a, counts_);
-      const Rational time = at_a / (at_a - detail::side<Exact_value>(cell, i, triangle_.b, counts_));
-      if (!first || time < *first) first = time;
-    }
-    return *first;
+    return detail::exit_time<D>(snapshot_.view(c), triangle_.a, triangle_.b, counts_);
   }
 
   detail::Rational_point<D> moved(const Rational& time) const {
