@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The sweep of a body face: walls that come through it without crossing its edges. 3D. Theory: docs/sweep.md, faces.
-// Paper: figure 6, the case that it leaves open.
+// Paper: figure 6, the case that it leaves open. Includes CGAL; users link CGAL::CGAL.
 #ifndef CELLWALK_EDGE_FACE_H
 #define CELLWALK_EDGE_FACE_H
 
