@@ -2,7 +2,6 @@
 #include "chain_side.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace cellwalk::detail {
 namespace {
@@ -23,10 +22,11 @@ Cell cell_at(const Snapshot<3>& snapshot, const Rational_segment<3>& segment, Ce
   return cell;
 }
 
-/// All cells linked at a point of the segment with one that holds it.
-std::vector<Cell> linked(const Snapshot<3>& snapshot, const Rational_segment<3>& segment, Cell cell,
-                         const Rational& t) {
-  std::vector<Cell> found{cell};
+}  // namespace
+
+std::vector<Cell> linked_cells(const Snapshot<3>& snapshot, const Rational_segment<3>& segment, Cell start,
+                               const Chain& chain, const Rational& t) {
+  std::vector<Cell> found{cell_at(snapshot, segment, start, chain, t)};
   for (std::size_t head = 0; head < found.size(); ++head) {
     const Cell c = found[head];
     for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
@@ -41,14 +41,12 @@ std::vector<Cell> linked(const Snapshot<3>& snapshot, const Rational_segment<3>&
   return found;
 }
 
-}  // namespace
-
 std::optional<Half_facet> passed_side(const Snapshot<3>& snapshot, const Rational_segment<3>& segment,
                                       Cell start, const Chain& chain, Half_facet wall) {
   const std::optional<Span> met = span_in(snapshot, segment, wall);
   if (!met) return {};
   const Rational t = (met->low + met->high) / 2;
-  const std::vector<Cell> cells = linked(snapshot, segment, cell_at(snapshot, segment, start, chain, t), t);
+  const std::vector<Cell> cells = linked_cells(snapshot, segment, start, chain, t);
   const auto is_linked = [&](Half_facet f) {
     return f != Half_facet::none && std::find(cells.begin(), cells.end(), snapshot.cell_of(f)) != cells.end();
   };

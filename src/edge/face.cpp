@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "borders.h"
 #include "exit_time.h"
 #include "find_rests.h"
 #include "near_walls.h"
@@ -93,6 +94,19 @@ class Face_sweep {
   Half_facet wall_ = Half_facet::none;
 };
 
+/// The contact of a face of which an edge lies on the other side of a wall.
+Face_contact astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
+  Face_contact contact;
+  contact.exact_time = 0;
+  contact.point = start;
+  contact.body = Contact_kind::edge;
+  contact.is_edge_astray = true;
+  contact.facet = wall;
+  contact.cell = snapshot.cell_of(wall);
+  contact.normal = detail::inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
+  return contact;
+}
+
 /// Rests of a face that moved in its plane, or was put there.
 Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                            const Particle<3>& r, const Face_chains& chains, const Near_walls& near,
@@ -127,21 +141,29 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
     return {};
   }
   counts.walls += near.walls.size();
-  if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
-    if (way.blocked) return {};
-    ++counts.flat;
-    return {standing(snapshot, way.to, q, r, chains, near, rests, counts).rests, {}};
-  }
-  Face_sweep sweep(snapshot, corners, counts);
+  const bool is_made = !way.blocked && chains.are_complete();
   Face_result result;
-  result.contact = sweep.first_contact(near, rests);
-  if (!result.contact && !way.blocked) result.rests = sweep.rests_at_end(near);
-  if (result.contact && way.blocked) {
-    const Rational end =
-        detail::exit_time<3>(snapshot.view(way.visited.back()), corners[0], corners[1], counts.walk);
-    if (result.contact->exact_time >= end) result.contact.reset();
+  if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
+    if (!is_made) return result;
+    ++counts.flat;
+    result.rests = standing(snapshot, way.to, q, r, chains, near, rests, counts).rests;
+  } else {
+    Face_sweep sweep(snapshot, corners, counts);
+    result.contact = sweep.first_contact(near, rests);
+    if (result.contact && way.blocked) {
+      const Cell last = way.visited.back();
+      if (result.contact->exact_time >=
+          detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk))
+        result.contact.reset();
+    }
+    if (result.contact || !is_made) return result;
+    result.rests = sweep.rests_at_end(near);
   }
-  return result;
+  if (are_collinear(corners[1], corners[2], corners[3])) return result;
+  const Half_facet wall = detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near,
+                                                 result.rests, counts.walk);
+  if (wall == Half_facet::none) return result;
+  return {{}, astray(snapshot, wall, corners[0])};
 }
 
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
@@ -161,6 +183,9 @@ Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& 
   for (const Half_facet wall : near.walls)
     if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
       result.piercing = wall;
+  if (result.piercing == Half_facet::none)
+    result.piercing =
+        detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), near, result.rests, counts.walk);
   return result;
 }
 

@@ -160,6 +160,13 @@ Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, c
     return Events<D>(snapshot, way, q, counts.walk).run(before);
   }
   Chain_result<D> result;
+  if (triangle.a == triangle.b) {
+    // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
+    ++counts.edges;
+    ++counts.same_chain;
+    result.chain = before;
+    return result;
+  }
   if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, result, counts)) return result;
   ++counts.changed;
   if (are_collinear(triangle.a, triangle.b, triangle.q)) {

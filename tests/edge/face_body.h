@@ -62,8 +62,10 @@ class Face_body {
       next = to_next.chain;
       last = to_last.chain;
     }
-    outcome.face = sweep_face(snapshot_, way, corners_[j], corners_[i], rests_,
-                              {{&next}, {&chains_[j]}, {&last, true}}, counts);
+    const bool is_free = !outcome.vertex && !outcome.edge;
+    outcome.face =
+        sweep_face(snapshot_, way, corners_[j], corners_[i], rests_,
+                   {{is_free ? &next : nullptr}, {&chains_[j]}, {is_free ? &last : nullptr, true}}, counts);
     if (outcome.is_made()) {
       corners_[k] = p;
       chains_[k] = next;

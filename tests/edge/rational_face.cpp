@@ -27,6 +27,7 @@ Vec cross(const Vec& a, const Vec& b) {
 Vec on(const Vec& a, const Vec& b, const Fraction& t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
+Fraction root_of(const Fraction& at_0, const Fraction& at_1) { return at_0 / (at_0 - at_1); }
 bool is_zero(const Vec& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 Fraction volume(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
   return dot(cross(minus(b, a), minus(c, a)), minus(d, a));
@@ -50,7 +51,7 @@ bool holds_part(const Polygon& polygon, const Vec& n, const Vec& u, const Vec& v
     const Vec inward = cross(n, minus(polygon[(i + 1) % polygon.size()], c));
     const Fraction at_u = dot(inward, minus(u, c)), at_v = dot(inward, minus(v, c));
     if (at_u <= 0 && at_v <= 0) return false;
-    const Fraction root = at_u == at_v ? Fraction(0) : Fraction(at_u / (at_u - at_v));
+    const Fraction root = at_u == at_v ? Fraction(0) : root_of(at_u, at_v);
     if (at_u < 0) low = std::max<Fraction>(low, root);
     if (at_v < 0) high = std::min<Fraction>(high, root);
   }
@@ -69,8 +70,7 @@ bool is_pierced(const Polygon& face, const Polygon& facet) {
     above |= heights[i] > 0;
     below |= heights[i] < 0;
     if (heights[i] == 0) cut.push_back(facet[i]);
-    if (heights[i] * heights[j] < 0)
-      cut.push_back(on(facet[i], facet[j], heights[i] / (heights[i] - heights[j])));
+    if (heights[i] * heights[j] < 0) cut.push_back(on(facet[i], facet[j], root_of(heights[i], heights[j])));
   }
   return above && below && holds_part(face, n, cut.front(), cut.back());
 }
@@ -94,7 +94,7 @@ bool is_overlapped(const Polygon& face, const Polygon& facet) {
   return !is_parted(face, n, facet) && !is_parted(facet, normal(facet), face);
 }
 
-/// True if the boxes of the swept points and a facet share no inner point.
+/// True if the boxes of a face with a further point and of a facet are apart.
 bool boxes_apart(const Triangle& face, const Point<3>& b, std::span<const Point<3>> facet) {
   for (std::size_t i = 0; i < 3; ++i) {
     double low = b[i], high = b[i];
@@ -113,11 +113,13 @@ bool boxes_apart(const Triangle& face, const Point<3>& b, std::span<const Point<
 }  // namespace
 
 bool pierces(const Triangle& face, std::span<const Point<3>> facet) {
-  return is_pierced(exact(std::span<const Point<3>>(face)), exact(facet));
+  return !boxes_apart(face, face[0], facet) &&
+         is_pierced(exact(std::span<const Point<3>>(face)), exact(facet));
 }
 
 bool overlaps_in_plane(const Triangle& face, std::span<const Point<3>> facet) {
-  return is_overlapped(exact(std::span<const Point<3>>(face)), exact(facet));
+  return !boxes_apart(face, face[0], facet) &&
+         is_overlapped(exact(std::span<const Point<3>>(face)), exact(facet));
 }
 
 int side_of_plane(std::span<const Point<3>> facet, const Point<3>& x) {
@@ -138,10 +140,17 @@ std::optional<Fraction> first_piercing(const Triangle& face, std::size_t k, cons
   if (boxes_apart(face, b, facet)) return {};
   const Polygon polygon = exact(facet);
   const Vec from = exact(face[k]), to = exact(b), q = exact(face[(k + 1) % 3]), r = exact(face[(k + 2) % 3]);
+  const std::array<Vec, 4> swept{from, to, q, r};
+  const Vec n = normal(polygon);
+  const auto is_beside = [&](int sign) {
+    return std::all_of(swept.begin(), swept.end(),
+                       [&](const Vec& x) { return sign * dot(n, minus(x, polygon[0])) >= 0; });
+  };
+  if (is_beside(1) || is_beside(-1)) return {};  // on one side of the facet
   std::set<Fraction> times{0, 1};
   const auto note = [&](const Vec& x, const Vec& y, const Vec& z) {
     const Fraction at_0 = volume(from, x, y, z), at_1 = volume(to, x, y, z);
-    if (at_0 * at_1 < 0) times.insert(at_0 / (at_0 - at_1));
+    if (at_0 * at_1 < 0) times.insert(root_of(at_0, at_1));
   };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     note(q, r, polygon[i]);

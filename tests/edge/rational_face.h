@@ -5,7 +5,7 @@
 
 #include <cellwalk/kernel/point.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace cellwalk::test {
 
-using Fraction = boost::multiprecision::cpp_rational;
+using Fraction = boost::multiprecision::mpq_rational;
 using Triangle = std::array<Point<3>, 3>;
 
 /// True if the open triangle and the relative interior of a convex facet meet, and not in one plane.

@@ -38,7 +38,7 @@ struct Seen {
   int sweeps = 0, hits = 0, face_only = 0, through_vertex = 0, at_once = 0, inside_hits = 0;
   int landed = 0, leaves_through = 0, sides_checked = 0, flat = 0, chosen = 0;
   int misses = 0, false_blocks = 0, wrong_times = 0, wrong_rests = 0;
-  int blocked = 0, before_blocked = 0;
+  int blocked = 0, before_blocked = 0, astray = 0;
   Face_counts counts;
 };
 
@@ -59,6 +59,11 @@ class Judge {
     const Triangle before = body_.triangle();
     const auto outcome = body_.move_corner(k, target);
     const bool is_flat = orientation_of(before[0], before[1], before[2], target) == 0;
+    if (outcome.face.contact && outcome.face.contact->is_edge_astray) {
+      ++seen_.astray;
+      EXPECT_FALSE(generic_);
+      return;
+    }
     if (is_flat) {
       ++seen_.flat;
       EXPECT_FALSE(outcome.face.contact) << world_.world.name;
@@ -229,9 +234,10 @@ Seen sweep(bool generic) {
             << " times left through one, " << seen.chosen << " sides chosen; " << seen.registered
             << " registered, " << seen.pierced << " pierced, " << seen.pierced_together
             << " by walls together; p blocked " << seen.blocked << ", the face before " << seen.before_blocked
-            << "; clear " << c.clear << " of " << c.faces << ", walls " << c.walls << ", clipped "
-            << c.clipped << "; missed " << seen.misses << ", false blocks " << seen.false_blocks
-            << ", wrong times " << seen.wrong_times << ", wrong rests " << seen.wrong_rests << "\n";
+            << ", an edge astray " << seen.astray << "; clear " << c.clear << " of " << c.faces << ", walls "
+            << c.walls << ", clipped " << c.clipped << "; missed " << seen.misses << ", false blocks "
+            << seen.false_blocks << ", wrong times " << seen.wrong_times << ", wrong rests "
+            << seen.wrong_rests << "\n";
   return seen;
 }
 

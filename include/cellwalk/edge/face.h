@@ -23,9 +23,10 @@ struct Side_chain {
   bool is_reversed = false;
 };
 
-/// Chains of the three sides of a face with corners p, q and r.
+/// Chains of the three sides of a face with corners p, q and r. Null where an edge is blocked before the end of the move.
 struct Face_chains {
   Side_chain pq, qr, rp;
+  bool are_complete() const { return pq.chain && qr.chain && rp.chain; }
 };
 
 /// What the sweeps of faces did. All counts are machine-independent.
@@ -47,6 +48,9 @@ struct Face_contact : Wall_contact<3> {
   Rational exact_time;  ///< `time` is this, rounded to nearest and then down
   /// The part of the face that meets the wall: its inside (facet), one of its edges, or p.
   Contact_kind body = Contact_kind::facet;
+  /// True if no wall comes through the face, but an edge of it, where it moved in the plane of a wall and passed its rim, took the
+  /// other side of it than the face. The time is then 0, and the point where p started.
+  bool is_edge_astray = false;
 };
 
 struct Face_result {
@@ -61,7 +65,7 @@ struct Face_result {
 /// Walls that cross an edge of the face come through it too, and are reported at the same time as by sweep_triangle(), if not
 /// before; what the edges alone are hit by (in the plane of the face), is not.
 /// \pre `rests` are those of the face before the move; its edges pq and pr were swept and are free, at least up to the time of a contact;
-/// `chains` are those of its edges after the move
+/// `chains` are those of its edges after the move; if one is null, a contact is looked for, and no rests are returned
 /// Degenerate cases: all positions of walls against the face. A face that moves in its own plane is free if its edges
 /// are. A face whose corners lie on one line has no inside.
 /// Cost: a few ns a cell that the face meets, where it meets no wall; some hundred ns a wall near it; some ten us for the
@@ -72,7 +76,8 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
 
 struct Face_registration {
   Face_rests rests;
-  /// If set, this wall pierces the face, by itself or with others that it meets in the plane of the face.
+  /// If set, this wall pierces the face, by itself or with others that it meets in the plane of the face, or lies between
+  /// the face and one of its edges.
   Half_facet piercing = Half_facet::none;
 };
 
