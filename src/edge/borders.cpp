@@ -18,7 +18,7 @@ class Border {
       : snapshot_(snapshot),
         side_(side),
         opposite_(opposite),
-        segment_(exact<3>(side.from), exact<3>(side.to)),
+        edge_(snapshot, side.from, side.to),
         counts_(counts) {}
 
   Half_facet wall_between(const Near_walls& near, const Face_rests& rests) const {
@@ -29,13 +29,12 @@ class Border {
     // Between the ends of the pieces that walls hold, all is as in the middle.
     std::vector<Rational> ends;
     for (const Half_facet wall : near.walls) {
-      if (side(wall, side_.from) * side(wall, side_.to) > 0) continue;
-      const std::optional<Span> met = span(wall);
+      const std::optional<Span> met = edge_.in_facet(wall);
       if (met) ends.insert(ends.end(), {met->low, met->high});
     }
     std::sort(ends.begin(), ends.end());
     for (const Half_facet wall : holding) {
-      const std::optional<Span> met = span(wall);
+      const std::optional<Span> met = edge_.in_facet(wall);
       for (std::size_t k = 0; met && k + 1 < ends.size(); ++k) {
         if (!(ends[k] < ends[k + 1]) || ends[k] < met->low || ends[k + 1] > met->high) continue;
         if (!begins_at((ends[k] + ends[k + 1]) / 2, rests)) return wall;
@@ -45,20 +44,17 @@ class Border {
   }
 
  private:
-  std::optional<Span> span(Half_facet f) const {
-    return segment_.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-  }
   int side(Half_facet f, const Point<3>& x) const {
     return detail::side<Exact>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), x, counts_);
   }
 
   /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
   bool begins_at(const Rational& t, const Face_rests& rests) const {
-    for (const Cell c : linked_cells(snapshot_, segment_, side_.start, *side_.chain.chain, t)) {
+    for (const Cell c : linked_cells(edge_, side_.start, *side_.chain.chain, t)) {
       bool holds_face = true;
       for (std::size_t i = 0; i < snapshot_.facet_count(c) && holds_face; ++i) {
         const Half_facet f = Snapshot<3>::half_facet(c, i);
-        const std::optional<Span> met = span(f);
+        const std::optional<Span> met = edge_.in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
         // The point lies in the plane of f: the side of the opposite corner is that of the face.
         const int at_face = side(f, opposite_);
@@ -79,7 +75,7 @@ class Border {
   const Snapshot<3>& snapshot_;
   const Face_side& side_;
   const Point<3>& opposite_;
-  const Rational_segment<3> segment_;
+  const Exact_edge edge_;
   Walk_counts& counts_;
 };
 

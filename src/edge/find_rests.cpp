@@ -121,9 +121,9 @@ class Rests {
 
   /// Takes the sides on which the chain of an edge passes; if that is not possible, the face is pierced.
   void follow(const Face_side& side) {
-    const Rational_segment<3> segment(exact<3>(side.from), exact<3>(side.to));
+    const Exact_edge edge(snapshot_, side.from, side.to);
     for (const Patch& patch : patches_) {
-      const auto passed = passed_side(snapshot_, segment, side.start, *side.chain.chain, patch.wall);
+      const auto passed = passed_side(edge, side.start, *side.chain.chain, patch.wall);
       if (!passed) continue;
       const int passed_on = *passed == patch.wall ? patch.cell_side : -patch.cell_side;
       settle(patch, passed_on);
