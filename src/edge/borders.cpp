@@ -15,26 +15,23 @@ namespace {
 class Border {
  public:
   Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
-      : snapshot_(snapshot),
-        side_(side),
-        opposite_(opposite),
-        edge_(snapshot, side.from, side.to),
-        counts_(counts) {}
+      : snapshot_(snapshot), side_(side), opposite_(opposite), counts_(counts) {}
 
-  Half_facet wall_between(const Near_walls& near, const Face_rests& rests) const {
+  Half_facet wall_between(const Near_walls& near, const Face_rests& rests) {
     boost::container::small_vector<Half_facet, 4> holding;
     for (const Half_facet wall : near.walls)
       if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0) holding.push_back(wall);
     if (holding.empty()) return Half_facet::none;
+    edge_.emplace(snapshot_, side_.from, side_.to);
     // Between the ends of the pieces that walls hold, all is as in the middle.
     std::vector<Rational> ends;
     for (const Half_facet wall : near.walls) {
-      const std::optional<Span> met = edge_.in_facet(wall);
+      const std::optional<Span> met = edge_->in_facet(wall);
       if (met) ends.insert(ends.end(), {met->low, met->high});
     }
     std::sort(ends.begin(), ends.end());
     for (const Half_facet wall : holding) {
-      const std::optional<Span> met = edge_.in_facet(wall);
+      const std::optional<Span> met = edge_->in_facet(wall);
       for (std::size_t k = 0; met && k + 1 < ends.size(); ++k) {
         if (!(ends[k] < ends[k + 1]) || ends[k] < met->low || ends[k + 1] > met->high) continue;
         if (!begins_at((ends[k] + ends[k + 1]) / 2, rests)) return wall;
@@ -50,11 +47,11 @@ class Border {
 
   /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
   bool begins_at(const Rational& t, const Face_rests& rests) const {
-    for (const Cell c : linked_cells(edge_, side_.start, *side_.chain.chain, t)) {
+    for (const Cell c : linked_cells(*edge_, side_.start, *side_.chain.chain, t)) {
       bool holds_face = true;
       for (std::size_t i = 0; i < snapshot_.facet_count(c) && holds_face; ++i) {
         const Half_facet f = Snapshot<3>::half_facet(c, i);
-        const std::optional<Span> met = edge_.in_facet(f);
+        const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
         // The point lies in the plane of f: the side of the opposite corner is that of the face.
         const int at_face = side(f, opposite_);
@@ -75,7 +72,7 @@ class Border {
   const Snapshot<3>& snapshot_;
   const Face_side& side_;
   const Point<3>& opposite_;
-  const Exact_edge edge_;
+  std::optional<Exact_edge> edge_;  ///< made where a wall holds it, which is rare
   Walk_counts& counts_;
 };
 
