@@ -68,8 +68,8 @@ struct Face_result {
 /// `chains` are those of its edges after the move; if one is null, a contact is looked for, and no rests are returned
 /// Degenerate cases: all positions of walls against the face. A face that moves in its own plane is free if its edges
 /// are. A face whose corners lie on one line has no inside.
-/// Cost: a few ns a cell that the face meets, where it meets no wall; some hundred ns a wall near it; some ten us for the
-/// time of a contact.
+/// Cost: about 60 ns a cell near the face, where it meets no wall; some hundred ns a wall near it; some ten us for the time of
+/// a contact; up to milliseconds where it lies in the plane of walls, or an edge of it does.
 Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
                        const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
                        Face_counts& counts);
@@ -86,7 +86,7 @@ struct Face_registration {
 /// \pre `chains` are those of its edges
 /// Degenerate cases: a face that lies on walls rests on the side on which its edges do; on membranes that lie strictly inside it, on
 /// that of `known`, else on any, by a fixed rule.
-/// Cost: some us where walls are near.
+/// Cost: some us where walls are near, up to milliseconds where it lies in their plane.
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
                                 const Face_rests& known = {});
