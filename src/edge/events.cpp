@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "equal_chains.h"
+#include "exit_time.h"
 #include "moving_walk.h"
 
 namespace cellwalk::detail {
@@ -29,7 +30,8 @@ class Events {
         limit_(until) {
     plan(way);
     if (!way.blocked) return;
-    const Rational blocked = exit_time(snapshot, way.visited.back(), triangle_.a, triangle_.b, counts);
+    const Rational blocked =
+        exit_time<D>(snapshot.view(way.visited.back()), triangle_.a, triangle_.b, counts);
     if (!limit_ || blocked < *limit_) limit_ = blocked;
   }
 
@@ -72,7 +74,7 @@ class Events {
       const std::size_t first = passed;
       Cell cell = way.visited[i];
       while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
-      steps_.push_back({exit_time(snapshot_, way.visited[i], triangle_.a, triangle_.b, counts_),
+      steps_.push_back({exit_time<D>(snapshot_.view(way.visited[i]), triangle_.a, triangle_.b, counts_),
                         way.crossed.subspan(first, passed - first), cell});
     }
   }
@@ -137,29 +139,14 @@ class Events {
 }  // namespace
 
 template <int D>
-Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b,
-                   Walk_counts& counts) {
-  const Cell_view<D> cell = snapshot.view(c);
-  std::optional<Rational> first;
-  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-    if (side<Exact>(cell, i, b, counts) <= 0) continue;
-    const Rational at_a = side<Exact_value>(cell, i, a, counts);
-    const Rational time = at_a / (at_a - side<Exact_value>(cell, i, b, counts));
-    if (!first || time < *first) first = time;
-  }
-  return *first;
-}
-
-template <int D>
 Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts,
                               const std::optional<Rational>& until) {
   return Events<D>(snapshot, way, q, counts, until).run(before);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template Rational exit_time<D>(const Snapshot<D>&, Cell, const Point<D>&, const Point<D>&, Walk_counts&); \
-  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,          \
+#define CELLWALK_INSTANTIATE(D)                                                                    \
+  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
                                             const Chain&, Walk_counts&, const std::optional<Rational>&);
 
 CELLWALK_INSTANTIATE(2)

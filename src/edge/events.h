@@ -10,12 +10,6 @@
 
 namespace cellwalk::detail {
 
-/// When the line from a to b leaves a cell that holds a: it passes the plane of the first facet that has b outside.
-/// \pre b does not lie in the cell
-template <int D>
-Rational exit_time(const Snapshot<D>& snapshot, Cell c, const Point<D>& a, const Point<D>& b,
-                   Walk_counts& counts);
-
 /// Carries the chain along until p arrives, is blocked, or `until`; contacts from then on do not count. Any position is legal,
 /// p moving in the line of its edge too.
 template <int D>

@@ -6,6 +6,7 @@
 
 #include "contact_search.h"
 #include "events.h"
+#include "exit_time.h"
 #include "swept_meeting.h"
 #include "touch.h"
 
@@ -88,8 +89,8 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const 
                           Walk_counts& counts) {
   Contact<D> result;
   static_cast<Wall_contact<D>&>(result) = contact;
-  result.impact =
-      to_time(detail::exit_time(snapshot, way.visited.back(), way.from.position, way.to.position, counts));
+  result.impact = to_time(
+      detail::exit_time<D>(snapshot.view(way.visited.back()), way.from.position, way.to.position, counts));
   result.time = result.impact.rounded();
   return result;
 }

@@ -32,6 +32,13 @@ Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, c
                                const Edge_certificates& certificates) {
   if (way.blocked) return sweep_until_blocked(snapshot, way, q, before, counts, certificates);
   Chain_result<D> result;
+  if (way.from.position == way.to.position) {
+    // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
+    ++counts.edges;
+    ++counts.same_chain;
+    result.chain = before;
+    return result;
+  }
   if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, certificates, result, counts))
     return result;
   ++counts.changed;

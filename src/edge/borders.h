@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Do the edges of a face lie on the same sides of walls as the face itself? Theory: docs/sweep.md, faces.
+#ifndef CELLWALK_EDGE_BORDERS_H
+#define CELLWALK_EDGE_BORDERS_H
+
+#include "find_rests.h"
+
+namespace cellwalk::detail {
+
+/// A wall that lies between a face and one of its edges: it holds a piece of the edge, and the chain of the edge is not linked
+/// there with the cells in which the face begins. None if there is no such wall.
+/// \pre the face has an inside that no wall pierces, and these rests
+/// Cost: six signs a wall; some hundred us where an edge lies in one.
+Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
+                          const Near_walls& near, const Face_rests& rests, Walk_counts& counts);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_BORDERS_H

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "chain_side.h"
+
+#include <cellwalk/walk/detail/signs.h>
+
+#include <algorithm>
+
+namespace cellwalk::detail {
+namespace {
+
+/// The cell in which the chain passes a point of the segment.
+Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Rational& t) {
+  Cell cell = start;
+  for (const Half_facet f : chain) {
+    const std::optional<Span> met = edge.in_facet(f);
+    if (met && t < met->low) break;
+    cell = edge.snapshot().neighbor(f);
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::optional<Span> Exact_edge::in_facet(Half_facet f) const {
+  const Cell_view<3> cell = snapshot_.view(snapshot_.cell_of(f));
+  const std::size_t i = snapshot_.facet_of(f);
+  if (is_apart(cell, i)) return {};
+  Walk_counts counts;
+  if (side<Exact>(cell, i, from_, counts) * side<Exact>(cell, i, to_, counts) > 0) return {};
+  return segment_.in_facet(cell, i);
+}
+
+bool Exact_edge::is_apart(const Cell_view<3>& cell, std::size_t i) const {
+  const auto loop = cell.loop(i);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax(from_[k], to_[k]);
+    const auto is_below = [&, end = low](std::uint16_t v) { return cell.point(v)[k] < end; };
+    const auto is_above = [&, end = high](std::uint16_t v) { return cell.point(v)[k] > end; };
+    if (std::all_of(loop.begin(), loop.end(), is_below) || std::all_of(loop.begin(), loop.end(), is_above))
+      return true;
+  }
+  return false;
+}
+
+std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Rational& t) {
+  std::vector<Cell> found{cell_at(edge, start, chain, t)};
+  for (std::size_t head = 0; head < found.size(); ++head) {
+    const Cell c = found[head];
+    for (std::size_t i = 0; i < edge.snapshot().facet_count(c); ++i) {
+      const Half_facet f = Snapshot<3>::half_facet(c, i);
+      if (edge.snapshot().is_impassable(f)) continue;
+      const Cell next = edge.snapshot().neighbor(f);
+      if (std::find(found.begin(), found.end(), next) != found.end()) continue;
+      const std::optional<Span> met = edge.in_facet(f);
+      if (met && met->low <= t && t <= met->high) found.push_back(next);
+    }
+  }
+  return found;
+}
+
+std::optional<Half_facet> passed_side(const Exact_edge& edge, Cell start, const Chain& chain,
+                                      Half_facet wall) {
+  const std::optional<Span> met = edge.in_facet(wall);
+  if (!met) return {};
+  const Rational t = (met->low + met->high) / 2;
+  const std::vector<Cell> cells = linked_cells(edge, start, chain, t);
+  const auto is_linked = [&](Half_facet f) {
+    return f != Half_facet::none &&
+           std::find(cells.begin(), cells.end(), edge.snapshot().cell_of(f)) != cells.end();
+  };
+  const Half_facet other = edge.snapshot().opposite(wall);
+  if (is_linked(wall) == is_linked(other)) return {};
+  return is_linked(wall) ? wall : other;
+}
+
+}  // namespace cellwalk::detail

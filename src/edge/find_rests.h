@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// On which sides of the walls in its plane a standing face lies. Theory: docs/sweep.md, faces.
+#ifndef CELLWALK_EDGE_FIND_RESTS_H
+#define CELLWALK_EDGE_FIND_RESTS_H
+
+#include <cellwalk/edge/face.h>
+
+#include "near_walls.h"
+#include "triangle_in_plane.h"
+
+namespace cellwalk::detail {
+
+/// A side of a face: its chain, and the cell in which that starts.
+struct Face_side {
+  Side_chain chain;
+  Point<3> from, to;  ///< as the chain goes
+  Cell start;
+};
+
+/// The sides of a face in the order of its corners.
+std::array<Face_side, 3> sides_of(const Face_chains& chains, const Particle<3>& p, const Particle<3>& q,
+                                  const Particle<3>& r);
+
+/// Rests of a face, all walls near it given. `known` are kept where they are possible. piercing is set where walls at one ridge
+/// leave no side for the face.
+Face_registration find_rests(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
+                             const std::array<Face_side, 3>& sides, const Near_walls& near,
+                             const Face_rests& known);
+
+/// Puts rests into their order.
+void sort(Face_rests& rests);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_FIND_RESTS_H
