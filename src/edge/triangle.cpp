@@ -7,6 +7,7 @@
 
 #include "confirm.h"
 #include "equal_chains.h"
+#include "in_line.h"
 #include "moving_walk.h"
 
 namespace cellwalk {
@@ -80,17 +81,8 @@ class Events {
     }
   }
 
-  /// When p leaves a cell: it passes the plane of the first facet that has its target outside.
   Rational exit_time(Cell c) const {
-    const Cell_view<D> cell = snapshot_.view(c);
-    std::optional<Rational> first;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (detail::side<Exact>(cell, i, triangle_.b, counts_) <= 0) continue;
-      const Rational at_a = detail::side<Exact_value>(cell, i, triangle_.a, counts_);
-      const Rational time = at_a / (at_a - detail::side<Exact_value>(cell, i, triangle_.b, counts_));
-      if (!first || time < *first) first = time;
-    }
-    return *first;
+    return detail::exit_time(snapshot_.view(c), triangle_.a, triangle_.b, counts_);
   }
 
   detail::Rational_point<D> moved(const Rational& time) const {
@@ -122,23 +114,8 @@ class Events {
 
   Wall_contact<D> contact(const Rational& time, const detail::Rational_segment<D>& segment,
                           Half_facet wall) const {
-    const Cell c = snapshot_.cell_of(wall);
-    const Cell_view<D> cell = snapshot_.view(c);
-    const std::size_t i = snapshot_.facet_of(wall);
-    Wall_contact<D> contact;
-    contact.time = CGAL::to_double(time);
-    if (Rational(contact.time) > time) contact.time = std::nextafter(contact.time, 0.0);
-    contact.facet = wall;
-    contact.cell = c;
-    contact.normal = detail::inner_normal(cell, i);
-    contact.point = triangle_.q;
-    contact.kind = Contact_kind::facet;
-    if (const auto met = segment.in_facet(cell, i)) {
-      const auto x = segment.at(met->low);
-      for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
-      contact.kind = detail::lowest_feature<D>(cell, i, x);
-    }
-    return contact;
+    const auto met = segment.in_facet(snapshot_.view(snapshot_.cell_of(wall)), snapshot_.facet_of(wall));
+    return detail::edge_contact<D>(snapshot_, time, wall, segment.at(met ? met->low : Rational(1)));
   }
 
   const Snapshot<D>& snapshot_;
@@ -161,19 +138,17 @@ Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, c
     ++counts.changed;
     Chain_result<D> result{before, {}};
     walk_start(snapshot, result.chain, way.crossed);
-    if (are_collinear(triangle.a, triangle.b, triangle.q) ||
-        is_clear(snapshot, way.from.cell, triangle, counts))
-      return result;
+    if (are_collinear(triangle.a, triangle.b, triangle.q))
+      return detail::sweep_in_line(snapshot, way, q, before, counts);
+    if (is_clear(snapshot, way.from.cell, triangle, counts)) return result;
     ++counts.event_sweeps;
     return Events<D>(snapshot, way, q, counts.walk).run(before);
   }
   Chain_result<D> result;
   if (detail::is_confirmed(snapshot, before, way.crossed, way.to, q, result, counts)) return result;
   ++counts.changed;
-  if (are_collinear(triangle.a, triangle.b, triangle.q)) {
-    if (result.contact) result.contact->time = 0;
-    return result;
-  }
+  if (are_collinear(triangle.a, triangle.b, triangle.q))
+    return detail::sweep_in_line(snapshot, way, q, before, counts);
   if (!result.contact && is_clear(snapshot, way.from.cell, triangle, counts)) return result;
   ++counts.event_sweeps;
   return Events<D>(snapshot, way, q, counts.walk).run(before);

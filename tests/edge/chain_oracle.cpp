@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace cellwalk::oracle {
 namespace {
@@ -21,17 +22,18 @@ struct Linked_cut {
   }
 
   std::size_t pieces() const { return along.size(); }
-  /// Some point of the segment has free space on several sides.
-  bool parts() const {
-    return std::any_of(at.begin(), at.end(), [](const std::vector<int>& classes) {
-      int first = -1;
-      return std::any_of(classes.begin(), classes.end(), [&](int c) {
-        if (first < 0) first = c;
-        return c >= 0 && c != first;
-      });
-    });
-  }
 };
+
+/// Some of these classes are not the same: there is free space on several sides.
+bool parts(const std::vector<std::vector<int>>& classes) {
+  return std::any_of(classes.begin(), classes.end(), [](const std::vector<int>& here) {
+    int first = -1;
+    return std::any_of(here.begin(), here.end(), [&](int c) {
+      if (first < 0) first = c;
+      return c >= 0 && c != first;
+    });
+  });
+}
 
 /// Pieces [first, last) of one cut, to which a piece of another shrinks or grows.
 struct Range {
@@ -222,7 +224,10 @@ Outcomes Chain_oracle<D>::judge(const Edge_motion<D>& motion) const {
     const Share middle = between(times[i], times[i + 1]);
     const Linked_cut open(segment.cut(middle));
     Linked_cut next(segment.cut(times[i + 1]));
-    outcomes.touches = outcomes.touches || here.parts() || open.parts() || next.parts();
+    for (const Linked_cut* cut : {&std::as_const(here), &open, &std::as_const(next)}) {
+      outcomes.touches = outcomes.touches || parts(cut->at);
+      outcomes.lies_in_wall = outcomes.lies_in_wall || parts(cut->along);
+    }
     const auto before = limits<D>(open, here, times[i]), after = limits<D>(open, next, times[i + 1]);
     std::set<Chain_class> next_states;
     for (const Chain_class& state : states) {

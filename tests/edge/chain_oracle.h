@@ -34,6 +34,7 @@ struct Outcomes {
   int critical = 0;            ///< times looked at
   int choices = 0;             ///< times at which chains were continued by unequal ones
   bool touches = false;        ///< at some time a point of the edge has free space on several sides
+  bool lies_in_wall = false;   ///< at some time a piece of it has
 
   bool may_be_free() const { return !ends.empty(); }
   /// True if one of the times of blocks is this one but for rounding down.
@@ -44,6 +45,8 @@ template <int D>
 class Chain_oracle {
  public:
   explicit Chain_oracle(const Cell_soup<D>& soup) : complex_(soup) {}
+
+  const Cell_soup<D>& soup() const { return complex_.soup; }
 
   /// \throw std::invalid_argument if the chain before is none, or the way of p is impossible
   /// Cost: about a millisecond a critical time that is near the edge.

@@ -1,194 +1,244 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The complete sweep against the oracle that follows the definition of chains.
-#include <cellwalk/edge/triangle.h>
-#include <cellwalk/kernel/predicates.h>
+// The oracle of chains, and with it the complete sweep, where the answer is known by heart; and sweeps broken on purpose.
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <iostream>
+#include <cmath>
 
-#include "edge/chain_oracle.h"
 #include "edge/edge_worlds.h"
-#include "walk/oracle_trial.h"
+#include "edge/sweep_judge.h"
+#include "oracle/squares_and_cubes.h"
 
 namespace cellwalk::test {
 namespace {
 
-/// A half-facet of the snapshot in the soup: the facet of the same cell with the same points.
-template <int D>
-std::uint32_t soup_facet(const Cell_soup<D>& soup, const Snapshot<D>& snapshot, Half_facet f) {
-  const auto sorted = [](auto loop) {
-    std::vector<std::uint32_t> key(loop.begin(), loop.end());
-    std::sort(key.begin(), key.end());
-    return key;
-  };
-  const std::uint32_t c = snapshot.index(snapshot.cell_of(f));
-  std::uint32_t i = soup.cell_begin[c];
-  while (sorted(soup.facet(i)) != sorted(snapshot.loop(f))) ++i;
-  return i;
-}
+using oracle::make_cubes;
+using oracle::make_squares;
+using oracle::set_wall;
+using oracle::Share;
+using Walls = std::vector<std::array<std::uint32_t, 2>>;
+using Cells = std::vector<std::uint32_t>;
 
+/// An edge whose end p moves from a to b: where it is, and the cells that its chain passes, from the cell of p to that of q.
 template <int D>
-std::vector<std::uint32_t> soup_chain(const Cell_soup<D>& soup, const Snapshot<D>& snapshot,
-                                      const Chain& chain) {
-  std::vector<std::uint32_t> r;
-  for (const Half_facet f : chain) r.push_back(soup_facet(soup, snapshot, f));
-  return r;
-}
-
-template <int D>
-oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& snapshot, const Way<D>& way,
-                                 const Particle<D>& q, const Chain& chain) {
-  oracle::Edge_motion<D> motion{way.from.position,
-                                way.to.position,
-                                q.position,
-                                {},
-                                snapshot.index(q.cell),
-                                soup_chain(soup, snapshot, chain),
-                                way.blocked};
-  for (const Cell c : way.visited) motion.way.push_back(snapshot.index(c));
-  return motion;
-}
-
-struct Seen {
-  int sweeps = 0, judged = 0, by_events = 0, collinear = 0;
-  int must_block = 0, must_free = 0, either = 0, touches = 0, choices = 0;
-  int wrong_block = 0, wrong_free = 0, wrong_time = 0, wrong_chain = 0;
-  int col_wrong_block = 0, col_wrong_free = 0, col_wrong_chain = 0;
-  int blocked = 0, blocked_edge = 0, blocked_wrong = 0, blocked_chain = 0, threw = 0;
-  long critical = 0;
-  double seconds = 0;
-  Edge_counts counts;
+struct Case {
+  Point<D> a, b, q;
+  Cells chain;
 };
 
 template <int D>
-void explore(bool generic, std::size_t first, std::size_t worlds) {
-  Seen seen;
-  int shown = 0;
-  for (std::uint64_t number = first; number < first + worlds; ++number) {
-    Edge_world<D> w(number, generic);
-    const oracle::Chain_oracle<D> oracle(w.world.soup);
-    for (int k = 0; k < 60; ++k) {
-      Particle<D> p = w.start();
-      if (p.cell == Cell::none) continue;
-      const Particle<D> q = w.end(p);
-      if (q.cell == Cell::none) continue;
-      Chain_result<D> edge = find_chain(w.snapshot, p, q, seen.counts.walk);
-      for (int step = 0; step < 6 && !edge.contact; ++step) {
-        const Particle<D> from = p;
-        std::vector<Cell> visited;
-        std::vector<Half_facet> crossed;
-        w.choose_kind();
-        const Point<D> target = w.target(p);
-        const auto walked =
-            move(w.snapshot, p, target, seen.counts.walk, {Walk_strategy::certified, &visited, &crossed});
-        Particle<D> to = p;
-        const bool blocked = walked.status != Walk_status::arrived;
-        if (blocked) {
-          to.position = target;
-          to.cell = visited.back();
-        }
-        const Way<D> way{from, to, visited, crossed, blocked};
-        const auto before = seen.counts;
-        const Chain old = edge.chain;
-        const Chain_result<D> result = sweep_triangle<D>(w.snapshot, way, q, old, seen.counts);
-        ++seen.sweeps;
-        const bool events = seen.counts.event_sweeps > before.event_sweeps;
-        seen.by_events += events;
-        const bool col = are_collinear(from.position, target, q.position);
-        const auto t0 = std::chrono::steady_clock::now();
-        const auto motion = motion_of(w.world.soup, w.snapshot, way, q, old);
-        const char* branch = events                                       ? "events"
-                             : seen.counts.clear > before.clear           ? "clear"
-                             : seen.counts.same_chain > before.same_chain ? "same chain"
-                             : seen.counts.same_cell > before.same_cell   ? "same cell"
-                                                                          : "other";
-        const auto show = [&](const char* what, const oracle::Outcomes& v) {
-          if (++shown > 12) return;
-          std::cout << w.world.name << " k " << k << " step " << step << ": " << what << " (" << branch
-                    << (col ? ", collinear" : "") << (blocked ? ", p blocked" : "") << ") time "
-                    << (result.contact ? result.contact->time : -1) << " oracle:";
-          for (const auto& s : v.blocks)
-            std::cout << " block " << double(s.numerator) / double(s.denominator);
-          std::cout << " ends " << v.ends.size() << " end "
-                    << double(v.end.numerator) / double(v.end.denominator) << "\n";
-        };
-        try {
-          const auto verdict = oracle.judge(motion);
-          ++seen.judged;
-          seen.critical += verdict.critical;
-          seen.touches += verdict.touches;
-          seen.choices += verdict.choices > 0;
-          seen.collinear += col;
-          if (blocked) {
-            ++seen.blocked;
-            seen.blocked_edge += result.contact.has_value();
-            if (result.contact
-                    ? !(col ? !verdict.blocks.empty() : verdict.may_be_blocked_at(result.contact->time))
-                    : !verdict.may_be_free()) {
-              ++seen.blocked_wrong;
-              show("blocked way, wrong", verdict);
-            } else if (!result.contact &&
-                       !oracle.is_end(motion, verdict, soup_chain(w.world.soup, w.snapshot, result.chain))) {
-              ++seen.blocked_chain;
-            }
-          } else {
-            seen.must_block += !verdict.may_be_free();
-            seen.must_free += verdict.blocks.empty();
-            seen.either += !verdict.blocks.empty() && verdict.may_be_free();
-            if (result.contact) {
-              if (verdict.blocks.empty()) {
-                ++(col ? seen.col_wrong_block : seen.wrong_block);
-                show("wrong block", verdict);
-              } else if (!col && !verdict.may_be_blocked_at(result.contact->time)) {
-                ++seen.wrong_time;
-                show("wrong time", verdict);
-              }
-            } else {
-              if (!verdict.may_be_free()) {
-                ++(col ? seen.col_wrong_free : seen.wrong_free);
-                show("wrong free", verdict);
-              } else if (!oracle.is_end(motion, verdict,
-                                        soup_chain(w.world.soup, w.snapshot, result.chain))) {
-                ++(col ? seen.col_wrong_chain : seen.wrong_chain);
-                show("wrong chain", verdict);
-              }
-            }
-          }
-        } catch (const std::exception& e) {
-          ++seen.threw;
-          if (++shown <= 12)
-            std::cout << w.world.name << " k " << k << " step " << step << " " << branch << " threw "
-                      << e.what() << "\n";
-          if (std::string(e.what()) == "the chain before is none") break;
-        }
-        seen.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-        if (!blocked) edge = result;
-        if (blocked) p = from;
-      }
-    }
-  }
-  std::cout << D << "D " << (generic ? "generic" : "degenerate") << ": sweeps " << seen.sweeps << " judged "
-            << seen.judged << " threw " << seen.threw << " events " << seen.by_events << " same cell "
-            << seen.counts.same_cell << " same chain " << seen.counts.same_chain << " clear "
-            << seen.counts.clear << " collinear " << seen.collinear << " | must block " << seen.must_block
-            << " must free " << seen.must_free << " either " << seen.either << " touches " << seen.touches
-            << " choices " << seen.choices << " | wrong block " << seen.wrong_block << " free "
-            << seen.wrong_free << " time " << seen.wrong_time << " chain " << seen.wrong_chain
-            << " | collinear wrong block " << seen.col_wrong_block << " free " << seen.col_wrong_free
-            << " chain " << seen.col_wrong_chain << " | p blocked " << seen.blocked << " edge "
-            << seen.blocked_edge << " wrong " << seen.blocked_wrong << " chain " << seen.blocked_chain
-            << " | critical " << seen.critical << " seconds " << seen.seconds << "\n";
+Cell_soup<D> walled(Cell_soup<D> soup, const Walls& walls) {
+  for (const auto& [c, d] : walls) set_wall(soup, c, d);
+  return soup;
 }
 
-TEST(ChainOracle, Explore2) {
-  explore<2>(false, 0, oracle::scaled_count(12));
-  explore<2>(true, 0, oracle::scaled_count(12));
+template <int D>
+class Scene {
+ public:
+  Scene(Cell_soup<D> soup, const Walls& walls)
+      : oracle(walled(std::move(soup), walls)),
+        snapshot(Snapshot<D>::compile(oracle.soup(), glue(oracle.soup()))),
+        locator_(snapshot) {}
+
+  /// What becomes of a case.
+  struct Judged {
+    oracle::Edge_motion<D> motion;
+    oracle::Outcomes outcomes;
+    Chain_result<D> result;  ///< of the library, which must be right
+  };
+
+  Judged judge(const Case<D>& c) const {
+    const Particle<D> from = particle(c.a, c.chain.front()), q = particle(c.q, c.chain.back());
+    const Chain before = chain(c.chain);
+    Particle<D> to = from;
+    std::vector<Cell> visited;
+    std::vector<Half_facet> crossed;
+    Edge_counts counts;
+    const auto walked = move(snapshot, to, c.b, counts.walk, {Walk_strategy::certified, &visited, &crossed});
+    const bool blocked = walked.status != Walk_status::arrived;
+    if (blocked) to = particle(c.b, snapshot.index(visited.back()));
+    const Way<D> way{from, to, visited, crossed, blocked};
+    Judged judged{motion_of(oracle.soup(), snapshot, way, q, before), {}, {}};
+    judged.outcomes = oracle.judge(judged.motion);
+    judged.result = sweep_triangle(snapshot, way, q, before, counts);
+    const Sweep_fault fault = fault_of(oracle, judged.motion, judged.outcomes, snapshot, judged.result);
+    EXPECT_EQ(fault, Sweep_fault::none) << fault_names[static_cast<std::size_t>(fault)];
+    return judged;
+  }
+
+  /// The chain that passes these cells.
+  Chain chain(const Cells& cells) const {
+    Chain chain;
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+      const Cell c = snapshot.cell(cells[i]);
+      std::size_t f = 0;
+      while (snapshot.neighbor(Snapshot<D>::half_facet(c, f)) != snapshot.cell(cells[i + 1])) ++f;
+      chain.push_back(Snapshot<D>::half_facet(c, f));
+    }
+    return chain;
+  }
+
+  const oracle::Chain_oracle<D> oracle;
+  const Snapshot<D> snapshot;
+
+ private:
+  Particle<D> particle(const Point<D>& x, std::uint32_t cell) const {
+    Particle<D> p = locator_.particle_at(x);
+    p.position = x;
+    p.cell = snapshot.cell(cell);
+    return p;
+  }
+
+  const Locator<D> locator_;
+};
+
+template <int D>
+void expect_free(const Scene<D>& scene, const Case<D>& c) {
+  const auto judged = scene.judge(c);
+  EXPECT_TRUE(judged.outcomes.blocks.empty());
+  EXPECT_EQ(judged.outcomes.ends.size(), 1u);
+  EXPECT_FALSE(judged.result.contact);
 }
-TEST(ChainOracle, Explore3) {
-  explore<3>(false, 0, oracle::scaled_count(12));
-  explore<3>(true, 0, oracle::scaled_count(12));
+
+template <int D>
+void expect_blocked(const Scene<D>& scene, const Case<D>& c, const Share& time) {
+  const auto judged = scene.judge(c);
+  EXPECT_FALSE(judged.outcomes.may_be_free());
+  ASSERT_EQ(judged.outcomes.blocks.size(), 1u);
+  EXPECT_TRUE(judged.outcomes.blocks[0] == time)
+      << judged.outcomes.blocks[0].numerator << "/" << judged.outcomes.blocks[0].denominator;
+  EXPECT_TRUE(judged.result.contact);
+}
+
+// Squares: 0 and 1 below, 2 and 3 above, 4 and 5 on top.
+
+TEST(ChainOracle, AnEdgeTurnsOverAPassableVertex) {
+  const Case<2> turns{{1.75, 1.25}, {1.25, 1.75}, {0.5, 0.5}, {3, 1, 0}};
+  expect_free({make_squares(2, 2), {}}, turns);
+  // Behind the vertex it would pass a wall; and it may touch it there.
+  expect_blocked({make_squares(2, 2), {{0, 2}}}, turns, {1, 2});
+  expect_free<2>({make_squares(2, 2), {{0, 2}}}, {{1.75, 1.25}, {1.5, 1.5}, {0.5, 0.5}, {3, 1, 0}});
+}
+
+TEST(ChainOracle, WallsMeetAtAnAngle) {
+  const Scene<2> corner(make_squares(2, 2), {{0, 1}, {1, 3}});
+  expect_blocked(corner, {{1.25, 1.75}, {1.75, 1.25}, {0.5, 0.5}, {3, 2, 0}}, {1, 2});
+  expect_free(corner, {{1.25, 1.75}, {1.5, 1.5}, {0.5, 0.5}, {3, 2, 0}});
+}
+
+TEST(ChainOracle, AnEdgeInAMembraneIsPulledOff2) {
+  const Scene<2> scene(make_squares(2, 2), {{0, 1}});
+  const Point<2> rim{1, 1}, q{1, 0.25};
+  expect_blocked(scene, {rim, {1.5, 1.25}, q, {0}}, {0, 1});
+  expect_free(scene, {rim, {0.5, 1.25}, q, {0}});
+  expect_free(scene, {rim, {1.5, 1.25}, q, {1}});
+  expect_blocked(scene, {rim, {0.5, 1.25}, q, {1}}, {0, 1});
+}
+
+TEST(ChainOracle, AnEndMovesInTheLineOfTheEdge) {
+  const Scene<2> scene(make_squares(2, 3), {{0, 1}, {2, 3}});
+  const Point<2> q{1, 0.25}, above{1, 2.5};
+  for (const std::uint32_t side : {0u, 1u}) {
+    expect_free(scene, {{1, 0.5}, above, q, {side}});
+    expect_free(scene, {above, {1, 1.5}, q, {4 + side, 2 + side, side}});
+    expect_free(scene, {above, {1, 0}, q, {4 + side, 2 + side, side}});
+    // p goes down on the other side.
+    const Cells crosswise{4 + side, 5 - side, 3 - side, 1 - side};
+    expect_blocked(scene, {above, {1, 1.5}, q, crosswise}, {1, 2});
+    expect_blocked(scene, {above, {1, 0}, q, crosswise}, {1, 5});
+    expect_blocked(scene, {above, {1, -1.5}, q, crosswise}, {1, 8});
+  }
+  // Along the boundary, and over q.
+  expect_free(scene, {{0.5, 0}, {1.75, 0}, {0.25, 0}, {0}});
+  expect_free(Scene<2>(make_squares(2, 2), {}), {{1.75, 0}, {0, 0}, {0.25, 0}, {1, 0}});
+}
+
+// Cubes: 0 to 3 below as the squares, 4 to 7 above them.
+
+TEST(ChainOracle, AnEdgePassesAMembraneInItsLine) {
+  const Case<3> passes{{0.5, 1, 1.5}, {1.5, 1, 1.5}, {1, 1, 0.5}, {4, 0}};
+  const Scene<3> two_walls(make_cubes(2, 2, 2), {{0, 1}, {2, 3}});
+  EXPECT_FALSE(is_crossed(two_walls.snapshot, passes.a, passes.b, passes.q)) << "no wall crosses by itself";
+  expect_blocked(two_walls, passes, {1, 2});
+  // Round the rim of one wall there is a way.
+  expect_free({make_cubes(2, 2, 2), {{0, 1}}}, passes);
+  expect_free({make_cubes(2, 2, 2), {{2, 3}}}, passes);
+}
+
+TEST(ChainOracle, WallsMeetInThePlaneOfTheTriangle) {
+  const Case<3> between{{0.75, 1.75, 1}, {1.75, 1.5, 1}, {0.5, 0.25, 1}, {2, 0}};
+  const Scene<3> two_walls(make_cubes(2, 2, 2), {{0, 1}, {4, 5}});
+  EXPECT_FALSE(is_crossed(two_walls.snapshot, between.a, between.b, between.q));
+  expect_blocked(two_walls, between, {9, 14});
+  expect_free({make_cubes(2, 2, 2), {{0, 1}}}, between);
+  // A wall, and at an angle to it a roof that leads into another.
+  expect_free({make_cubes(2, 2, 2), {{0, 1}, {1, 5}}}, between);
+  expect_blocked({make_cubes(2, 2, 2), {{0, 1}, {4, 5}, {1, 5}}}, between, {9, 14});
+}
+
+TEST(ChainOracle, AnEdgeSlidesAlongAWallOfSeveralCells) {
+  const Scene<3> scene(make_cubes(3, 2, 2), {{1, 2}, {4, 5}});
+  expect_free(scene, {{0.5, 0.25, 0}, {1.75, 1.75, 0}, {0.25, 0.5, 0}, {0}});
+  // On both sides of a membrane.
+  for (const std::uint32_t side : {1u, 2u}) {
+    expect_free(scene, {{2, 0.5, 0.5}, {2, 1.75, 0.25}, {2, 0.25, 0.5}, {side}});
+    expect_free(scene, {{2, 1.75, 0.5}, {2, 0.5, 0.25}, {2, 0.25, 0.5}, {side + 3, side}});
+    expect_free(scene, {{2, 1.75, 0.5}, {2, 0.5, 1.75}, {2, 0.25, 0.5}, {side + 3, side}});
+  }
+}
+
+TEST(ChainOracle, AnEdgeTurnsOverAPassableRidge) {
+  const Case<3> turns{{1.75, 1.25, 0.5}, {1.25, 1.75, 0.625}, {0.5, 0.5, 0.5}, {3, 1, 0}};
+  expect_free({make_cubes(2, 2, 1), {}}, turns);
+  expect_blocked({make_cubes(2, 2, 1), {{0, 2}}}, turns, {1, 2});
+}
+
+TEST(ChainOracle, AnEdgeInAMembraneIsPulledOff3) {
+  const Scene<3> scene(make_cubes(2, 2, 2), {{0, 1}});
+  const Point<3> rim{1, 1, 0.75}, q{1, 0.25, 0.25};
+  expect_blocked(scene, {rim, {1.5, 1.25, 0.75}, q, {0}}, {0, 1});
+  expect_free(scene, {rim, {0.5, 1.25, 0.75}, q, {0}});
+}
+
+TEST(ChainOracle, TheSideTakenAtARimIsAChoice) {
+  const Scene<3> scene(make_cubes(2, 2, 2), {{0, 1}});
+  const Point<3> q{1, 0.5, 1.25}, low{1, 1.5, 0.5};
+  const auto judged = scene.judge({{1, 1.5, 1.25}, low, q, {6, 4}});
+  EXPECT_EQ(judged.outcomes.ends.size(), 2u);
+  EXPECT_EQ(judged.outcomes.choices, 1);
+  EXPECT_TRUE(judged.outcomes.lies_in_wall);
+  // It is kept.
+  expect_free(scene, {low, {0.75, 1.5, 0.5}, q, {2, 0, 4}});
+  expect_blocked(scene, {low, {1.25, 1.5, 0.5}, q, {2, 0, 4}}, {0, 1});
+  expect_blocked(scene, {low, {0.75, 1.5, 0.5}, q, {3, 1, 5}}, {0, 1});
+  expect_free(scene, {low, {1.25, 1.5, 0.5}, q, {3, 1, 5}});
+}
+
+TEST(ChainOracle, BrokenSweepsAreCaught) {
+  const Scene<3> scene(make_cubes(2, 2, 2), {{0, 1}, {2, 3}});
+  const auto blocked = scene.judge({{0.5, 1, 1.5}, {1.5, 1, 1.5}, {1, 1, 0.5}, {4, 0}});
+  const auto fault = [](const auto& in, const auto& judged, const auto& result) {
+    return fault_of(in.oracle, judged.motion, judged.outcomes, in.snapshot, result);
+  };
+  auto wrong = blocked.result;
+  for (const double toward : {0.0, 1.0}) {
+    wrong.contact->time = std::nextafter(0.5, toward);
+    EXPECT_EQ(fault(scene, blocked, wrong), Sweep_fault::wrong_time);
+  }
+  wrong = {scene.chain({4, 0}), {}};
+  EXPECT_EQ(fault(scene, blocked, wrong), Sweep_fault::false_free);
+  // A membrane with a way round it at both ends: the chain must stay on its side.
+  const Scene<2> membrane(make_squares(2, 3), {{2, 3}});
+  const auto free = membrane.judge({{1, 2.5}, {1, 2.75}, {1, 0.25}, {4, 2, 0}});
+  EXPECT_EQ(fault(membrane, free, Chain_result<2>{membrane.chain({4, 5, 3, 1, 0}), {}}),
+            Sweep_fault::wrong_chain);
+  EXPECT_EQ(fault(membrane, free, Chain_result<2>{membrane.chain({4}), {}}), Sweep_fault::wrong_chain);
+  EXPECT_EQ(fault(membrane, free, Chain_result<2>{{}, Wall_contact<2>{}}), Sweep_fault::false_block);
+  // The oracle itself does not begin with what is no chain.
+  EXPECT_THROW(membrane.judge({{0.5, 2.5}, {0.5, 2.75}, {0.5, 0.25}, {4, 5, 3, 1, 0}}),
+               std::invalid_argument);
 }
 
 }  // namespace
