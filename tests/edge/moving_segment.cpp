@@ -63,6 +63,12 @@ bool clip_way(Span& span, const std::vector<Values>& functions) {
 
 }  // namespace
 
+bool Cut::is_like(const Cut& other) const {
+  const auto same = [](const Facet& f, const Facet& g) { return f.met == g.met; };
+  return pieces() == other.pieces() && cells == other.cells &&
+         std::equal(facets.begin(), facets.end(), other.facets.begin(), other.facets.end(), same);
+}
+
 std::vector<int> Cut::classes(int first, int last) const {
   std::vector<int> parent(cells.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -24,6 +24,7 @@ struct Cut {
   struct Stretch {
     int first = 0, last = -1;
     bool covers(int from, int to) const { return first <= from && to <= last; }
+    bool operator==(const Stretch&) const = default;
   };
   struct Facet {
     std::array<int, 2> cells;
@@ -35,6 +36,8 @@ struct Cut {
   std::vector<Facet> facets;
 
   int pieces() const { return static_cast<int>(points.size()) - 1; }
+  /// True if both pass the same cells and facets in the same order.
+  bool is_like(const Cut& other) const;
   /// For each cell that holds all of the stretch between two cut points, the least cell that is linked with it at each point
   /// of the stretch; -1 for other cells. \pre no point is cut between the two
   std::vector<int> classes(int first, int last) const;
