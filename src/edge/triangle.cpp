@@ -9,6 +9,7 @@
 #include "equal_chains.h"
 #include "in_line.h"
 #include "moving_walk.h"
+#include "relink.h"
 
 namespace cellwalk {
 namespace {
@@ -55,11 +56,13 @@ class Events {
         result.chain = chain;
         return result;
       }
-      if (!walk.from(start_)) {
+      const std::optional<Chain> next_chain =
+          walk.from(start_) ? walk.chain() : detail::relink(snapshot_, line, start_, q_, chain);
+      if (!next_chain) {
         result.contact = contact(time, segment, walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }
-      chain = walk.chain();
+      chain = *next_chain;
       std::optional<Rational> next = end_of(chain, line);
       if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
       if (!next || (limit_ && *next >= *limit_)) {
@@ -96,19 +99,8 @@ class Events {
       const auto root = function.root_after(line.time());
       if (root && (!end || *root < *end)) end = root;
     };
-    for (const Half_facet f : chain) {
-      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
-      const std::size_t i = snapshot_.facet_of(f);
-      const auto side = line.side_of(cell, i);
-      note(side);
-      for (std::size_t k = 0; k < cell.loop(i).size(); ++k) note(line.along_of(cell, i, k));
-      if constexpr (D == 3) {
-        const bool in_plane =
-            side.at_0 == 0 && side.at_1 == 0 && detail::side<Exact>(cell, i, triangle_.q, counts_) == 0;
-        if (in_plane)
-          for (const std::uint16_t v : cell.loop(i)) note(line.in_plane_of(cell.point(v)));
-      }
-    }
+    for (const Half_facet f : chain)
+      line.for_all_functions(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), note);
     return end;
   }
 

@@ -74,7 +74,10 @@ class Scene {
     for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
       const Cell c = snapshot.cell(cells[i]);
       std::size_t f = 0;
-      while (snapshot.neighbor(Snapshot<D>::half_facet(c, f)) != snapshot.cell(cells[i + 1])) ++f;
+      const auto leads = [&](Half_facet h) {
+        return !snapshot.is_impassable(h) && snapshot.neighbor(h) == snapshot.cell(cells[i + 1]);
+      };
+      while (!leads(Snapshot<D>::half_facet(c, f))) ++f;
       chain.push_back(Snapshot<D>::half_facet(c, f));
     }
     return chain;
@@ -214,6 +217,42 @@ TEST(ChainOracle, TheSideTakenAtARimIsAChoice) {
   expect_blocked(scene, {low, {1.25, 1.5, 0.5}, q, {2, 0, 4}}, {0, 1});
   expect_blocked(scene, {low, {0.75, 1.5, 0.5}, q, {3, 1, 5}}, {0, 1});
   expect_free(scene, {low, {1.25, 1.5, 0.5}, q, {3, 1, 5}});
+}
+
+/// Two boxes, 0 below y = 1 and 1 above it, that share two squares: a wall for z < 1 and a window for z > 1.
+Cell_soup<3> wall_and_window() {
+  Cell_soup<3> soup;
+  for (int i = 0; i < 18; ++i) soup.points.push_back({double(i % 2), double(i / 2 % 3), double(i / 6)});
+  const auto at = [](std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + 2 * (y + 3 * z); };
+  const auto add = [&](std::vector<std::uint32_t> loop, bool turned, bool wall = false) {
+    if (turned) std::reverse(loop.begin(), loop.end());
+    soup.add_facet(loop, wall);
+  };
+  for (const std::uint32_t cell : {0u, 1u}) {
+    const bool turned = cell == 1;  // the second one mirrors the first
+    const std::uint32_t y = 2 * cell;
+    add({at(0, y, 0), at(1, y, 0), at(1, y, 2), at(0, y, 2)}, turned);
+    add({at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0)}, turned, true);
+    add({at(0, 1, 1), at(0, 1, 2), at(1, 1, 2), at(1, 1, 1)}, turned);
+    add({at(0, y, 0), at(0, y, 2), at(0, 1, 2), at(0, 1, 1), at(0, 1, 0)}, turned);
+    add({at(1, y, 0), at(1, 1, 0), at(1, 1, 1), at(1, 1, 2), at(1, y, 2)}, turned);
+    add({at(0, y, 0), at(0, 1, 0), at(1, 1, 0), at(1, y, 0)}, turned);
+    add({at(0, y, 2), at(1, y, 2), at(1, 1, 2), at(0, 1, 2)}, turned);
+    soup.end_cell();
+  }
+  return soup;
+}
+
+TEST(ChainOracle, AnEdgeLiesInAWallAndAWindowOfOneCell) {
+  const Scene<3> scene(wall_and_window(), {});
+  const Point<3> q{0.5, 1, 0.25}, in_window{0.25, 1, 1.25}, in_wall{0.25, 1, 0.5};
+  for (const std::uint32_t side : {0u, 1u}) {
+    expect_free(scene, {in_window, {0.75, 1, 1.5}, q, {side}});
+    expect_free(scene, {in_window, in_wall, q, {side}});
+    // p is on the other side of the window, which makes no difference before it comes to the wall.
+    expect_free(scene, {in_window, {0.75, 1, 1.5}, q, {1 - side, side}});
+    expect_blocked(scene, {in_window, in_wall, q, {1 - side, side}}, {1, 3});
+  }
 }
 
 TEST(ChainOracle, BrokenSweepsAreCaught) {
