@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and on worlds of
 // spikes and long edges, where edges slide in planes of walls.
-#include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/kernel/predicates.h>
 
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include <map>
 #include <numeric>
 
 #include "edge/edge_worlds.h"
 #include "edge/sweep_judge.h"
+#include "edge/thin_worlds.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk::test {
@@ -112,21 +111,6 @@ void report(const std::string& name, const Seen& seen) {
             << ", of the third side " << count(seen.faults_of_third_side) << "\n";
 }
 
-/// Facets that are walls between cells that share a passable one too.
-template <int D>
-int walls_beside_ways(const Snapshot<D>& snapshot) {
-  std::map<std::array<Cell, 2>, std::array<int, 2>> shared;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
-    for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(snapshot.cell(i), f);
-      const Cell next = snapshot.neighbor(facet);
-      if (next != Cell::none) ++shared[{snapshot.cell(i), next}][snapshot.is_impassable(facet)];
-    }
-  int walls = 0;
-  for (const auto& [cells, facets] : shared) walls += facets[0] > 0 ? facets[1] : 0;
-  return walls / 2;
-}
-
 template <int D>
 void test_worlds() {
   const std::size_t worlds = oracle::scaled_count(2 * oracle::world_kinds);
@@ -157,37 +141,6 @@ void test_worlds() {
 TEST(TriangleChains, AreRight2) { test_worlds<2>(); }
 TEST(TriangleChains, AreRight3) { test_worlds<3>(); }
 
-/// Columns of boxes, every second one only 1/64 wide. Many of the thin ones are solid up to some height: spikes that fit between
-/// two positions of an edge. Long, so that edges pass many cells.
-template <int D>
-oracle::World<D> spikes(std::uint64_t seed) {
-  Random random(seed);
-  Lattice_world_options<D> options;
-  options.cells.fill(D == 2 ? 4 : 2);
-  options.cells[0] = D == 2 ? 24 : 12;
-  options.seed = seed;
-  options.membrane_share = 0.04;
-  oracle::World<D> world;
-  world.name = "spikes, world " + std::to_string(seed);
-  Cell_soup<D>& soup = world.soup;
-  soup = lattice_world(options);
-  const std::uint32_t width = options.cells[0];
-  std::vector<std::uint64_t> heights(soup.cell_count() / options.cells[1]);
-  for (auto& height : heights) height = random.below(2) == 0 ? 0 : random.below(options.cells[1]);
-  for (std::uint32_t c = 0; c < soup.cell_count(); ++c) {
-    const std::uint32_t x = c % width, y = c / width % options.cells[1], z = c / width / options.cells[1];
-    if (x % 2 == 0 || y >= heights[x + width * z]) continue;
-    soup.solid[c] = 1;
-    for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) soup.impassable[f] = 1;
-  }
-  for (Point<D>& p : soup.points) {
-    const auto x = static_cast<int>(p[0]);
-    p[0] = x % 2 == 0 ? x / 2 : x / 2 + 63.0 / 64;
-    if (seed % 2 == 1) p[0] += p[1] / 8;  // leaning ones
-  }
-  return world;
-}
-
 template <int D>
 void test_spikes() {
   const std::size_t worlds = oracle::scaled_count(12);
@@ -205,66 +158,6 @@ void test_spikes() {
 
 TEST(TriangleChains, AreRightAmongSpikes2) { test_spikes<2>(); }
 TEST(TriangleChains, AreRightAmongSpikes3) { test_spikes<3>(); }
-
-/// Cells made one: the first of each group holds the facets of all but those within. \pre the union is convex
-template <int D>
-Cell_soup<D> merged(const Cell_soup<D>& soup, const std::vector<std::uint32_t>& group_of) {
-  const oracle::Facet_table table = oracle::make_facet_table(soup);
-  Cell_soup<D> result;
-  result.points = soup.points;
-  for (std::uint32_t g = 0; g < soup.cell_count(); ++g) {
-    for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
-      const auto other = table.opposite[f];
-      if (group_of[table.cell[f]] != g) continue;
-      if (other < 0 || group_of[table.cell[static_cast<std::size_t>(other)]] != g)
-        result.add_facet(soup.facet(f), soup.impassable[f]);
-    }
-    if (result.facet_count() > result.cell_begin.back()) result.end_cell();
-  }
-  return result;
-}
-
-/// Cells on both sides of a sheet, a membrane with holes; here and there with a wall that stands on it. In every second world
-/// many cells are boxes that share both holes and walls of the sheet.
-template <int D>
-oracle::World<D> sheets(std::uint64_t seed) {
-  Random random(seed);
-  const bool boxes = seed % 2 == 0;
-  Lattice_world_options<D> options;
-  const std::uint32_t width = D == 2 ? 12 : 4;
-  options.cells.fill(4);
-  options.cells[0] = width;
-  options.seed = seed;
-  options.simplex_share = boxes ? 0 : 0.25;
-  options.membrane_share = boxes ? 0 : 0.02;
-  if (seed % 4 < 2) options.map = rotated<D>();
-  oracle::World<D> world;
-  world.name = "sheets, world " + std::to_string(seed);
-  Cell_soup<D>& soup = world.soup;
-  soup = lattice_world(options);
-  const Point<D> middle = options.map(Point<D>{0, 2});
-  const Vector<D> up = middle - options.map({});
-  const oracle::Facet_table table = oracle::make_facet_table(soup);
-  for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
-    if (table.opposite[f] < f) continue;
-    const auto loop = soup.facet(f);
-    const bool is_in_sheet = std::all_of(
-        loop.begin(), loop.end(), [&](std::uint32_t v) { return dot(soup.points[v] - middle, up) == 0; });
-    if (is_in_sheet && random.below(2) == 0) soup.impassable[f] = 1;
-  }
-  if (!boxes) return world;
-  // Blocks of 2 by 2 cubes along the sheet (2D: of 2 squares), three out of four.
-  std::vector<std::uint32_t> group_of(soup.cell_count());
-  std::vector<std::uint64_t> chance(soup.cell_count());
-  for (auto& c : chance) c = random.below(4);
-  for (std::uint32_t c = 0; c < group_of.size(); ++c) {
-    const std::uint32_t x = c % width, y = c / width % 4, z = c / width / 4;
-    const std::uint32_t first = (x & ~1u) + width * (y + 4 * (z & ~1u));
-    group_of[c] = chance[first] == 0 ? c : first;
-  }
-  soup = merged(soup, group_of);
-  return world;
-}
 
 /// Edges at rest in planes of walls slide there.
 template <int D>
@@ -298,7 +191,8 @@ void test_critical_times() {
     const oracle::Integer_complex<D> complex(w.world.soup);
     for (int k = 0; k < 8; ++k) {
       const Particle<D> a = w.start();
-      const oracle::Moving_segment<D> segment(complex, a.position, w.target(a), w.target(a));
+      const Point<D> b = w.target(a), q = w.target(a);
+      const oracle::Moving_segment<D> segment(complex, a.position, b, q);
       const auto times = segment.critical_times();
       for (std::size_t i = 0; i + 1 < times.size(); ++i) {
         const auto middle = oracle::between(times[i], times[i + 1]);
