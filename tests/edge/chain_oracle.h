@@ -52,7 +52,7 @@ class Chain_oracle {
   /// Cost: some 0.1 ms a critical time, of which there are about six.
   Outcomes judge(const Edge_motion<D>& motion) const;
 
-  /// True if a chain is one of the ends of a outcomes on this motion: it is passed by the edge where p ends, and equal to a chain
+  /// True if a chain is one of the ends among the outcomes of this motion: it is passed by the edge where p ends, and equal to a chain
   /// that it may have there.
   bool is_end(const Edge_motion<D>& motion, const Outcomes& outcomes,
               std::span<const std::uint32_t> chain) const;

@@ -255,6 +255,22 @@ TEST(ChainOracle, AnEdgeLiesInAWallAndAWindowOfOneCell) {
   }
 }
 
+TEST(ChainOracle, AnEdgeWeavesThroughASheetOfWindows) {
+  // At every second place a wall, of which the edge lies on one side or the other: the sweep must not try them all.
+  constexpr std::uint32_t length = 33;
+  Walls walls;
+  Cells chain;
+  for (std::uint32_t x = 0; x < length; ++x) {
+    if (x % 2 == 0) walls.push_back({x, x + length});
+    const std::uint32_t side = x / 2 % 2 == 0 ? 0 : length;
+    chain.push_back(x + side);
+    if (x % 2 == 1) chain.push_back(x + length - side);
+  }
+  const Scene<3> scene(make_cubes(length, 2, 1), walls);
+  const Point<3> p{0.5, 1, 0.5}, q{length - 0.5, 1, 0.25};
+  expect_free(scene, {p, {0.5, 1, 0.625}, q, chain});
+}
+
 TEST(ChainOracle, BrokenSweepsAreCaught) {
   const Scene<3> scene(make_cubes(2, 2, 2), {{0, 1}, {2, 3}});
   const auto blocked = scene.judge({{0.5, 1, 1.5}, {1.5, 1, 1.5}, {1, 1, 0.5}, {4, 0}});
