@@ -7,107 +7,157 @@
 namespace cellwalk::detail {
 namespace {
 
+/// Cells linked at a point of a segment.
 template <int D>
-class Comparison {
+class Linked {
  public:
-  Comparison(const Snapshot<D>& snapshot, const Rational_segment<D>& segment)
-      : snapshot_(snapshot), segment_(segment) {}
-
-  bool are_equal(Cell start, const Chain& chain, const Chain& other) const {
-    const std::vector<Piece> pieces = cut(start, chain), others = cut(start, other);
-    // Both run from 0 to 1: go through them together.
-    std::size_t i = 0, j = 0;
-    for (;;) {
-      const Rational low = std::max<Rational>(pieces[i].low, others[j].low);
-      const Rational high = std::min<Rational>(pieces[i].high, others[j].high);
-      if (!are_linked(pieces[i].cell, others[j].cell, low, high)) return false;
-      const bool is_last = i + 1 == pieces.size(), other_is_last = j + 1 == others.size();
-      if (is_last && other_is_last) return true;
-      if (!is_last && (other_is_last || pieces[i].high <= others[j].high))
-        ++i;
-      else
-        ++j;
-    }
-  }
-
-  Half_facet wall() const { return wall_; }
-
- private:
-  /// A part of the segment, and the cell that a chain passes there.
-  struct Piece {
+  /// A cell, the one it was found from (by its place among the found ones), and the facet between.
+  struct Found {
     Cell cell;
-    Rational low, high;
+    std::size_t parent;
+    Half_facet facet;
   };
 
-  std::vector<Piece> cut(Cell start, const Chain& chain) const {
-    std::vector<Piece> pieces;
-    Cell cell = start;
-    Rational last = 0;
-    for (const Half_facet f : chain) {
-      const std::optional<Span> met = span(f);
-      Rational next = last;
-      if (met) next = std::min<Rational>(1, std::max<Rational>(last, met->low));
-      pieces.push_back({cell, last, next});
-      cell = snapshot_.neighbor(f);
-      last = next;
-    }
-    pieces.push_back({cell, last, 1});
-    return pieces;
-  }
-
-  std::optional<Span> span(Half_facet f) const {
-    return segment_.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-  }
-
-  /// True if two cells that hold the closed piece are linked at all its points: at its middle, first; then on both sides of
-  /// the part on which the facets found there go on. A single point needs no test: the facets that a chain passes in it link
-  /// the cells before and after, which are compared themselves.
-  bool are_linked(Cell cell, Cell other, const Rational& low, const Rational& high) const {
-    if (cell == other || !(low < high)) return true;
-    const Rational middle = (low + high) / 2;
-    std::vector<Cell> found{cell};
-    Span part{low, high};
-    for (std::size_t head = 0; head < found.size() && found[head] != other; ++head) {
-      const Cell c = found[head];
-      for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
+  /// Searches from a cell that holds the point at t until `to` is found.
+  Linked(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
+         const Rational& t)
+      : found_{{from, 0, Half_facet::none}} {
+    const auto is_found = [&](Cell c) {
+      return std::any_of(found_.begin(), found_.end(), [c](const Found& f) { return f.cell == c; });
+    };
+    for (std::size_t head = 0; head < found_.size() && !reached_; ++head) {
+      const Cell c = found_[head].cell;
+      reached_ = c == to;
+      place_ = head;
+      const Cell_view<D> cell = snapshot.view(c);
+      for (std::size_t i = 0; i < cell.facet_count() && !reached_; ++i) {
         const Half_facet f = Snapshot<D>::half_facet(c, i);
-        const std::optional<Span> met = span(f);
-        if (!met || met->low > middle || met->high < middle) continue;
-        if (snapshot_.is_impassable(f)) {
-          wall_ = f;
+        const std::optional<Span> met = segment.in_facet(cell, i);
+        if (!met || met->low > t) continue;
+        const bool is_wall = snapshot.is_impassable(f);
+        if (met->high < t) {
+          if (!is_wall) last_before = std::max<Rational>(last_before, met->high);
           continue;
         }
-        const Cell next = snapshot_.neighbor(f);
-        if (std::find(found.begin(), found.end(), next) != found.end()) continue;
-        found.push_back(next);
+        if (is_wall) {
+          wall = f;
+          continue;
+        }
+        const Cell next = snapshot.neighbor(f);
+        if (is_found(next)) continue;
+        found_.push_back({next, head, f});
         part.low = std::max<Rational>(part.low, met->low);
         part.high = std::min<Rational>(part.high, met->high);
       }
     }
-    if (std::find(found.begin(), found.end(), other) == found.end()) return false;
-    return are_linked(cell, other, low, part.low) && are_linked(cell, other, part.high, high);
   }
 
-  const Snapshot<D>& snapshot_;
-  const Rational_segment<D>& segment_;
-  mutable Half_facet wall_ = Half_facet::none;
+  /// True if the other cell is linked there.
+  explicit operator bool() const { return reached_; }
+
+  /// The facets on the way to it. \pre it is linked
+  std::vector<Half_facet> way() const {
+    std::vector<Half_facet> facets;
+    for (std::size_t i = place_; i != 0; i = found_[i].parent) facets.push_back(found_[i].facet);
+    std::reverse(facets.begin(), facets.end());
+    return facets;
+  }
+
+  Span part{0, 1};                     ///< all facets passed hold this part of the segment
+  Half_facet wall = Half_facet::none;  ///< a wall at the point, of one of the cells found
+  Rational last_before = 0;            ///< the last end of a passable facet of theirs before the point
+
+ private:
+  std::vector<Found> found_;
+  std::size_t place_ = 0;  ///< of the last cell looked at
+  bool reached_ = false;
 };
 
+/// Where between low and high two cells that hold this piece are first not linked. They are compared at its middle; then on
+/// both sides of the part of which the same can be said. A single point needs no test: the facets that a chain passes in it
+/// link the cells before and after, which are compared themselves.
+template <int D>
+std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
+                                     Cell cell, Cell other, const Rational& low, const Rational& high) {
+  if (cell == other || !(low < high)) return {};
+  const Linked<D> linked(snapshot, segment, cell, other, (low + high) / 2);
+  if (linked) {
+    const auto before = first_parting(snapshot, segment, cell, other, low, linked.part.low);
+    return before ? before : first_parting(snapshot, segment, cell, other, linked.part.high, high);
+  }
+  // Towards low, nothing can link them before another facet comes.
+  const Rational since = std::max<Rational>(low, linked.last_before);
+  const auto before = first_parting(snapshot, segment, cell, other, low, since);
+  return before ? before : Parting{since, linked.wall};
+}
+
 }  // namespace
+
+template <int D>
+std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
+                             std::span<const Half_facet> chain, const Rational& end) {
+  std::vector<Piece> pieces;
+  Cell cell = start;
+  Rational last = 0;
+  for (const Half_facet f : chain) {
+    const auto met = segment.in_facet(snapshot.view(snapshot.cell_of(f)), snapshot.facet_of(f));
+    Rational next = last;
+    if (met) next = std::min<Rational>(end, std::max<Rational>(last, met->low));
+    pieces.push_back({cell, last, next});
+    cell = snapshot.neighbor(f);
+    last = next;
+  }
+  pieces.push_back({cell, last, end});
+  return pieces;
+}
+
+template <int D>
+std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
+                                  const std::vector<Piece>& chain, const std::vector<Piece>& other) {
+  for (auto piece = chain.begin(), with = other.begin();;) {
+    const auto parting =
+        first_parting(snapshot, segment, piece->cell, with->cell, std::max<Rational>(piece->low, with->low),
+                      std::min<Rational>(piece->high, with->high));
+    if (parting) return parting;
+    if (piece->high <= with->high) {
+      if (++piece == chain.end()) return {};
+    } else if (++with == other.end()) {
+      return {};
+    }
+  }
+}
+
+template <int D>
+std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
+                                Cell to, const Rational& t) {
+  return Linked<D>(snapshot, segment, from, to, t).way();
+}
 
 template <int D>
 bool are_equal(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
                const Chain& chain, const Chain& other, Half_facet& wall) {
   if (chain == other) return true;
-  const Comparison<D> comparison(snapshot, segment);
-  if (comparison.are_equal(start, chain, other)) return true;
-  wall = comparison.wall();
-  return false;
+  const auto pieces = [&](const Chain& c) {
+    return pieces_of<D>(snapshot, segment, start, {c.data(), c.size()}, 1);
+  };
+  const auto parting = parting_of<D>(snapshot, segment, pieces(chain), pieces(other));
+  if (parting) wall = parting->wall;
+  return !parting;
 }
 
-template bool are_equal<2>(const Snapshot<2>&, const Rational_segment<2>&, Cell, const Chain&, const Chain&,
-                           Half_facet&);
-template bool are_equal<3>(const Snapshot<3>&, const Rational_segment<3>&, Cell, const Chain&, const Chain&,
-                           Half_facet&);
+#define CELLWALK_INSTANTIATE(D)                                                                           \
+  template std::vector<Piece> pieces_of<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,          \
+                                           std::span<const Half_facet>, const Rational&);                 \
+  template std::optional<Parting> parting_of<D>(const Snapshot<D>&, const Rational_segment<D>&,           \
+                                                const std::vector<Piece>&, const std::vector<Piece>&);    \
+  template std::vector<Half_facet> link_at<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, Cell, \
+                                              const Rational&);                                           \
+  template bool are_equal<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, const Chain&,          \
+                             const Chain&, Half_facet&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
 
 }  // namespace cellwalk::detail

@@ -9,16 +9,55 @@
 
 namespace cellwalk::detail {
 
+/// A part of a segment, and the cell that a chain passes there.
+struct Piece {
+  Cell cell;
+  Rational low, high;
+};
+
+/// The pieces of a chain that starts in a cell at parameter 0 and ends at another; one more than it has facets.
+/// \pre the segment passes the chain there
+template <int D>
+std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
+                             std::span<const Half_facet> chain, const Rational& end);
+
+/// Where two chains of a segment part: they are linked up to a parameter, but not after it, for there is a wall.
+struct Parting {
+  Rational at;
+  Half_facet wall;
+};
+
+/// The first parting of two chains that start together, up to where the shorter one ends.
+template <int D>
+std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
+                                  const std::vector<Piece>& chain, const std::vector<Piece>& other);
+
+/// The passable facets on the way from one cell to another, all of which hold the point at t.
+/// \pre the cells are linked there
+template <int D>
+std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
+                                Cell to, const Rational& t);
+
 /// Compares two chains that start in the cell `start`, both passed by the segment. If they are not equal, `wall` is set to a
 /// wall that parts them.
 template <int D>
 bool are_equal(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
                const Chain& chain, const Chain& other, Half_facet& wall);
 
-extern template bool are_equal<2>(const Snapshot<2>&, const Rational_segment<2>&, Cell, const Chain&,
-                                  const Chain&, Half_facet&);
-extern template bool are_equal<3>(const Snapshot<3>&, const Rational_segment<3>&, Cell, const Chain&,
-                                  const Chain&, Half_facet&);
+#define CELLWALK_DECLARE(D)                                                                                  \
+  extern template std::vector<Piece> pieces_of<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,      \
+                                                  std::span<const Half_facet>, const Rational&);             \
+  extern template std::optional<Parting> parting_of<D>(                                                      \
+      const Snapshot<D>&, const Rational_segment<D>&, const std::vector<Piece>&, const std::vector<Piece>&); \
+  extern template std::vector<Half_facet> link_at<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,   \
+                                                     Cell, const Rational&);                                 \
+  extern template bool are_equal<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, const Chain&,      \
+                                    const Chain&, Half_facet&);
+
+CELLWALK_DECLARE(2)
+CELLWALK_DECLARE(3)
+
+#undef CELLWALK_DECLARE
 
 }  // namespace cellwalk::detail
 

@@ -3,9 +3,12 @@
 
 #include <vector>
 
+#include "edge_contact.h"
 #include "equal_chains.h"
 #include "exit_time.h"
+#include "in_line.h"
 #include "moving_walk.h"
+#include "relink.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -51,14 +54,16 @@ class Events {
         return are_equal(snapshot_, segment, start_, chain, other, parting);
       };
       Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
-      if (!walk.from(start_)) {
+      const std::optional<Chain> next_chain =
+          walk.from(start_) ? walk.chain() : relink(snapshot_, line, start_, q_, chain);
+      if (!next_chain) {
         chain.clear();
         result.impact = to_time(time);
         result.contact =
             contact(result.impact, segment, walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }
-      chain = walk.chain();
+      chain = *next_chain;
       std::optional<Rational> next = end_of(chain, line);
       if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
       if (!next) break;
@@ -90,41 +95,14 @@ class Events {
       const auto root = function.root_after(line.time());
       if (root && (!end || *root < *end)) end = root;
     };
-    for (const Half_facet f : chain) {
-      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
-      const std::size_t i = snapshot_.facet_of(f);
-      const auto side_of_p = line.side_of(cell, i);
-      note(side_of_p);
-      for (std::size_t k = 0; k < cell.loop(i).size(); ++k) note(line.along_of(cell, i, k));
-      if constexpr (D == 3) {
-        const bool in_plane =
-            side_of_p.at_0 == 0 && side_of_p.at_1 == 0 && side<Exact>(cell, i, triangle_.q, counts_) == 0;
-        if (in_plane)
-          for (const std::uint16_t v : cell.loop(i)) note(line.in_plane_of(cell.point(v)));
-      }
-    }
+    for (const Half_facet f : chain)
+      line.for_all_functions(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), note);
     return end;
   }
 
   Wall_contact<D> contact(const Exact_time& time, const Rational_segment<D>& segment, Half_facet wall) const {
-    const Cell c = snapshot_.cell_of(wall);
-    const Cell_view<D> cell = snapshot_.view(c);
-    const std::size_t i = snapshot_.facet_of(wall);
-    Wall_contact<D> contact;
-    contact.time = time.rounded();
-    contact.facet = wall;
-    contact.cell = c;
-    contact.normal = inner_normal(cell, i);
-    contact.point = triangle_.q;
-    contact.kind = Contact_kind::facet;
-    if (const auto met = segment.in_facet(cell, i)) {
-      const auto x = segment.at(met->low);
-      for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
-      const Facet_feature feature = lowest_feature<D>(cell, i, x);
-      contact.kind = feature.kind;
-      contact.corner = feature.corner;
-    }
-    return contact;
+    const auto met = segment.in_facet(snapshot_.view(snapshot_.cell_of(wall)), snapshot_.facet_of(wall));
+    return edge_contact<D>(snapshot_, time, wall, segment.at(met ? met->low : Rational(1)));
   }
 
   const Snapshot<D>& snapshot_;
@@ -142,6 +120,8 @@ template <int D>
 Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts,
                               const std::optional<Rational>& until) {
+  if (are_collinear(way.from.position, way.to.position, q.position))
+    return sweep_in_line(snapshot, way, q, before, counts, until);
   return Events<D>(snapshot, way, q, counts, until).run(before);
 }
 

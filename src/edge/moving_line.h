@@ -66,16 +66,38 @@ class Moving_line {
     });
   }
 
-  /// In a plane that holds the whole triangle: p(s), q and a point of it, seen along the axis in which the triangle has an
+  /// All functions whose roots change how the segment passes facet i, or that it does.
+  template <class Note>
+  void for_all_functions(const Cell_view<D>& cell, std::size_t i, Note note) const {
+    note(side_of(cell, i));
+    const auto loop = cell.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) note(along_of(cell, i, k));
+    if constexpr (D == 3) {
+      if (!holds_triangle(cell, i)) return;
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Point<D>&u = cell.point(loop[k]), &v = cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]);
+        note(in_plane_of(triangle_.q, u));
+        note(in_plane_of(u, v));
+      }
+    }
+  }
+
+  /// True if the whole triangle lies in the plane of facet i.
+  bool holds_triangle(const Cell_view<D>& cell, std::size_t i) const {
+    return detail::side<Exact>(cell, i, triangle_.q, counts_) == 0 &&
+           detail::side<Exact>(cell, i, triangle_.a, counts_) == 0 &&
+           detail::side<Exact>(cell, i, triangle_.b, counts_) == 0;
+  }
+
+  /// In a plane that holds the whole triangle: p(s) and two points of it, seen along an axis along which the triangle has an
   /// area. 3D only.
-  auto in_plane_of(const Point<D>& x) const {
+  auto in_plane_of(const Point<D>& x, const Point<D>& y) const {
     int axis = 0;
     while (axis < 2 && Exact::orientation(counts_.predicates, drop(triangle_.a, axis),
                                           drop(triangle_.b, axis), drop(triangle_.q, axis)) == 0)
       ++axis;
-    return affine([this, x, axis](auto kernel, const Point<D>& p) {
-      return decltype(kernel)::orientation(counts_.predicates, drop(p, axis), drop(triangle_.q, axis),
-                                           drop(x, axis));
+    return affine([this, x, y, axis](auto kernel, const Point<D>& p) {
+      return decltype(kernel)::orientation(counts_.predicates, drop(p, axis), drop(x, axis), drop(y, axis));
     });
   }
 

@@ -8,8 +8,9 @@
 
 namespace cellwalk::detail {
 
-/// Walks from p(s+) to q, by all ways that the rule of the walk allows (more than one only in planes of walls), until one
-/// leads to the side of q and is accepted.
+/// Walks from p(s+) to q, by ways that the rule of the walk allows (more than one only in planes of facets), until one leads to
+/// the side of q and is accepted. There may be as many ways as there are sides of all walls in such a plane; after some dead
+/// ends it gives up, and relink() decides.
 template <int D, class Accept>
 class Moving_walk {
  public:
@@ -18,6 +19,7 @@ class Moving_walk {
 
   /// Goes on from a cell; true once accepted.
   bool from(Cell c) {
+    if (dead_ends_ >= most_dead_ends) return false;
     const Cell_view<D> cell = snapshot_.view(c);
     Walk_counts& counts = line_.counts();
     bool outside = false;
@@ -62,14 +64,18 @@ class Moving_walk {
     const Half_facet wall = append_link(snapshot_, chain_, c, q_.cell, q_.position, line_.counts());
     if (wall != Half_facet::none) return block(wall);
     if (accept_(chain_)) return true;
+    ++dead_ends_;
     chain_.resize(before);
     return false;
   }
 
   bool block(Half_facet wall) {
+    ++dead_ends_;
     if (wall_ == Half_facet::none) wall_ = wall;
     return false;
   }
+
+  static constexpr int most_dead_ends = 8;  ///< walks that cost as much as relinking
 
   const Snapshot<D>& snapshot_;
   const Moving_line<D>& line_;
@@ -77,6 +83,7 @@ class Moving_walk {
   Accept accept_;
   Chain chain_;
   Half_facet wall_ = Half_facet::none;
+  int dead_ends_ = 0;
 };
 
 }  // namespace cellwalk::detail

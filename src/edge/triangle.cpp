@@ -5,32 +5,17 @@
 #include "events.h"
 
 namespace cellwalk {
-namespace {
-
-/// The sweep of an edge whose p is blocked on its way: no chain at the end to confirm.
-template <int D>
-Chain_result<D> sweep_until_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                    const Chain& before, Edge_counts& counts,
-                                    const Edge_certificates& certificates) {
-  ++counts.edges;
-  ++counts.changed;
-  if (certificates.flood &&
-      is_clear(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts)) {
-    Chain_result<D> result{before, {}, {}};
-    walk_start(snapshot, result.chain, way.crossed);
-    return result;
-  }
-  ++counts.event_sweeps;
-  return detail::follow_events(snapshot, way, q, before, counts.walk);
-}
-
-}  // namespace
-
 template <int D>
 Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates) {
-  if (way.blocked) return sweep_until_blocked(snapshot, way, q, before, counts, certificates);
+  if (way.blocked) {
+    // There is no chain at the end to confirm, and the wall that blocks p meets the triangle.
+    ++counts.edges;
+    ++counts.changed;
+    ++counts.event_sweeps;
+    return detail::follow_events(snapshot, way, q, before, counts.walk);
+  }
   Chain_result<D> result;
   if (way.from.position == way.to.position) {
     // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "edge/rational_sweep.h"
@@ -21,15 +22,18 @@ template <int D>
 class Edge_world {
  public:
   Edge_world(std::uint64_t number, bool generic)
-      : world(oracle::make_world<D>(number)),
+      : Edge_world(oracle::make_world<D>(number), number, generic) {}
+  Edge_world(oracle::World<D> w, std::uint64_t seed, bool generic)
+      : world(std::move(w)),
         snapshot(Snapshot<D>::compile(world.soup, glue(world.soup))),
         locator(snapshot),
         generic_(generic),
-        source_(world, number) {}
+        source_(world, seed) {}
+  Edge_world(const Edge_world&) = delete;  // the source refers to the world
 
   /// A particle where a motion may start; Cell::none as its cell if that is not in free space.
   Particle<D> start() {
-    kind_ = source_.kind(generic_);
+    kind_ = slides ? oracle::Motion_kind::in_wall_plane : source_.kind(generic_);
     return on_any_side(source_.start(kind_));
   }
   /// A particle where a motion of this kind from p ends.
@@ -38,6 +42,7 @@ class Edge_world {
   Point<D> target(const Particle<D>& p) { return source_.target(kind_, p.position, p.position); }
   /// Another kind of motion for target() and end(); not one that needs a start made for it.
   void choose_kind() {
+    if (slides) return;
     do kind_ = source_.kind(generic_);
     while (kind_ == oracle::Motion_kind::in_wall_plane || kind_ == oracle::Motion_kind::along_edge);
   }
@@ -45,6 +50,7 @@ class Edge_world {
   const oracle::World<D> world;
   const Snapshot<D> snapshot;
   const Locator<D> locator;
+  bool slides = false;  ///< all edges lie in the plane of a wall and move within it
 
  private:
   Particle<D> on_any_side(const Point<D>& x) {

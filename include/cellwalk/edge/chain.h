@@ -51,7 +51,7 @@ struct Chain_result {
   /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. 1: it leads to q on another
   /// side of the walls there than the one that q is on.
   std::optional<Wall_contact<D>> contact;
-  Exact_time impact;  ///< of a sweep's contact: contact->time before it was rounded
+  Exact_time impact{};  ///< of a sweep's contact: contact->time before it was rounded
 };
 
 /// Walks a temporary particle from p to q.

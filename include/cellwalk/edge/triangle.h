@@ -25,7 +25,8 @@ struct Way {
 /// events, one by one, in exact rationals. Touching a wall is no contact. If p is blocked, a contact is one of the edge before
 /// that time (at that time, p's own comes first), and the chain returned is the last one.
 /// \pre `before` is the chain of the edge before the move
-/// Degenerate cases: all positions of facets, ridges and vertices against the swept triangle, which may be a segment.
+/// Degenerate cases: all positions of facets, ridges and vertices against the swept triangle. Where it is a segment (p moves in
+/// the line of the edge), a contact can only be with a wall in that line of which p takes the other side.
 /// Cost: a few ns to some hundred ns for the certificates; up to milliseconds for the events, which only edges that touch or
 /// hit a wall get to.
 template <int D>

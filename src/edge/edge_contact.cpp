@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "edge_contact.h"
+
+#include <cellwalk/walk/detail/star.h>
+
+namespace cellwalk::detail {
+
+template <int D>
+Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
+                             const Rational_point<D>& x) {
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
+  const std::size_t i = snapshot.facet_of(wall);
+  Wall_contact<D> contact;
+  contact.time = time.rounded();
+  contact.facet = wall;
+  contact.cell = snapshot.cell_of(wall);
+  contact.normal = inner_normal(cell, i);
+  const Facet_feature feature = lowest_feature<D>(cell, i, x);
+  contact.kind = feature.kind;
+  contact.corner = feature.corner;
+  for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
+  return contact;
+}
+
+template Wall_contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet,
+                                         const Rational_point<2>&);
+template Wall_contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet,
+                                         const Rational_point<3>&);
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "in_line.h"
+
+#include <algorithm>
+
+#include "edge_contact.h"
+#include "equal_chains.h"
+#include "exit_time.h"
+
+namespace cellwalk {
+
+template <int D>
+Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                      const Chain& before, Walk_counts& counts,
+                                      const std::optional<Rational>& until) {
+  const Point<D>&a = way.from.position, &b = way.to.position;
+  Chain_result<D> result{before, {}, {}};
+  int axis = 0;
+  while (axis + 1 < D && a[axis] == b[axis]) ++axis;
+  const bool shrinks =
+      (a[axis] < b[axis] && a[axis] < q.position[axis]) || (a[axis] > b[axis] && a[axis] > q.position[axis]);
+  if (!shrinks) {
+    // Every chain passed before is passed behind the way of p.
+    walk_start(snapshot, result.chain, way.crossed);
+    return result;
+  }
+  // Shares of the way from a to b or to q, whichever is further: where q is, and where p ends.
+  const auto from = exact<D>(a), to = exact<D>(b), other = exact<D>(q.position);
+  const Rational way_of_p = CGAL::abs(Rational(to[axis] - from[axis]));
+  const Rational way_to_q = CGAL::abs(Rational(other[axis] - from[axis]));
+  const Rational whole = std::max<Rational>(way_of_p, way_to_q);
+  const Rational_segment<D> line(from, way_of_p < way_to_q ? other : to);
+  const Rational at_q = way_to_q / whole;
+  Rational end = way_of_p / whole;
+  Rational limit = until.value_or(1);
+  if (way.blocked)
+    limit = std::min<Rational>(limit, exit_time<D>(snapshot.view(way.visited.back()), a, b, counts));
+  end *= limit;
+
+  const auto pieces = pieces_of<D>(snapshot, line, way.from.cell, {before.data(), before.size()}, at_q);
+  const auto walked = pieces_of<D>(snapshot, line, way.from.cell, way.crossed, end);
+  if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
+    result.chain.clear();
+    result.impact = to_time(parting->at * whole / way_of_p);
+    result.contact = edge_contact<D>(snapshot, result.impact, parting->wall, line.at(parting->at));
+    return result;
+  }
+  std::size_t i = 0;
+  if (end <= at_q) {
+    // What is left of the chain, and p linked with it.
+    while (pieces[i].high < end) ++i;
+    result.chain.assign(before.begin() + static_cast<std::ptrdiff_t>(i), before.end());
+    walk_start<D>(snapshot, result.chain, link_at(snapshot, line, pieces[i].cell, way.to.cell, end));
+  } else {
+    // p has passed q: the way from there on.
+    while (walked[i].high < at_q) ++i;
+    const auto link = link_at(snapshot, line, walked[i].cell, q.cell, at_q);
+    result.chain.assign(link.begin(), link.end());
+    walk_start(snapshot, result.chain, way.crossed.subspan(i));
+  }
+  return result;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                            \
+  template Chain_result<D> detail::sweep_in_line<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+                                                    const Chain&, Walk_counts&,                            \
+                                                    const std::optional<Rational>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk

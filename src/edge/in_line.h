@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Edges whose end moves in their line: the triangle that they sweep is a segment. Theory: docs/sweep.md.
+#ifndef CELLWALK_EDGE_IN_LINE_H
+#define CELLWALK_EDGE_IN_LINE_H
+
+#include <cellwalk/edge/triangle.h>
+
+#include "rational_segment.h"
+
+namespace cellwalk::detail {
+
+/// sweep_triangle() where a, b and q lie on one line. The edge gets longer and is free; or shorter, and then p must stay on
+/// the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
+template <int D>
+Chain_result<D> sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                              const Chain& before, Walk_counts& counts, const std::optional<Rational>& until);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_IN_LINE_H

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "relink.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "equal_chains.h"
+#include "link.h"
+
+namespace cellwalk::detail {
+namespace {
+
+template <int D>
+class Relinking {
+ public:
+  Relinking(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, const Particle<D>& q,
+            const Chain& chain)
+      : snapshot_(snapshot),
+        line_(line),
+        start_(start),
+        q_(q),
+        chain_(chain),
+        now_(at(line.time())),
+        pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)) {}
+
+  std::optional<Chain> run() {
+    find_cells();
+    if (!lies_in_plane()) return {};
+    const Rational_segment<D> after = at((line_.time() + next_root()) / 2);
+    if (!from(after, start_, 0)) return {};
+    return found_;
+  }
+
+ private:
+  Rational_segment<D> at(const Rational& time) const {
+    const auto& t = line_.triangle();
+    return {Rational_segment<D>(exact<D>(t.a), exact<D>(t.b)).at(time), exact<D>(t.q)};
+  }
+
+  /// All cells linked with the chain somewhere on the edge.
+  void find_cells() {
+    cells_.push_back(start_);
+    for (std::size_t head = 0; head < cells_.size(); ++head) {
+      const Cell_view<D> cell = snapshot_.view(cells_[head]);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+        const Half_facet f = Snapshot<D>::half_facet(cells_[head], i);
+        if (snapshot_.is_impassable(f)) continue;
+        const Cell next = snapshot_.neighbor(f);
+        if (std::find(cells_.begin(), cells_.end(), next) == cells_.end() && now_.in_facet(cell, i))
+          cells_.push_back(next);
+      }
+    }
+  }
+
+  bool lies_in_plane() const {
+    return std::any_of(cells_.begin(), cells_.end(), [&](Cell c) {
+      const Cell_view<D> cell = snapshot_.view(c);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i)
+        if (line_.holds_triangle(cell, i)) return true;
+      return false;
+    });
+  }
+
+  /// Until then, the edge passes the facets of these cells in the same way.
+  Rational next_root() const {
+    Rational end = 1;
+    const auto note = [&](const auto& function) {
+      const auto root = function.root_after(line_.time());
+      if (root && *root < end) end = *root;
+    };
+    for (const Cell c : cells_) {
+      const Cell_view<D> cell = snapshot_.view(c);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i) line_.for_all_functions(cell, i, note);
+    }
+    return end;
+  }
+
+  /// Goes on from a cell in which the edge is at t; true once at q. Ways to the same place are as good as each other, since
+  /// all are equal to the chain.
+  bool from(const Rational_segment<D>& after, Cell c, const Rational& t) {
+    if (parts() || !seen_.emplace(c, t).second) return false;
+    if (arrive(c)) return true;
+    const Cell_view<D> cell = snapshot_.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      if (snapshot_.is_impassable(f)) continue;
+      const std::optional<Span> met = after.in_facet(cell, i);
+      if (!met || met->high < t) continue;
+      found_.push_back(f);
+      if (from(after, snapshot_.neighbor(f), std::max<Rational>(t, met->low))) return true;
+      found_.pop_back();
+    }
+    return false;
+  }
+
+  /// True if what is found so far is not equal to the chain up to where its last cell begins.
+  bool parts() const {
+    auto pieces = pieces_of<D>(snapshot_, now_, start_, {found_.data(), found_.size()}, 1);
+    pieces.pop_back();
+    return !pieces.empty() && parting_of(snapshot_, now_, pieces_, pieces);
+  }
+
+  bool arrive(Cell c) {
+    const Cell_view<D> cell = snapshot_.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i)
+      if (side<Exact>(cell, i, q_.position, line_.counts()) > 0) return false;
+    const std::size_t before = found_.size();
+    Half_facet wall = append_link(snapshot_, found_, c, q_.cell, q_.position, line_.counts());
+    if (wall == Half_facet::none && are_equal(snapshot_, now_, start_, chain_, found_, wall)) return true;
+    found_.resize(before);
+    return false;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Moving_line<D>& line_;
+  const Cell start_;
+  const Particle<D>& q_;
+  const Chain& chain_;
+  const Rational_segment<D> now_;
+  const std::vector<Piece> pieces_;  ///< of the chain
+  std::vector<Cell> cells_;
+  std::set<std::pair<Cell, Rational>> seen_;
+  Chain found_;
+};
+
+}  // namespace
+
+template <int D>
+std::optional<Chain> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
+                            const Particle<D>& q, const Chain& chain) {
+  return Relinking<D>(snapshot, line, start, q, chain).run();
+}
+
+template std::optional<Chain> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell, const Particle<2>&,
+                                        const Chain&);
+template std::optional<Chain> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell, const Particle<3>&,
+                                        const Chain&);
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// How an edge that moves in the plane of facets goes on: through any of them, wherever it lies in them. Theory: docs/sweep.md.
+#ifndef CELLWALK_EDGE_RELINK_H
+#define CELLWALK_EDGE_RELINK_H
+
+#include "moving_line.h"
+
+namespace cellwalk::detail {
+
+/// A chain of the edge just after a time that starts in a cell of p and is equal to another at that time, if there is one. For
+/// triangles in the plane of facets, where the edge may change sides all along a facet, not only where it leaves a cell;
+/// elsewhere nothing is looked for.
+/// \pre the chain is valid at line.time() < 1, and starts in that cell
+/// Cost: milliseconds: rational numbers for all facets of the cells linked with the edge.
+template <int D>
+std::optional<Chain> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
+                            const Particle<D>& q, const Chain& chain);
+
+extern template std::optional<Chain> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
+                                               const Particle<2>&, const Chain&);
+extern template std::optional<Chain> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
+                                               const Particle<3>&, const Chain&);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_RELINK_H
