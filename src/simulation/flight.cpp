@@ -41,7 +41,8 @@ Flight<D>::Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin)
 }
 
 template <int D>
-Flight<D>::Flight(Body<D> body, Guided_motion<D> guide) : Flight(std::move(body), Vector<D>{}, Spin<D>{}) {
+Flight<D>::Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin)
+    : Flight(std::move(body), Vector<D>{}, spin) {
   path_length_ = length_of<D>(guide.path);
   for (std::size_t i = 0; i < shape_.size(); ++i) shape_[i] = body_.positions()[i] - guide.path.front();
   guide_ = std::move(guide);
@@ -78,8 +79,8 @@ void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_co
   } else {
     velocity_ = velocity_ + dt * conditions.gravity;
     origin = middle() + dt * velocity_;
-    angle_ += turning_ * speed(spin_) * dt;
   }
+  angle_ += turning_ * speed(spin_) * dt;
   const bool turns = speed(spin_) > 0;
   for (std::size_t i = 0; i < shape_.size(); ++i)
     targets_[i] = origin + (turns ? turned(shape_[i], spin_, angle_) : shape_[i]);

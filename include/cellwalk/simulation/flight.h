@@ -28,8 +28,8 @@ class Flight {
  public:
   /// A body thrown from where it stands.
   Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin);
-  /// A body whose first position is that of the first way point.
-  Flight(Body<D> body, Guided_motion<D> guide);
+  /// A body whose origin stands at the first way point. It turns about its origin.
+  Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
   /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet.
   void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
@@ -37,6 +37,7 @@ class Flight {
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
+  /// Of a thrown body; zero if it is guided.
   const Vector<D>& velocity() const { return velocity_; }
   /// True once a guided body has been led to the end of its path.
   bool has_arrived() const { return guide_ && travelled_ >= path_length_; }
