@@ -199,17 +199,18 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
     line("particles", fmt::format("{} free, {} of the catheter", world.free_count(), catheter));
   const Body_sizes sizes = sizes_of(world, scene);
   if (sizes.bodies > 0)
-    line("bodies", fmt::format("{} of {} vertices, {} edges and {} faces in all", sizes.bodies,
-                               sizes.vertices, sizes.edges, sizes.faces));
+    line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
+                               sizes.edges, sizes.faces));
   line("contacts",
        fmt::format("{} ({} with facets, {} with edges, {} with vertices)",
                    contacts[0] + contacts[1] + contacts[2], contacts[2], contacts[1], contacts[0]));
   if (sizes.bodies > 0) {
     line("of bodies", describe_contacts(files.body_contacts()));
-    line("checks", describe_certificates(world.body_counts()));
+    line("moves", describe_moves(world.body_counts()));
+    line("edges", describe_edges(world.body_counts()));
   }
   if (sizes.guided > 0)
-    line("guided", fmt::format("{} of {} bodies led to the end of their paths", sizes.arrived, sizes.guided));
+    line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
   if (scene.catheter)
     line("catheter", world.next_way_point() == world.path().size()
                          ? fmt::format("arrived at the last of {} way points", world.path().size())

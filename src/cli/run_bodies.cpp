@@ -20,6 +20,8 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
+double percent(std::uint64_t part, std::uint64_t whole) { return 100 * share(part, whole); }
+
 std::uint64_t sum(const std::array<std::uint64_t, 3>& by_kind) {
   return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
 }
@@ -111,18 +113,18 @@ std::string describe_contacts(const Body_contacts& contacts) {
                      sum(contacts[2]));
 }
 
-std::string describe_certificates(const Body_counts& c) {
+std::string describe_moves(const Body_counts& c) {
+  return fmt::format("{} of vertices, {:.1f} % of them in regions free of walls, without a test", c.moves,
+                     percent(c.in_region, c.moves));
+}
+
+std::string describe_edges(const Body_counts& c) {
   const Edge_counts& e = c.edges;
-  const auto percent = [](std::uint64_t part, std::uint64_t whole) { return 100 * share(part, whole); };
   return fmt::format(
-      "{:.1f} % of {} vertex moves lay in a region free of walls; of {} edges checked {:.1f} % lay in one "
-      "cell, "
-      "{:.1f} % in a convex pair of cells, {:.1f} % kept their chain, {:.1f} % were clear of walls, {:.1f} % "
-      "had "
-      "their events followed",
-      percent(c.in_region, c.moves), c.moves, e.edges, percent(e.same_cell, e.edges),
-      percent(e.convex_pair, e.edges), percent(e.same_chain, e.edges), percent(e.clear, e.edges),
-      percent(e.event_sweeps, e.edges));
+      "{} checked: {:.1f} % in one cell, {:.1f} % in a convex pair of cells, {:.1f} % along the same "
+      "chain, {:.1f} % clear of walls, {:.1f} % by their events",
+      e.edges, percent(e.same_cell, e.edges), percent(e.convex_pair, e.edges), percent(e.same_chain, e.edges),
+      percent(e.clear, e.edges), percent(e.event_sweeps, e.edges));
 }
 
 template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);

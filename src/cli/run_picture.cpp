@@ -18,10 +18,11 @@ using io::Drawing;
 // All sizes are shares of the diagonal of the environment's box.
 constexpr double particle_size = 0.0032, trail_size = 0.0008, contact_size = 0.0036;
 constexpr double arrow_length = 0.028, arrow_size = 0.0012;
-constexpr double small = 0.55;  // size of the contacts of free particles beside those of the catheter
+// Size of the contacts of bodies and of free particles beside those of the catheter.
+constexpr double medium = 0.8, small = 0.55;
 constexpr double body_edge_size = 0.0013;
-constexpr double body_edge_share =
-    0.06;  // edges of bodies are no thicker than this share of their mean length
+// Edges of bodies are no thicker than this share of their mean length: those of a surface, and others.
+constexpr double surface_edge_share = 0.06, edge_share = 0.15;
 constexpr std::size_t most_body_edges =
     8000;  // where there are more, only faces are drawn of bodies that have some
 constexpr double catheter_size = 0.003, wall_width = 0.005, grid_width = 0.0009;
@@ -162,12 +163,13 @@ void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, do
       io::add_surface(drawing, points, loops, m.body_face);
       if (all_edges > most_body_edges) continue;
     }
+    const double share = faces.empty() ? edge_share : surface_edge_share;
     double sum = 0;
     for (const auto& [u, v] : body.edges()) sum += length(body.positions()[v] - body.positions()[u]);
-    const double size = body.edges().empty()
-                            ? particle_size * unit
-                            : std::min(body_edge_size * unit,
-                                       body_edge_share * sum / static_cast<double>(body.edges().size()));
+    const double size =
+        body.edges().empty()
+            ? particle_size * unit
+            : std::min(body_edge_size * unit, share * sum / static_cast<double>(body.edges().size()));
     for (const auto& [u, v] : body.edges())
       draw_line(drawing, std::vector<Point<D>>{body.positions()[u], body.positions()[v]}, size, height,
                 m.body);
@@ -193,10 +195,13 @@ void Run_picture<D>::record(const World<D>& world) {
     if (trail.size() > trail_steps) trail.erase(trail.begin(), trail.end() - trail_steps);
   }
   for (const Contact_record<D>& c : world.contacts())
-    (c.body || c.particle < world.free_count() ? free_contacts_ : catheter_contacts_).push_back(c);
+    (c.body                            ? body_contacts_
+     : c.particle < world.free_count() ? free_contacts_
+                                       : catheter_contacts_)
+        .push_back(c);
   const auto old = [&](const Contact_record<D>& c) { return c.step + trail_steps <= world.steps_done(); };
-  free_contacts_.erase(free_contacts_.begin(),
-                       std::find_if_not(free_contacts_.begin(), free_contacts_.end(), old));
+  for (auto* latest : {&body_contacts_, &free_contacts_})
+    latest->erase(latest->begin(), std::find_if_not(latest->begin(), latest->end(), old));
 }
 
 template <int D>
@@ -236,6 +241,7 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
     }
   };
   draw_contacts(catheter_contacts_, 1);
+  draw_contacts(body_contacts_, medium);
   draw_contacts(free_contacts_, small);
   return drawing;
 }

@@ -6,6 +6,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/scene.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -39,8 +40,10 @@ class Flight {
   const Body<D>& body() const { return body_; }
   /// Of a thrown body; zero if it is guided.
   const Vector<D>& velocity() const { return velocity_; }
-  /// True once a guided body has been led to the end of its path.
-  bool has_arrived() const { return guide_ && travelled_ >= path_length_; }
+  /// True while a guided body stands at the end of its path, no vertex held back.
+  bool has_arrived() const {
+    return guide_ && travelled_ >= path_length_ && std::ranges::equal(body_.positions(), targets_);
+  }
 
  private:
   Point<D> middle() const;
