@@ -15,6 +15,9 @@ namespace cellwalk {
 
 template <int D>
 void World<D>::place_bodies(const Locator<D>& locator) {
+  if (shapes_.size() != scene_.bodies.size())
+    throw Error(Error_code::usage, fmt::format("{} shapes for the {} bodies of a scene; give one for each",
+                                               shapes_.size(), scene_.bodies.size()));
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
     const Body_start<D>& start = scene_.bodies[i];
     try {

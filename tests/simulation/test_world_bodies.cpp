@@ -270,5 +270,11 @@ TEST(WorldBodies, RefusesStartsOutsideFreeSpace) {
             "the free space larger");
 }
 
+TEST(WorldBodies, NeedAShapeEach) {
+  const auto snapshot = rooms<2>({4, 4});
+  EXPECT_THROW(World<2>(snapshot, guided()), Error);
+  EXPECT_NO_THROW(World<2>(snapshot, guided(), {generate_body(Quad_shape{0.5})}));
+}
+
 }  // namespace
 }  // namespace cellwalk

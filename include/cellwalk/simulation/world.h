@@ -32,10 +32,10 @@ class World {
   ///
   /// Copies of a body (Body_start::cloud) are put at random places, uniform in free space, again and again until the whole
   /// body fits, at most `most_tries` times each.
-  /// \pre as many shapes as the scene has bodies, none without vertices
+  /// \pre every shape has vertices
   /// \throw Error(outside) naming the scene's key where something starts outside free space, a body's edge crosses a wall, a copy
-  ///        finds no room, or no way leads along the catheter's path; Error(usage) if there is no free cell for what is
-  ///        random, or a placement is not finite
+  ///        finds no room, or no way leads along the catheter's path; Error(usage) where there are not as many shapes as
+  ///        bodies, no free cell for what is random, or a placement is not finite
   World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
         const Body_options& options = {});
 
