@@ -72,6 +72,7 @@ template <int D>
 void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
                      Body_counts& counts) {
   const double dt = conditions.time_step;
+  const double angle_before = angle_;
   Point<D> origin;
   if (guide_) {
     travelled_ = std::min(path_length_, travelled_ + guide_->speed * dt);
@@ -84,6 +85,12 @@ void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_co
   const bool turns = speed(spin_) > 0;
   for (std::size_t i = 0; i < shape_.size(); ++i)
     targets_[i] = origin + (turns ? turned(shape_[i], spin_, angle_) : shape_[i]);
+  if (!std::ranges::all_of(targets_, is_finite<D>)) {
+    velocity_ = {};
+    angle_ = angle_before;
+    turning_ = 0;
+    return;
+  }
   const std::size_t first = contacts.size();
   body_.step(targets_, conditions.body, contacts, counts);
   if (guide_) return;

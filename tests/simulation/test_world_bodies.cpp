@@ -270,6 +270,23 @@ TEST(WorldBodies, RefusesStartsOutsideFreeSpace) {
             "the free space larger");
 }
 
+TEST(WorldBodies, StayWhereTheyAreIfTheirMotionIsNotFinite) {
+  const auto snapshot = rooms<3>({3, 3, 3});
+  for (const int what : {0, 1, 2, 3}) {
+    Scene<3> scene = thrown<3>(1, 1, 3);
+    if (what == 0) scene.gravity = {0, 0, -1e308};
+    if (what == 1) scene.time_step = 1e308, scene.bodies[0].cloud->speed = 1e10;
+    if (what == 2) scene.bodies[0].spin = {1e308, 1e308, 1e308};
+    if (what == 3) scene.bodies[0].cloud->speed = 1e200;  // finite
+    if (what == 0) scene.time_step = 1000;
+    World<3> world(snapshot, scene, {generate_body(Hexahedron_shape{0.4, false})});
+    const std::uint64_t before = hash_of(world);
+    for (int i = 0; i < 5; ++i) world.step();
+    EXPECT_NO_THROW(world.validate());
+    EXPECT_EQ(hash_of(world) == before, what != 3) << what;
+  }
+}
+
 TEST(WorldBodies, NeedAShapeEach) {
   const auto snapshot = rooms<2>({4, 4});
   EXPECT_THROW(World<2>(snapshot, guided()), Error);

@@ -32,7 +32,8 @@ class Flight {
   /// A body whose origin stands at the first way point. It turns about its origin.
   Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet.
+  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet. A body whose motion
+  /// is not finite stays where it is, and loses its velocity and spin.
   void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
             Body_counts& counts);
 
