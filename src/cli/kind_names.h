@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What tables and reports call the features of an environment.
+// What tables and reports call the features of environments and bodies.
 #ifndef CELLWALK_CLI_KIND_NAMES_H
 #define CELLWALK_CLI_KIND_NAMES_H
 
@@ -7,6 +7,8 @@ namespace cellwalk::cli {
 
 /// By Contact_kind.
 inline constexpr const char* kind_names[] = {"vertex", "edge", "facet"};
+/// By Body_feature.
+inline constexpr const char* feature_names[] = {"vertex", "edge", "face"};
 
 }  // namespace cellwalk::cli
 

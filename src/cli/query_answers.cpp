@@ -14,8 +14,6 @@ namespace {
 /// Not a number, which a table leaves empty.
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
-constexpr const char* body_names[] = {"vertex", "edge", "face"};
-
 /// Three fields, without negative zeros; in the plane the third is empty.
 template <std::size_t D>
 std::array<double, 3> fields(const std::array<double, D>& p) {
@@ -47,7 +45,7 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
       end = fields(contact->point);
       normal = fields(contact->normal);
       kind = kind_names[static_cast<std::size_t>(contact->kind)];
-      body = body_names[static_cast<std::size_t>(contact->body)];
+      body = feature_names[static_cast<std::size_t>(contact->body)];
     }
     const auto write = [&](const auto&... body_field) {
       table.row(row, status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1], end[2],

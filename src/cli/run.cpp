@@ -20,6 +20,7 @@
 #include "cli/kind_names.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
+#include "cli/run_bodies.h"
 #include "cli/run_files.h"
 #include "cli/run_picture.h"
 
@@ -32,6 +33,7 @@ struct Run_options {
   std::string scene, folder;
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
   bool force = false;
+  Body_options body;
 };
 
 struct Prepared_environment {
@@ -64,30 +66,19 @@ Prepared_environment prepare(const Environment_source& source, const std::string
   }
 }
 
-ordered_json to_json(const Walk_counts& c) {
-  return {{"walks", c.walks},
-          {"stays", c.stays},
-          {"crossings", c.crossings},
-          {"plane_blocks", c.plane_blocks},
-          {"uncertain_lanes", c.uncertain_lanes},
-          {"side_tests", c.side_tests},
-          {"along_tests", c.along_tests},
-          {"star_searches", c.star_searches},
-          {"orientations", c.predicates.orientations},
-          {"exact_fallbacks", c.predicates.fallbacks}};
-}
-
 template <int D>
 struct Run {
   const Scene<D>& scene;
   const Run_options& options;
   const Environment<D>& environment;
   const Certificate& certificate;
+  const Scene_bodies<D>& bodies;
 
   std::uint32_t steps() const { return options.steps > 0 ? options.steps : scene.steps; }
   void operator()() const;
 
  private:
+  World<D> make_world() const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
   ordered_json report(const World<D>& world, const Run_files<D>& files) const;
@@ -95,8 +86,19 @@ struct Run {
 };
 
 template <int D>
+World<D> Run<D>::make_world() const {
+  try {
+    return World<D>(environment.snapshot(), scene, bodies.shapes, options.body);
+  } catch (const Error& error) {
+    // What a scene asks for is input, whatever it would be in a call.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: {}", options.scene, error.what()));
+  }
+}
+
+template <int D>
 void Run<D>::operator()() const {
-  World<D> world = naming(options.scene, [&] { return World<D>(environment.snapshot(), scene); });
+  World<D> world = make_world();
   const Cell_soup<D> soup = environment.soup();
   Output_folder folder(options.folder, options.force);
   const Interruption interruption;
@@ -144,6 +146,8 @@ std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const
   std::string text = title;
   if (catheter > 0) text += fmt::format("catheter of {} particles, ", catheter);
   if (world.free_count() > 0) text += fmt::format("{} free particles, ", world.free_count());
+  if (const std::size_t count = world.bodies().size(); count > 0)
+    text += fmt::format("{} {}, ", count, count == 1 ? "body" : "bodies");
   return text + fmt::format("{} steps, {} contacts", steps(), contacts);
 }
 
@@ -164,6 +168,8 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
   ordered_json kinds;
   for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
   result["contacts"] = kinds;
+  if (!scene.bodies.empty())
+    result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (scene.catheter)
     result["catheter"] = {{"arrived", world.next_way_point() == world.path().size()},
                           {"way_point", world.next_way_point()},
@@ -172,8 +178,12 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
   result["frames"] = files.frame_count();
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
+  if (!scene.bodies.empty()) result["body_counts"] = to_json(world.body_counts());
   // Everything needed to repeat the run, and nothing that differs between machines or days.
   result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
+  if (!scene.bodies.empty())
+    result["manifest"]["sweep"] =
+        options.body.sweep.sweep == Sweep::three_segments ? "three_segments" : "triangle";
   return result;
 }
 
@@ -186,49 +196,59 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   const std::size_t catheter = world.particles().size() - world.free_count();
   fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
-  line("particles", fmt::format("{} free, {} of the catheter", world.free_count(), catheter));
+  if (!world.particles().empty())
+    line("particles", fmt::format("{} free, {} of the catheter", world.free_count(), catheter));
+  const Body_sizes sizes = sizes_of(world, scene);
+  if (sizes.bodies > 0)
+    line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
+                               sizes.edges, sizes.faces));
   line("contacts",
        fmt::format("{} ({} with facets, {} with edges, {} with vertices)",
                    contacts[0] + contacts[1] + contacts[2], contacts[2], contacts[1], contacts[0]));
+  if (sizes.bodies > 0) {
+    line("of bodies", describe_contacts(files.body_contacts()));
+    line("moves", describe_moves(world.body_counts()));
+    line("edges", describe_edges(world.body_counts()));
+  }
+  if (sizes.guided > 0)
+    line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
   if (scene.catheter)
     line("catheter", world.next_way_point() == world.path().size()
                          ? fmt::format("arrived at the last of {} way points", world.path().size())
                          : fmt::format("on its way to way point {} of {}", world.next_way_point() + 1,
                                        world.path().size()));
-  line("validated", "every particle lies in its cell, by exact predicates");
+  line("validated",
+       sizes.bodies > 0
+           ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
+           : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
 }
 
-void run(const Run_options& options) {
-  Output_folder::check(options.folder, options.force);
-  const Any_scene any_scene = io::read_scene(options.scene);
-  const auto& source =
-      std::visit([](const auto& s) -> const Environment_source& { return s.environment; }, any_scene);
-  if (std::visit([](const auto& s) { return !s.bodies.empty(); }, any_scene))
-    throw Error(Error_code::input,
-                options.scene + ": bodies: read, but not moved by this version yet; leave them out");
-  const Prepared_environment prepared = prepare(source, options.scene);
-  const int of_environment = std::holds_alternative<Environment<2>>(prepared.environment) ? 2 : 3;
-  const int of_scene = std::holds_alternative<Scene<2>>(any_scene) ? 2 : 3;
-  if (of_environment != of_scene)
+template <int D>
+void run_scene(const Run_options& options, const Scene<D>& scene) {
+  const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
+  const Prepared_environment prepared = prepare(scene.environment, options.scene);
+  const auto* environment = std::get_if<Environment<D>>(&prepared.environment);
+  if (!environment)
     throw Error(Error_code::input,
                 fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",
-                            options.scene, of_environment, of_scene));
-  if (of_scene == 2)
-    Run<2>{std::get<Scene<2>>(any_scene), options, std::get<Environment<2>>(prepared.environment),
-           prepared.certificate}();
-  else
-    Run<3>{std::get<Scene<3>>(any_scene), options, std::get<Environment<3>>(prepared.environment),
-           prepared.certificate}();
+                            options.scene, 5 - D, D));
+  Run<D>{scene, options, *environment, prepared.certificate, bodies}();
+}
+
+void run(const Run_options& options) {
+  Output_folder::check(options.folder, options.force);
+  std::visit([&](const auto& scene) { run_scene(options, scene); }, io::read_scene(options.scene));
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("run", "Simulate a scene: particles and a catheter tip among walls");
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a scene: bodies, particles and a catheter tip among walls");
   const auto options = std::make_shared<Run_options>();
   command->add_option("scene", options->scene, "The scene, see docs/scenes.md")
       ->required()
@@ -239,6 +259,9 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(CLI::Range(1u, 100000000u));
+  add_choice(*command, "--sweep", options->body.sweep.sweep,
+             {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}},
+             "How edges of bodies are checked; the paper's three segments miss what fits between them");
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
   command->callback([options, &chosen] {
     chosen = [options] {

@@ -5,72 +5,18 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <limits>
-#include <numeric>
+#include <string>
 #include <utility>
 
 #include "cli/kind_names.h"
+#include "cli/run_grids.h"
 
 namespace cellwalk::cli {
 namespace {
 
-using io::in_space;
-
-template <int D>
-void append_vector(std::vector<double>& values, const std::array<double, D>& v) {
-  const Point<3> p = in_space(v);
-  values.insert(values.end(), p.begin(), p.end());
-}
-
-/// Particles as vertices, and the catheter as a line through its particles.
-template <int D>
-io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts) {
-  io::Vtu_grid grid;
-  const auto particles = world.particles();
-  std::vector<double> velocity;
-  std::vector<std::int64_t> number(particles.size()), met(particles.size(), 0), catheter(particles.size(), 0);
-  std::iota(number.begin(), number.end(), 0);
-  for (const Contact_record<D>& c : contacts) ++met[c.particle];
-  std::vector<std::uint32_t> line;
-  for (std::uint32_t i = 0; i < particles.size(); ++i) {
-    grid.points.push_back(in_space(particles[i].position));
-    append_vector<D>(velocity, world.velocities()[i]);
-    const std::uint32_t vertex[] = {i};
-    grid.add_cell(io::Vtu_cell::vertex, vertex);
-    if (i < world.free_count()) continue;
-    catheter[i] = 1;
-    line.push_back(i);
-  }
-  if (line.size() > 1) grid.add_cell(io::Vtu_cell::polyline, line);
-  grid.point_data.push_back({"particle", 1, std::move(number)});
-  grid.point_data.push_back({"catheter", 1, std::move(catheter)});
-  grid.point_data.push_back({"contacts", 1, std::move(met)});
-  grid.point_data.push_back({"velocity", 3, std::move(velocity)});
-  return grid;
-}
-
-/// Contacts as vertices with their normals.
-template <int D>
-io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>& contacts) {
-  io::Vtu_grid grid;
-  std::vector<std::int64_t> step, particle, kind;
-  std::vector<double> normal;
-  for (const Contact_record<D>& c : contacts) {
-    const std::uint32_t vertex[] = {static_cast<std::uint32_t>(grid.points.size())};
-    grid.points.push_back(in_space(c.point));
-    grid.add_cell(io::Vtu_cell::vertex, vertex);
-    step.push_back(c.step);
-    particle.push_back(c.particle);
-    kind.push_back(static_cast<std::int64_t>(c.kind));
-    append_vector<D>(normal, c.normal);
-  }
-  grid.point_data.push_back({"step", 1, std::move(step)});
-  grid.point_data.push_back({"particle", 1, std::move(particle)});
-  grid.point_data.push_back({"kind", 1, std::move(kind)});
-  grid.point_data.push_back({"normal", 3, std::move(normal)});
-  return grid;
-}
+/// An integer, or an empty field.
+std::string field(bool is_there, std::uint32_t value) { return is_there ? std::to_string(value) : ""; }
 
 }  // namespace
 
@@ -80,12 +26,13 @@ Run_files<D>::Run_files(std::filesystem::path folder, const Cell_soup<D>& soup, 
     : folder_(std::move(folder)),
       every_(scene.output.frame_every),
       time_step_(scene.time_step),
-      table_(folder_ / "contacts.csv",
-             {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cell"}) {
+      table_(folder_ / "contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
+                                        "cell", "body", "vertex", "feature", "number"}) {
   if (every_ == 0) return;
   std::filesystem::create_directory(folder_ / "frames");
   io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(soup));
   write_frame(world);
+  before_ = body_positions(world);
 }
 
 template <int D>
@@ -95,12 +42,18 @@ void Run_files<D>::record(const World<D>& world, bool is_last) {
   for (const Contact_record<D>& c : world.contacts()) {
     ++contacts_[static_cast<std::size_t>(c.kind)];
     const double z = D == 3 ? c.point[D - 1] : nothing, nz = D == 3 ? c.normal[D - 1] : nothing;
-    table_.row(c.step, c.particle, c.time, c.point[0], c.point[1], z,
-               kind_names[static_cast<std::size_t>(c.kind)], c.normal[0], c.normal[1], nz, c.cell);
+    const Met_body met = c.body.value_or(Met_body{});
+    const auto feature = static_cast<std::size_t>(met.feature), kind = static_cast<std::size_t>(c.kind);
+    if (c.body) ++body_contacts_[feature][kind];
+    table_.row(c.step, field(!c.body, c.particle), c.time, c.point[0], c.point[1], z, kind_names[kind],
+               c.normal[0], c.normal[1], nz, c.cell, field(c.body.has_value(), met.body),
+               field(c.body.has_value(), met.vertex), c.body ? feature_names[feature] : "",
+               field(c.body.has_value(), met.number));
   }
   if (every_ == 0) return;
   since_frame_.insert(since_frame_.end(), world.contacts().begin(), world.contacts().end());
   if (is_last || world.steps_done() % every_ == 0) write_frame(world);
+  before_ = body_positions(world);
 }
 
 template <int D>
@@ -111,7 +64,9 @@ void Run_files<D>::write_frame(const World<D>& world) {
     io::write_vtu(folder_ / file, grid);
     entries_.push_back({time, part, file});
   };
-  add("particles", particles_grid(world, since_frame_));
+  const bool has_bodies = !world.bodies().empty();
+  if (!has_bodies || !world.particles().empty()) add("particles", particles_grid(world, since_frame_));
+  if (has_bodies) add("bodies", bodies_grid(world, since_frame_, before_, time_step_));
   add("contacts", contacts_grid(since_frame_));
   entries_.push_back({time, "walls", "walls.vtu"});
   since_frame_.clear();

@@ -15,6 +15,9 @@
 
 namespace cellwalk::cli {
 
+/// Contacts of bodies, by the body's feature and the environment's.
+using Body_contacts = std::array<std::array<std::uint64_t, 3>, 3>;
+
 /// Written along with the run, step by step.
 template <int D>
 class Run_files {
@@ -32,6 +35,8 @@ class Run_files {
   std::size_t frame_count() const { return frames_; }
   /// Contacts so far, by kind.
   const std::array<std::uint64_t, 3>& contacts() const { return contacts_; }
+  /// Those of them that are contacts of bodies.
+  const Body_contacts& body_contacts() const { return body_contacts_; }
 
  private:
   void write_frame(const World<D>& world);
@@ -42,7 +47,9 @@ class Run_files {
   io::Csv_writer table_;
   std::vector<io::Pvd_entry> entries_;
   std::vector<Contact_record<D>> since_frame_;
+  std::vector<Point<D>> before_;  ///< of the bodies' vertices, a step ago
   std::array<std::uint64_t, 3> contacts_{};
+  Body_contacts body_contacts_{};
   std::size_t frames_ = 0;
 };
 

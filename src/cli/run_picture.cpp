@@ -18,7 +18,13 @@ using io::Drawing;
 // All sizes are shares of the diagonal of the environment's box.
 constexpr double particle_size = 0.0032, trail_size = 0.0008, contact_size = 0.0036;
 constexpr double arrow_length = 0.028, arrow_size = 0.0012;
-constexpr double small = 0.55;  // size of the contacts of free particles beside those of the catheter
+// Size of the contacts of bodies and of free particles beside those of the catheter.
+constexpr double medium = 0.8, small = 0.55;
+constexpr double body_edge_size = 0.0013;
+// Edges of bodies are no thicker than this share of their mean length: those of a surface, and others.
+constexpr double surface_edge_share = 0.06, edge_share = 0.15;
+constexpr std::size_t most_body_edges =
+    8000;  // where there are more, only faces are drawn of bodies that have some
 constexpr double catheter_size = 0.003, wall_width = 0.005, grid_width = 0.0009;
 constexpr double contact_grid = 0.02;  // at most one contact is drawn in a cube of this side
 constexpr std::uint32_t trail_steps =
@@ -27,7 +33,7 @@ constexpr std::size_t most_trail_pieces = 12000;  // shorter trails where there 
 constexpr std::size_t most_grid_cells = 4000;  // beyond that inner edges would only darken a planar picture
 
 struct Materials {
-  std::uint32_t wall, catheter, particle, trail, contact, free_cell, solid_cell, inner_edge;
+  std::uint32_t wall, catheter, particle, trail, contact, free_cell, solid_cell, inner_edge, body, body_face;
 };
 
 Materials add_materials(Drawing& d, bool planar) {
@@ -39,7 +45,9 @@ Materials add_materials(Drawing& d, bool planar) {
           d.add_material({{0.96, 0.58, 0.08}, 0, lit}),
           d.add_material({{0.98, 0.96, 0.94}, 0, lit}),
           d.add_material({{0.70, 0.72, 0.75}, 0, lit}),
-          d.add_material({{0.86, 0.84, 0.82}, 0, lit})};
+          d.add_material({{0.86, 0.84, 0.82}, 0, lit}),
+          d.add_material({{0.38, 0.18, 0.58}, 0, lit}),
+          d.add_material({{0.60, 0.45, 0.78, 0.55}, 0.2, lit})};
 }
 
 template <int D>
@@ -140,6 +148,36 @@ void draw_arrow(Drawing& drawing, const Point<2>& p, const Vector<2>& n, double 
   io::add_flat_arrow(drawing, p, n, arrow, 2 * size, height, material);
 }
 
+template <int D>
+void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, double unit, double height) {
+  std::size_t all_edges = 0;
+  for (const Flight<D>& flight : world.bodies()) all_edges += flight.body().edges().size();
+  for (std::size_t b = 0; b < world.bodies().size(); ++b) {
+    const Body<D>& body = world.bodies()[b].body();
+    const auto faces = world.faces_of(b);
+    if (!faces.empty()) {
+      std::vector<Point<3>> points;
+      for (const Point<D>& x : body.positions()) points.push_back(io::in_space(x));
+      std::vector<std::vector<std::uint32_t>> loops;
+      for (const auto& face : faces) loops.emplace_back(face.begin(), face.end());
+      io::add_surface(drawing, points, loops, m.body_face);
+      if (all_edges > most_body_edges) continue;
+    }
+    const double share = faces.empty() ? edge_share : surface_edge_share;
+    double sum = 0;
+    for (const auto& [u, v] : body.edges()) sum += length(body.positions()[v] - body.positions()[u]);
+    const double size =
+        body.edges().empty()
+            ? particle_size * unit
+            : std::min(body_edge_size * unit, share * sum / static_cast<double>(body.edges().size()));
+    for (const auto& [u, v] : body.edges())
+      draw_line(drawing, std::vector<Point<D>>{body.positions()[u], body.positions()[v]}, size, height,
+                m.body);
+    if (body.edges().empty())
+      for (const Point<D>& x : body.positions()) draw_dot(drawing, x, size, height, m.body);
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -150,17 +188,20 @@ Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.free_count())
 template <int D>
 void Run_picture<D>::record(const World<D>& world) {
   for (const Contact_record<D>& c : world.contacts())
-    if (c.particle < trails_.size()) trails_[c.particle].push_back(c.point);
+    if (!c.body && c.particle < trails_.size()) trails_[c.particle].push_back(c.point);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     auto& trail = trails_[i];
     trail.push_back(world.particles()[i].position);
     if (trail.size() > trail_steps) trail.erase(trail.begin(), trail.end() - trail_steps);
   }
   for (const Contact_record<D>& c : world.contacts())
-    (c.particle < world.free_count() ? free_contacts_ : catheter_contacts_).push_back(c);
+    (c.body                            ? body_contacts_
+     : c.particle < world.free_count() ? free_contacts_
+                                       : catheter_contacts_)
+        .push_back(c);
   const auto old = [&](const Contact_record<D>& c) { return c.step + trail_steps <= world.steps_done(); };
-  free_contacts_.erase(free_contacts_.begin(),
-                       std::find_if_not(free_contacts_.begin(), free_contacts_.end(), old));
+  for (auto* latest : {&body_contacts_, &free_contacts_})
+    latest->erase(latest->begin(), std::find_if_not(latest->begin(), latest->end(), old));
 }
 
 template <int D>
@@ -183,6 +224,7 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
                 trail_size * unit, layer(3), m.trail);
     draw_dot(drawing, world.particles()[i].position, particle_size * unit, layer(6), m.particle);
   }
+  draw_bodies(drawing, world, m, unit, layer(4));
   std::vector<Point<D>> chain;
   for (std::size_t i = world.free_count(); i < world.particles().size(); ++i)
     chain.push_back(world.particles()[i].position);
@@ -199,6 +241,7 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
     }
   };
   draw_contacts(catheter_contacts_, 1);
+  draw_contacts(body_contacts_, medium);
   draw_contacts(free_contacts_, small);
   return drawing;
 }

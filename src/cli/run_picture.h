@@ -27,7 +27,7 @@ class Run_picture {
  private:
   std::vector<std::vector<Point<D>>> trails_;  ///< of the free particles and the tip, the latest steps only
   std::vector<Contact_record<D>> catheter_contacts_;
-  std::vector<Contact_record<D>> free_contacts_;  ///< of the latest steps
+  std::vector<Contact_record<D>> body_contacts_, free_contacts_;  ///< of the latest steps
 };
 
 extern template class Run_picture<2>;

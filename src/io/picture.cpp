@@ -265,9 +265,14 @@ Image render(const Drawing& drawing, const Picture_options& options) {
       }
     }
   }
-  const double size = caption_size * options.height;
-  if (!drawing.caption.empty())
-    draw_text(image, drawing.caption, 1.6 * size, options.height - 1.3 * size, size, options.ink);
+  if (!drawing.caption.empty()) {
+    double size = caption_size * options.height;
+    const double margin = 1.6 * size, room = options.width - 2 * margin;
+    Image nowhere;
+    const double width = draw_text(nowhere, drawing.caption, 0, 0, size, options.ink);
+    if (width > room) size *= room / width;
+    draw_text(image, drawing.caption, margin, options.height - 1.3 * size, size, options.ink);
+  }
   return image;
 }
 

@@ -41,7 +41,8 @@ Flight<D>::Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin)
 }
 
 template <int D>
-Flight<D>::Flight(Body<D> body, Guided_motion<D> guide) : Flight(std::move(body), Vector<D>{}, Spin<D>{}) {
+Flight<D>::Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin)
+    : Flight(std::move(body), Vector<D>{}, spin) {
   path_length_ = length_of<D>(guide.path);
   for (std::size_t i = 0; i < shape_.size(); ++i) shape_[i] = body_.positions()[i] - guide.path.front();
   guide_ = std::move(guide);
@@ -71,6 +72,7 @@ template <int D>
 void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
                      Body_counts& counts) {
   const double dt = conditions.time_step;
+  const double angle_before = angle_;
   Point<D> origin;
   if (guide_) {
     travelled_ = std::min(path_length_, travelled_ + guide_->speed * dt);
@@ -78,11 +80,17 @@ void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_co
   } else {
     velocity_ = velocity_ + dt * conditions.gravity;
     origin = middle() + dt * velocity_;
-    angle_ += turning_ * speed(spin_) * dt;
   }
+  angle_ += turning_ * speed(spin_) * dt;
   const bool turns = speed(spin_) > 0;
   for (std::size_t i = 0; i < shape_.size(); ++i)
     targets_[i] = origin + (turns ? turned(shape_[i], spin_, angle_) : shape_[i]);
+  if (!std::ranges::all_of(targets_, is_finite<D>)) {
+    velocity_ = {};
+    angle_ = angle_before;
+    turning_ = 0;
+    return;
+  }
   const std::size_t first = contacts.size();
   body_.step(targets_, conditions.body, contacts, counts);
   if (guide_) return;

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
+
+#include "random_start.h"
 
 namespace cellwalk {
 namespace {
@@ -23,38 +25,12 @@ Particle<D> place(const Locator<D>& locator, const Point<D>& position, const std
   return {position, location.cell, location.dimension, 0};
 }
 
-/// A random unit vector.
-template <int D>
-Vector<D> direction(Random& random) {
-  for (;;) {
-    Vector<D> v;
-    for (double& x : v) x = random.real(-1, 1);
-    const double l = length(v);
-    if (l > 0.01 && l <= 1) return (1 / l) * v;
-  }
-}
-
-template <int D>
-struct Box {
-  Point<D> low, high;
-};
-
-template <int D>
-Box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
-  const Cell_view<D> view = snapshot.view(c);
-  Box<D> box{view.point(0), view.point(0)};
-  for (std::size_t i = 1; i < view.vertex_count(); ++i)
-    for (std::size_t d = 0; d < D; ++d) {
-      box.low[d] = std::min(box.low[d], view.point(i)[d]);
-      box.high[d] = std::max(box.high[d], view.point(i)[d]);
-    }
-  return box;
-}
-
 }  // namespace
 
 template <int D>
-World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene) : snapshot_(snapshot), scene_(scene) {
+World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes,
+                const Body_options& options)
+    : snapshot_(snapshot), scene_(scene), shapes_(std::move(shapes)) {
   const Locator<D> locator(snapshot);
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const std::string key = fmt::format("particles[{}]", i);
@@ -67,38 +43,21 @@ World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene) : snapshot_(
   }
   free_count_ = particles_.size();
   if (scene.catheter) place_catheter(*scene.catheter, locator);
+  place_bodies(locator);
+  conditions_ = {scene.time_step, scene.gravity, scene.restitution, scene.friction, options};
 }
 
 template <int D>
 void World<D>::place_cloud(const Particle_cloud& cloud, const std::string& key) {
-  // A cell is drawn by the size of its box, a point uniformly in the box, and both again unless the point is in the
-  // cell: uniform in free space, whatever the cells' shapes.
-  std::vector<std::uint32_t> cells;
-  std::vector<double> sum;
-  for (std::uint32_t i = 0; i < snapshot_.cell_count(); ++i) {
-    const Cell c = snapshot_.cell(i);
-    if (snapshot_.is_solid(c)) continue;
-    const Box<D> box = box_of(snapshot_, c);
-    double volume = 1;
-    for (std::size_t d = 0; d < D; ++d) volume *= box.high[d] - box.low[d];
-    cells.push_back(i);
-    sum.push_back((sum.empty() ? 0 : sum.back()) + volume);
-  }
-  if (cells.empty()) throw Error(Error_code::usage, key + ": the environment has no free cell");
+  const detail::Free_space<D> space(snapshot_);
+  if (space.is_empty()) throw Error(Error_code::usage, key + ": the environment has no free cell");
   Random random(cloud.seed);
-  for (std::uint32_t placed = 0; placed < cloud.count;) {
-    const double drawn = random.real(0, sum.back());
-    const auto at = static_cast<std::size_t>(std::upper_bound(sum.begin(), sum.end(), drawn) - sum.begin());
-    const Cell c = snapshot_.cell(cells[std::min(at, cells.size() - 1)]);
-    const Box<D> box = box_of(snapshot_, c);
-    Point<D> p;
-    for (std::size_t d = 0; d < D; ++d) p[d] = random.real(box.low[d], box.high[d]);
-    if (!in_closure(snapshot_, c, p)) continue;
-    Particle<D> particle{p, c, static_cast<std::uint16_t>(D), 0};
+  for (std::uint32_t placed = 0; placed < cloud.count; ++placed) {
+    const auto [p, cell] = space.draw(random);
+    Particle<D> particle{p, cell, static_cast<std::uint16_t>(D), 0};
     move<Exact>(snapshot_, particle, p, counts_);  // finds the dimension, should the point lie on a facet
     particles_.push_back(particle);
-    velocities_.push_back(cloud.speed * direction<D>(random));
-    ++placed;
+    velocities_.push_back(cloud.speed * detail::random_direction<D>(random));
   }
 }
 
@@ -124,8 +83,8 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
   }
 }
 
-template World<2>::World(const Snapshot<2>&, const Scene<2>&);
-template World<3>::World(const Snapshot<3>&, const Scene<3>&);
+template World<2>::World(const Snapshot<2>&, const Scene<2>&, std::vector<Body_soup<2>>, const Body_options&);
+template World<3>::World(const Snapshot<3>&, const Scene<3>&, std::vector<Body_soup<3>>, const Body_options&);
 template void World<2>::place_cloud(const Particle_cloud&, const std::string&);
 template void World<3>::place_cloud(const Particle_cloud&, const std::string&);
 template void World<2>::place_catheter(const Catheter<2>&, const Locator<2>&);

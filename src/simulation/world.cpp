@@ -11,14 +11,21 @@ void World<D>::step() {
   contacts_.clear();
   step_free();
   if (scene_.catheter) step_catheter(*scene_.catheter);
+  step_bodies();
 }
 
 template <int D>
 void World<D>::report(std::size_t particle) {
   for (const Met_contact<D>& m : met_) {
     const Vector<D> normal = m.contact.normal + Vector<D>{};  // no negative zeros for readers of tables
-    contacts_.push_back({steps_done_, static_cast<std::uint32_t>(particle), m.time, m.contact.point, normal,
-                         m.contact.kind, snapshot_.index(m.contact.cell)});
+    contacts_.push_back({steps_done_,
+                         static_cast<std::uint32_t>(particle),
+                         m.time,
+                         m.contact.point,
+                         normal,
+                         m.contact.kind,
+                         snapshot_.index(m.contact.cell),
+                         {}});
   }
   met_.clear();
 }
@@ -35,7 +42,21 @@ void World<D>::step_free() {
 }
 
 template <int D>
-void World<D>::validate() const {
+void World<D>::step_bodies() {
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    body_contacts_.clear();
+    bodies_[i].step(conditions_, body_contacts_, body_counts_);
+    for (const Body_contact<D>& met : body_contacts_) {
+      const Contact<D>& c = met.contact;
+      const Vector<D> normal = c.normal + Vector<D>{};
+      contacts_.push_back({steps_done_, 0, c.time, c.point, normal, c.kind, snapshot_.index(c.cell),
+                           Met_body{i, met.vertex, c.body, met.feature}});
+    }
+  }
+}
+
+template <int D>
+void World<D>::validate() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle<D>& p = particles_[i];
     if (p.cell != Cell::none && !snapshot_.is_solid(p.cell) && in_closure(snapshot_, p.cell, p.position))
@@ -44,15 +65,25 @@ void World<D>::validate() const {
                 fmt::format("particle {} is not in the closure of its cell after step {} (position {})", i,
                             steps_done_, fmt::join(p.position, ", ")));
   }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].body().catch_up(body_counts_);
+    try {
+      bodies_[i].body().validate();
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("body {} after step {}: {}", i, steps_done_, error.what()));
+    }
+  }
 }
 
 template void World<2>::step();
 template void World<2>::step_free();
+template void World<2>::step_bodies();
 template void World<2>::report(std::size_t);
-template void World<2>::validate() const;
+template void World<2>::validate();
 template void World<3>::step();
 template void World<3>::step_free();
+template void World<3>::step_bodies();
 template void World<3>::report(std::size_t);
-template void World<3>::validate() const;
+template void World<3>::validate();
 
 }  // namespace cellwalk

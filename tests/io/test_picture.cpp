@@ -197,6 +197,18 @@ TEST(Picture, WritesItsCaption) {
   }
 }
 
+TEST(Picture, MakesALongCaptionFit) {
+  Drawing drawing;
+  drawing.caption = std::string(80, 'H');
+  const Image image = render(drawing, plain(400, 300));
+  int left = 0, right = 0, margin = 0;
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 400; ++x) (x < 200 ? left : x < 395 ? right : margin) += image.pixel(x, y)[0] < 200;
+  EXPECT_GT(left, 100);
+  EXPECT_GT(right, 100);
+  EXPECT_EQ(margin, 0);
+}
+
 TEST(Picture, RefusesSizesOutOfRange) {
   EXPECT_THROW(render({}, plain(5, 100)), Error);
   EXPECT_THROW(render({}, plain(100, 20000)), Error);

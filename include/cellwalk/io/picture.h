@@ -37,7 +37,7 @@ struct Picture_triangle {
 struct Drawing {
   std::vector<Material> materials;
   std::vector<Picture_triangle> triangles;
-  std::string caption;  ///< a line at the lower left; printable ASCII
+  std::string caption;  ///< a line at the lower left, smaller if it is long; printable ASCII
 
   std::uint32_t add_material(const Material& material) {
     materials.push_back(material);

@@ -3,22 +3,35 @@
 #ifndef CELLWALK_SIMULATION_CONTACT_RECORD_H
 #define CELLWALK_SIMULATION_CONTACT_RECORD_H
 
+#include <cellwalk/edge/contact.h>
 #include <cellwalk/walk/walk.h>
 
 #include <cstdint>
+#include <optional>
 
 namespace cellwalk {
 
-/// A particle was stopped by a wall.
+/// What of a body met a wall.
+struct Met_body {
+  std::uint32_t body = 0;    ///< its number in the run
+  std::uint32_t vertex = 0;  ///< the one that was moving
+  Body_feature feature = Body_feature::vertex;
+  std::uint32_t number = 0;  ///< of the vertex, edge or face
+};
+
+/// A particle or a body was stopped by a wall.
 template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
-  std::uint32_t particle = 0;  ///< its number in the run
-  double time = 0;             ///< share of the step that had passed, in [0,1]
-  Point<D> point{};            ///< where the motion met the wall, rounded
-  Vector<D> normal{};          ///< unit normal of the wall, towards the free side
+  std::uint32_t particle = 0;  ///< its number in the run; of no meaning where a body is met
+  /// In [0,1]. Of particles: share of the step that had passed. Of bodies: share of the vertex's motion that was free; what
+  /// is left of it after a contact is a motion of its own.
+  double time = 0;
+  Point<D> point{};    ///< where the motion met the wall, rounded
+  Vector<D> normal{};  ///< unit normal of the wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
-  std::uint32_t cell = 0;  ///< input index of the cell in which the motion ended
+  std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
+  std::optional<Met_body> body{};  ///< nothing: it was a particle
 };
 
 }  // namespace cellwalk

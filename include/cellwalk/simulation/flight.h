@@ -6,6 +6,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/scene.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -28,18 +29,22 @@ class Flight {
  public:
   /// A body thrown from where it stands.
   Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin);
-  /// A body whose first position is that of the first way point.
-  Flight(Body<D> body, Guided_motion<D> guide);
+  /// A body whose origin stands at the first way point. It turns about its origin.
+  Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet.
+  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet. A body whose motion
+  /// is not finite stays where it is, and loses its velocity and spin.
   void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
             Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
+  /// Of a thrown body; zero if it is guided.
   const Vector<D>& velocity() const { return velocity_; }
-  /// True once a guided body has been led to the end of its path.
-  bool has_arrived() const { return guide_ && travelled_ >= path_length_; }
+  /// True while a guided body stands at the end of its path, no vertex held back.
+  bool has_arrived() const {
+    return guide_ && travelled_ >= path_length_ && std::ranges::equal(body_.positions(), targets_);
+  }
 
  private:
   Point<D> middle() const;

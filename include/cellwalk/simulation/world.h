@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The world of a scene: free particles and a catheter tip among walls, advanced step by step.
+// The world of a scene: free particles, a catheter tip and bodies among walls, advanced step by step.
 //
-// Only particles are checked here: neighbours in the catheter are held together, but the straight edges between them
-// may cut a wall that bends in between.
+// Of bodies, vertices and edges are checked. Of the catheter only its particles: neighbours are held together, but the
+// straight edges between them may cut a wall that bends in between. Nothing that moves meets anything else that moves.
 #ifndef CELLWALK_SIMULATION_WORLD_H
 #define CELLWALK_SIMULATION_WORLD_H
 
+#include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/contact_record.h>
+#include <cellwalk/simulation/flight.h>
 #include <cellwalk/simulation/verified_stop.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/particle.h>
 #include <cellwalk/walk/walk.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,12 +28,21 @@ namespace cellwalk {
 template <int D>
 class World {
  public:
-  /// Places the particles of a scene.
-  /// \throw Error(outside) naming the scene's key where one starts outside free space, or where no way leads along the
-  ///        catheter's path; Error(usage) if there is no free cell for random particles
-  World(const Snapshot<D>& snapshot, const Scene<D>& scene);
+  /// Places the particles and bodies of a scene. shapes[i] is the body of scene.bodies[i], before its placement.
+  ///
+  /// Copies of a body (Body_start::cloud) are put at random places, uniform in free space, again and again until the whole
+  /// body fits, at most `most_tries` times each.
+  /// \pre every shape has vertices
+  /// \throw Error(outside) naming the scene's key where something starts outside free space, a body's edge crosses a wall, a copy
+  ///        finds no room, or no way leads along the catheter's path; Error(usage) where there are not as many shapes as
+  ///        bodies, no free cell for what is random, or a placement is not finite
+  World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
+        const Body_options& options = {});
 
-  /// Advances every particle by one time step: free particles under gravity, in order, then the catheter.
+  /// Places tried for each copy of a body.
+  static constexpr int most_tries = 1000;
+
+  /// Advances everything by one time step: free particles under gravity, in order, then the catheter, then the bodies in order.
   void step();
 
   std::uint32_t steps_done() const { return steps_done_; }
@@ -39,7 +51,15 @@ class World {
   std::size_t free_count() const { return free_count_; }
   /// Velocities; those of catheter particles are their displacement in the last step over the time step.
   std::span<const Vector<D>> velocities() const { return velocities_; }
-  /// The contacts of the last step, by particle and time.
+  /// Bodies in the order of the scene, copies in the order they were drawn.
+  std::span<const Flight<D>> bodies() const { return bodies_; }
+  /// The scene's entry that a body is of.
+  std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
+  /// The faces of a body; bodies of the plane have none.
+  std::span<const std::array<std::uint32_t, 3>> faces_of(std::size_t body) const {
+    return shapes_[entry_of_[body]].faces;
+  }
+  /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
   /// The catheter's way points, routes found included.
   std::span<const Point<D>> path() const { return path_; }
@@ -47,15 +67,24 @@ class World {
   std::size_t next_way_point() const { return next_way_point_; }
   /// The steps in which the tip waited because a neighbour was held back.
   std::uint32_t steps_waited() const { return steps_waited_; }
+  /// What particles walked.
   const Walk_counts& counts() const { return counts_; }
+  /// What the moves of bodies did.
+  const Body_counts& body_counts() const { return body_counts_; }
 
-  /// Checks I1 for every particle. \throw Error(other) naming the first one that violates it
-  void validate() const;
+  /// Checks I1 for every particle, and I1 and I2 for every body, by exact predicates. Bodies are caught up first (see
+  /// Body::catch_up), which moves nothing and shows in the counts only.
+  /// \throw Error(other) naming the first particle or body that violates them
+  void validate();
 
  private:
   void place_cloud(const Particle_cloud& cloud, const std::string& key);
   void place_catheter(const Catheter<D>& catheter, const Locator<D>& locator);
+  void place_bodies(const Locator<D>& locator);
+  void place_body(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator);
+  void place_copies(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator);
   void step_free();
+  void step_bodies();
   void step_catheter(const Catheter<D>& catheter);
   Vector<D> steer(const Catheter<D>& catheter);
   void follow(const Catheter<D>& catheter, std::size_t i);
@@ -76,9 +105,15 @@ class World {
   std::vector<Point<D>> path_;
   std::size_t next_way_point_ = 1;
   std::uint32_t steps_done_ = 0, steps_waited_ = 0;
+  std::vector<Body_soup<D>> shapes_;
+  std::vector<Flight<D>> bodies_;
+  std::vector<std::size_t> entry_of_;
+  Flight_conditions<D> conditions_;
   std::vector<Contact_record<D>> contacts_;
+  std::vector<Body_contact<D>> body_contacts_;  ///< of one body in one step
   std::vector<Met_contact<D>> met_;
   Walk_counts counts_;
+  Body_counts body_counts_;
 };
 
 extern template class World<2>;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cli/run_bodies.h"
+
+#include <cellwalk/body/generate.h>
+#include <cellwalk/io/body_file.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <numeric>
+#include <utility>
+
+#include "cli/kind_names.h"
+
+namespace cellwalk::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) { return 100 * share(part, whole); }
+
+std::uint64_t sum(const std::array<std::uint64_t, 3>& by_kind) {
+  return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
+}
+
+}  // namespace
+
+template <int D>
+Scene_bodies<D> load_bodies(const Scene<D>& scene, const std::string& scene_name) {
+  Scene_bodies<D> result;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string key = fmt::format("bodies[{}]", i);
+    if (const auto* file = std::get_if<std::string>(&scene.bodies[i].source)) {
+      io::Body_file<D> read = io::read_body<D>(*file);
+      result.shapes.push_back(std::move(read.body));
+      for (const std::string& note : read.report.notes) result.notes.push_back(key + ": " + note);
+      continue;
+    }
+    try {
+      result.shapes.push_back(generate_body(std::get<Body_shape<D>>(scene.bodies[i].source)));
+    } catch (const Error& error) {
+      // A shape is input here, whatever it would be in a call.
+      throw Error(Error_code::input, fmt::format("{}: {}: {}", scene_name, key, error.what()));
+    }
+  }
+  return result;
+}
+
+template <int D>
+Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
+  Body_sizes sizes;
+  sizes.bodies = world.bodies().size();
+  for (std::size_t i = 0; i < sizes.bodies; ++i) {
+    const Flight<D>& flight = world.bodies()[i];
+    sizes.vertices += flight.body().vertex_count();
+    sizes.edges += flight.body().edges().size();
+    sizes.faces += world.faces_of(i).size();
+    sizes.guided += scene.bodies[world.entry_of(i)].guided.has_value();
+    sizes.arrived += flight.has_arrived();
+  }
+  return sizes;
+}
+
+ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
+                         const std::vector<std::string>& notes) {
+  ordered_json result{
+      {"count", sizes.bodies}, {"vertices", sizes.vertices}, {"edges", sizes.edges}, {"faces", sizes.faces}};
+  if (sizes.guided > 0) result["guided"] = {{"count", sizes.guided}, {"arrived", sizes.arrived}};
+  for (std::size_t f = 0; f < contacts.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) result["contacts"][feature_names[f]][kind_names[k]] = contacts[f][k];
+  if (!notes.empty()) result["notes"] = notes;
+  return result;
+}
+
+ordered_json to_json(const Walk_counts& c) {
+  return {{"walks", c.walks},
+          {"stays", c.stays},
+          {"crossings", c.crossings},
+          {"plane_blocks", c.plane_blocks},
+          {"uncertain_lanes", c.uncertain_lanes},
+          {"side_tests", c.side_tests},
+          {"along_tests", c.along_tests},
+          {"star_searches", c.star_searches},
+          {"orientations", c.predicates.orientations},
+          {"exact_fallbacks", c.predicates.fallbacks}};
+}
+
+ordered_json to_json(const Body_counts& c) {
+  ordered_json result{{"moves", c.moves},           {"in_region", c.in_region},
+                      {"regions", c.regions},       {"no_region", c.no_region},
+                      {"catch_ups", c.catch_ups},   {"contacts", c.contacts},
+                      {"stop_tries", c.stop_tries}, {"held", c.held}};
+  const Edge_counts& e = c.edges;
+  result["edges"] = {
+      {"checked", e.edges},         {"same_cell", e.same_cell}, {"convex_pair", e.convex_pair},
+      {"same_chain", e.same_chain}, {"clear", e.clear},         {"event_sweeps", e.event_sweeps},
+      {"changed", e.changed},       {"floods", e.floods},       {"flooded_cells", e.flooded_cells}};
+  result["shares"] = {{"in_region", share(c.in_region, c.moves)},
+                      {"same_cell", share(e.same_cell, e.edges)},
+                      {"convex_pair", share(e.convex_pair, e.edges)},
+                      {"same_chain", share(e.same_chain, e.edges)},
+                      {"clear", share(e.clear, e.edges)},
+                      {"event_sweeps", share(e.event_sweeps, e.edges)}};
+  result["walks"] = to_json(e.walk);
+  return result;
+}
+
+std::string describe_contacts(const Body_contacts& contacts) {
+  return fmt::format("{} of vertices, {} of edges, {} of faces", sum(contacts[0]), sum(contacts[1]),
+                     sum(contacts[2]));
+}
+
+std::string describe_moves(const Body_counts& c) {
+  return fmt::format("{} of vertices, {:.1f} % of them in regions free of walls, without a test", c.moves,
+                     percent(c.in_region, c.moves));
+}
+
+std::string describe_edges(const Body_counts& c) {
+  const Edge_counts& e = c.edges;
+  return fmt::format(
+      "{} checked: {:.1f} % in one cell, {:.1f} % in a convex pair of cells, {:.1f} % along the same "
+      "chain, {:.1f} % clear of walls, {:.1f} % by their events",
+      e.edges, percent(e.same_cell, e.edges), percent(e.convex_pair, e.edges), percent(e.same_chain, e.edges),
+      percent(e.clear, e.edges), percent(e.event_sweeps, e.edges));
+}
+
+template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);
+template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);
+template Body_sizes sizes_of(const World<2>&, const Scene<2>&);
+template Body_sizes sizes_of(const World<3>&, const Scene<3>&);
+
+}  // namespace cellwalk::cli

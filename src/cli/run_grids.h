@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The frames of a run as grids for ParaView.
+#ifndef CELLWALK_CLI_RUN_GRIDS_H
+#define CELLWALK_CLI_RUN_GRIDS_H
+
+#include <cellwalk/io/vtu.h>
+#include <cellwalk/simulation/world.h>
+
+#include <vector>
+
+namespace cellwalk::cli {
+
+/// Particles as vertices, and the catheter as a line through its particles. `contacts` are those since the frame before.
+template <int D>
+io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts);
+
+/// Bodies: each with its vertices, then its edges, then its faces. Cells know how often they met a wall; points their
+/// velocity, which is their displacement since `before` over the time step, or, where `before` is empty, that of the body.
+template <int D>
+io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts,
+                         const std::vector<Point<D>>& before, double time_step);
+
+/// Contacts as vertices with their normals.
+template <int D>
+io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>& contacts);
+
+/// Where all vertices of bodies are.
+template <int D>
+std::vector<Point<D>> body_positions(const World<D>& world);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_GRIDS_H

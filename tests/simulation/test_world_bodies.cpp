@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies in a world: where they start, what they meet, and what never happens to them.
+#include <cellwalk/body/generate.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/simulation/world.h>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "simulation/worlds.h"
+
+namespace cellwalk {
+namespace {
+
+using test::rooms;
+
+/// Copies thrown at random among free particles.
+template <int D>
+Scene<D> thrown(std::uint32_t count, double speed, std::uint64_t seed) {
+  Scene<D> scene;
+  Body_start<D> start;
+  start.cloud = Particle_cloud{count, speed, seed};
+  start.spin[0] = 1;
+  scene.bodies.push_back(start);
+  scene.particles.push_back(Particle_cloud{5, speed, seed});
+  scene.time_step = 0.05;
+  return scene;
+}
+
+/// True if a segment goes through the inside of a unit square or cube of the lattice: it meets each axis' open interval at a
+/// common parameter. By doubles, with cells shrunk by `margin`; knows nothing of chains.
+template <int D>
+bool pierces(const Point<D>& a, const Point<D>& b, const Point<D>& low, double margin) {
+  double from = 0, to = 1;
+  for (int k = 0; k < D; ++k) {
+    const double lower = low[k] + margin, upper = low[k] + 1 - margin, d = b[k] - a[k];
+    if (d == 0) {
+      if (a[k] <= lower || a[k] >= upper) return false;
+      continue;
+    }
+    const double s = (lower - a[k]) / d, t = (upper - a[k]) / d;
+    from = std::max(from, std::min(s, t));
+    to = std::min(to, std::max(s, t));
+  }
+  return from < to;
+}
+
+struct Seen {
+  std::size_t by_vertex = 0, by_edge = 0, of_particles = 0;
+};
+
+/// Runs a world of solid unit cells, and at every step: validates, sees that no vertex is outside and no edge goes through a
+/// solid cell, and that every contact of a body lies in a wall and names what there is.
+template <int D>
+void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<D>>& solid, int steps,
+                 Seen& seen) {
+  constexpr double margin = 1e-9;
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    world.validate();
+    for (const Flight<D>& flight : world.bodies()) {
+      const auto positions = flight.body().positions();
+      for (const Point<D>& x : positions)
+        for (int k = 0; k < D; ++k) EXPECT_TRUE(x[k] >= 0 && x[k] <= size[k]) << "step " << i;
+      for (const auto& [u, v] : flight.body().edges())
+        for (const Point<D>& low : solid)
+          EXPECT_FALSE(pierces<D>(positions[u], positions[v], low, margin)) << "step " << i;
+    }
+    for (const Contact_record<D>& c : world.contacts()) {
+      EXPECT_EQ(c.step, world.steps_done());
+      EXPECT_NEAR(length(c.normal), 1, 1e-14);
+      EXPECT_TRUE(c.time >= 0 && c.time <= 1);
+      if (!c.body) {
+        ++seen.of_particles;
+        continue;
+      }
+      const Body<D>& body = world.bodies()[c.body->body].body();
+      ASSERT_LT(c.body->vertex, body.vertex_count());
+      if (c.body->feature == Body_feature::vertex) {
+        EXPECT_EQ(c.body->number, c.body->vertex);
+        ++seen.by_vertex;
+      } else {
+        ASSERT_EQ(c.body->feature, Body_feature::edge);
+        ASSERT_LT(c.body->number, body.edges().size());
+        const auto [u, v] = body.edges()[c.body->number];
+        EXPECT_TRUE(u == c.body->vertex || v == c.body->vertex);
+        ++seen.by_edge;
+      }
+      // All walls of these worlds are parallel to the axes: a coordinate of the point is whole.
+      bool is_whole = false;
+      for (const double x : c.point) is_whole = is_whole || std::abs(x - std::round(x)) < 1e-9;
+      EXPECT_TRUE(is_whole);
+    }
+  }
+}
+
+TEST(WorldBodies, NothingPassesAWall2) {
+  const auto snapshot = rooms<2>({6, 6}, {14, 16, 27});  // cell x + 6 y
+  auto scene = thrown<2>(15, 3, 5);
+  scene.gravity = {0, -1};
+  World<2> world(snapshot, scene, {generate_body(Polygon_shape{5, 0.3})});
+  ASSERT_EQ(world.bodies().size(), 15u);
+  Seen seen;
+  run_checked<2>(world, {6, 6}, {{2, 2}, {4, 2}, {3, 4}}, 300, seen);
+  EXPECT_GT(seen.by_vertex, 300u);
+  EXPECT_GT(seen.by_edge, 20u);
+  EXPECT_GT(seen.of_particles, 20u);
+  EXPECT_EQ(world.body_counts().contacts, seen.by_vertex + seen.by_edge);
+  EXPECT_GT(world.body_counts().in_region, 1000u);
+}
+
+TEST(WorldBodies, NothingPassesAWall3) {
+  const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});  // cell x + 4 (y + 4 z)
+  World<3> world(snapshot, thrown<3>(10, 2, 9), {generate_body(Hexahedron_shape{0.4, false})});
+  Seen seen;
+  run_checked<3>(world, {4, 4, 3}, {{1, 1, 1}, {2, 2, 1}}, 200, seen);
+  EXPECT_GT(seen.by_vertex, 100u);
+  EXPECT_GT(seen.by_edge, 10u);
+}
+
+template <int D>
+std::uint64_t hash_of(const World<D>& world, std::uint64_t h = 0) {
+  for (const auto& flight : world.bodies())
+    for (const auto& x : flight.body().positions())
+      for (const double c : x) h = scramble(h ^ std::bit_cast<std::uint64_t>(c));
+  return h;
+}
+
+TEST(WorldBodies, IsDeterministicAndValidationChangesNothing) {
+  const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});
+  const auto run = [&](std::uint64_t seed, bool validate, const Body_options& options) {
+    World<3> world(snapshot, thrown<3>(8, 2, seed), {generate_body(Hexahedron_shape{0.4, false})}, options);
+    std::uint64_t h = 0;
+    for (int i = 0; i < 100; ++i) {
+      world.step();
+      if (validate) world.validate();
+      h = hash_of(world, h);
+    }
+    EXPECT_EQ(world.body_counts().in_region == 0, !options.clearance);
+    return h;
+  };
+  Body_options plain;
+  plain.clearance = false;
+  EXPECT_EQ(run(1, false, {}), run(1, true, {}));
+  EXPECT_EQ(run(1, false, {}), run(1, false, plain));
+  EXPECT_NE(run(1, false, {}), run(2, false, {}));
+}
+
+TEST(WorldBodies, CopiesStartEverywhereInAllDirections) {
+  const auto snapshot = rooms<2>({4, 1}, {1});
+  auto scene = thrown<2>(300, 2, 9);
+  scene.bodies[0].placement.scale = 0.5;
+  scene.bodies[0].placement.rotation.degrees = 90;
+  const World<2> world(snapshot, scene, {generate_body(Catheter_shape<2>{0.4, 2})});
+  std::array<int, 4> in_cell{};
+  Vector<2> sum{};
+  for (const Flight<2>& flight : world.bodies()) {
+    const auto x = flight.body().positions();
+    EXPECT_EQ(x[0][0], x[1][0]) << "turned upright";
+    EXPECT_NEAR(x[1][1] - x[0][1], 0.2, 1e-15);
+    ++in_cell[static_cast<std::size_t>(x[0][0])];
+    EXPECT_NEAR(length(flight.velocity()), 2, 1e-12);
+    sum = sum + flight.velocity();
+  }
+  EXPECT_EQ(in_cell[1], 0);
+  for (const int i : {0, 2, 3}) EXPECT_NEAR(in_cell[static_cast<std::size_t>(i)], 100, 40);
+  EXPECT_LT(length(sum), 100) << "of 600 if all flew alike";
+}
+
+/// A square that is led against the wall x = 4 and along it.
+Scene<2> guided() {
+  Scene<2> scene;
+  Body_start<2> start;
+  start.guided = Guided_motion<2>{{{1, 1}, {4.1, 1}, {4.1, 3}, {2, 3}}, 1};
+  scene.bodies.push_back(start);
+  scene.time_step = 0.05;
+  return scene;
+}
+
+TEST(WorldBodies, AGuidedBodyIsStoppedByAWallAndSlidesAlongIt) {
+  const auto snapshot = rooms<2>({4, 4});
+  World<2> world(snapshot, guided(), {generate_body(Quad_shape{0.5})});
+  const auto x = [&](std::uint32_t v) { return world.bodies()[0].body().positions()[v]; };
+  EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first way point";
+  std::size_t contacts = 0, slid = 0;
+  for (int i = 0; i < 100; ++i) {
+    world.step();
+    world.validate();
+    for (const auto& c : world.contacts()) {
+      ++contacts;
+      EXPECT_EQ(c.normal, (Vector<2>{-1, 0}));
+      EXPECT_NEAR(c.point[0], 4, 1e-12);
+    }
+    if (i < 63 || i >= 101)
+      continue;  // from (4.1, 1.05) on: the right side is held at the wall, the left one is not
+    ++slid;
+    EXPECT_NEAR(x(1)[0], 4, 1e-12);
+    EXPECT_NEAR(x(2)[0], 4, 1e-12);
+    EXPECT_NEAR(x(0)[0], 3.85, 1e-12);
+    EXPECT_NEAR(x(1)[1], 1 + 0.05 * (i + 1) - 3.1 - 0.25, 1e-9) << "keeps up with its guide";
+  }
+  EXPECT_GT(contacts, 50u);
+  EXPECT_EQ(slid, 37u);
+  EXPECT_FALSE(world.bodies()[0].has_arrived());
+  for (int i = 0; i < 50; ++i) world.step();
+  EXPECT_TRUE(world.bodies()[0].has_arrived());
+  EXPECT_LT(length(x(2) - Point<2>{2.25, 3.25}), 1e-12) << "has its shape again";
+}
+
+TEST(WorldBodies, AGuidedBodyThatIsHeldBackHasNotArrived) {
+  const auto snapshot = rooms<2>({4, 4});
+  auto scene = guided();
+  scene.bodies[0].guided->path = {{1, 1}, {3.8, 1}};
+  World<2> world(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  for (int i = 0; i < 80; ++i) world.step();
+  EXPECT_FALSE(world.bodies()[0].has_arrived());
+  scene.bodies[0].guided->path[1] = {3.75, 1};
+  World<2> touching(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  for (int i = 0; i < 50; ++i) touching.step();
+  EXPECT_FALSE(touching.bodies()[0].has_arrived()) << "on its way";
+  for (int i = 0; i < 10; ++i) touching.step();
+  EXPECT_TRUE(touching.bodies()[0].has_arrived()) << "touching is no contact";
+}
+
+TEST(WorldBodies, AGuidedBodyTurnsAboutItsOrigin) {
+  const auto snapshot = rooms<2>({4, 4});
+  auto scene = guided();
+  scene.bodies[0].guided->path = {{1, 1}, {3, 1}};
+  scene.bodies[0].spin = {1};
+  World<2> world(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  for (int i = 0; i < 20; ++i) world.step();
+  const Vector<2> corner = world.bodies()[0].body().positions()[0] - Point<2>{2, 1};
+  EXPECT_NEAR(std::atan2(corner[1], corner[0]), std::atan2(-1, -1) + 1, 1e-12);
+}
+
+std::string refusal(const Snapshot<2>& snapshot, const Scene<2>& scene, const Body_soup<2>& shape) {
+  try {
+    World<2>(snapshot, scene, std::vector<Body_soup<2>>(scene.bodies.size(), shape));
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Error_code::outside);
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(WorldBodies, RefusesStartsOutsideFreeSpace) {
+  const auto snapshot = rooms<2>({3, 1}, {1});
+  Scene<2> scene;
+  scene.bodies.resize(2);
+  scene.bodies[0].placement.position = {0.5, 0.5};
+  scene.bodies[1].placement.position = {1, 0.5};
+  const Body_soup<2> rod = generate_body(Catheter_shape<2>{0.5, 2});
+  EXPECT_EQ(
+      refusal(snapshot, scene, rod),
+      "bodies[1]: vertex 1 of the body, at (1.25, 0.5), is in a solid cell: move the body into free space");
+  const Body_soup<2> long_rod = generate_body(Catheter_shape<2>{2, 2});
+  scene.bodies[0] = scene.bodies[1];
+  scene.bodies[0].placement.position = {1.5, 0.5};
+  EXPECT_EQ(refusal(snapshot, scene, long_rod),
+            "bodies[0]: edge 0 of the body, from vertex 0 at (0.5, 0.5) to vertex 1 at (2.5, 0.5), crosses a "
+            "wall at "
+            "(1, 0.5), in cell 0: move the body into free space");
+  scene.bodies[0].cloud = Particle_cloud{7, 1, 1};
+  EXPECT_EQ(refusal(snapshot, scene, long_rod),
+            "bodies[0]: no room for copy 1 of 7: it meets walls at each of 1000 random places; make the body "
+            "smaller, or "
+            "the free space larger");
+}
+
+TEST(WorldBodies, StayWhereTheyAreIfTheirMotionIsNotFinite) {
+  const auto snapshot = rooms<3>({3, 3, 3});
+  for (const int what : {0, 1, 2, 3}) {
+    Scene<3> scene = thrown<3>(1, 1, 3);
+    if (what == 0) scene.gravity = {0, 0, -1e308};
+    if (what == 1) scene.time_step = 1e308, scene.bodies[0].cloud->speed = 1e10;
+    if (what == 2) scene.bodies[0].spin = {1e308, 1e308, 1e308};
+    if (what == 3) scene.bodies[0].cloud->speed = 1e200;  // finite
+    if (what == 0) scene.time_step = 1000;
+    World<3> world(snapshot, scene, {generate_body(Hexahedron_shape{0.4, false})});
+    const std::uint64_t before = hash_of(world);
+    for (int i = 0; i < 5; ++i) world.step();
+    EXPECT_NO_THROW(world.validate());
+    EXPECT_EQ(hash_of(world) == before, what != 3) << what;
+  }
+}
+
+TEST(WorldBodies, NeedAShapeEach) {
+  const auto snapshot = rooms<2>({4, 4});
+  EXPECT_THROW(World<2>(snapshot, guided()), Error);
+  EXPECT_NO_THROW(World<2>(snapshot, guided(), {generate_body(Quad_shape{0.5})}));
+}
+
+}  // namespace
+}  // namespace cellwalk
