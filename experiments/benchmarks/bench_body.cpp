@@ -12,6 +12,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <deque>
 #include <vector>
 
 namespace {
@@ -125,12 +126,12 @@ struct Blocked {
   Chain chain;
 };
 
-const std::vector<Blocked>& blocked() {
-  static const std::vector<Blocked> result = [] {
+const std::deque<Blocked>& blocked() {
+  static const std::deque<Blocked> result = [] {
     const Locator<3> locator(scene());
     Random random(2);
     Edge_counts counts;
-    std::vector<Blocked> found;
+    std::deque<Blocked> found;
     while (found.size() < 500) {
       Point<3> p, q, t;
       for (int k = 0; k < 3; ++k) {

@@ -21,16 +21,21 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
   stop_tries += other.stop_tries;
   held += other.held;
   edges += other.edges;
+  faces += other.faces;
   return *this;
 }
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : snapshot_(&snapshot), positions_(soup.points), edges_(soup.edges) {
+    : snapshot_(&snapshot), positions_(soup.points), edges_(soup.edges), faces_(soup.faces) {
   detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);
   particles_ = std::move(registered.particles);
   chains_ = std::move(registered.chains);
   link_edges();
+  if (D != 3 || faces_.empty()) return;
+  link_faces();
+  Face_counts counts;
+  register_faces(Error_code::outside, counts);
 }
 
 template <int D>
@@ -83,12 +88,20 @@ std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const 
       const bool is_edge = swept.contact->body == Body_feature::edge;
       first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
     }
-    moved_chains_[i - corner_begin_[vertex]] = swept.chain;
+    Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
+    moved.chain = swept.chain;
+    moved.is_free = !swept.contact;
   }
+  moved_rests_.clear();
+  if (options.sweep.sweep == Sweep::faces)
+    sweep_faces(vertex, way, first, counts);
+  else
+    are_faces_swept_ = false;
   if (first) return first;
+  for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
     const Corner& corner = corners_[i];
-    const Chain& moved = moved_chains_[i - corner_begin_[vertex]];
+    const Chain& moved = moved_chains_[i - corner_begin_[vertex]].chain;
     chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
   }
   particles_[vertex] = to;
@@ -114,6 +127,14 @@ void Body<D>::validate() const {
     throw Error(Error_code::other,
                 fmt::format("edge {} of a body has no valid chain, from ({}) to ({})", e,
                             fmt::join(positions_[u], ", "), fmt::join(positions_[v], ", ")));
+  }
+  if (!are_faces_swept_) return;
+  Face_counts face_counts;
+  for (std::uint32_t f = 0; f < rests_.size(); ++f) {
+    const Face_registration found = register_face_here(f, face_counts);
+    if (found.piercing == Half_facet::none && found.rests == rests_[f]) continue;
+    throw Error(Error_code::other, fmt::format("a wall pierces face {} of a body, at ({})", f,
+                                               fmt::join(positions_[faces_[f][0]], ", ")));
   }
 }
 

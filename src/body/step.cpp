@@ -145,6 +145,7 @@ void Body<D>::catch_up(Body_counts& counts) {
     move(*snapshot_, particles_[v], positions_[v], counts.edges.walk);
   }
   counts.catch_ups += particles_.size();
+  for (Face_rests& rests : rests_) rests.clear();
   for (std::size_t e = 0; e < edges_.size(); ++e)
     chains_[e] =
         find_chain(*snapshot_, particles_[edges_[e][0]], particles_[edges_[e][1]], counts.edges.walk).chain;

@@ -7,6 +7,8 @@ namespace cellwalk::cli {
 
 /// By Contact_kind.
 inline constexpr const char* kind_names[] = {"vertex", "edge", "facet"};
+/// By Sweep.
+inline constexpr const char* sweep_names[] = {"three_segments", "triangle", "faces"};
 /// By Body_feature.
 inline constexpr const char* feature_names[] = {"vertex", "edge", "face"};
 

@@ -182,8 +182,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
   // Everything needed to repeat the run, and nothing that differs between machines or days.
   result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
   if (!scene.bodies.empty())
-    result["manifest"]["sweep"] =
-        options.body.sweep.sweep == Sweep::three_segments ? "three_segments" : "triangle";
+    result["manifest"]["sweep"] = sweep_names[static_cast<std::size_t>(options.body.sweep.sweep)];
   return result;
 }
 
@@ -259,9 +258,13 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(CLI::Range(1u, 100000000u));
-  add_choice(*command, "--sweep", options->body.sweep.sweep,
-             {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}},
-             "How edges of bodies are checked; the paper's three segments miss what fits between them");
+  add_choice(
+      *command, "--sweep", options->body.sweep.sweep,
+      {{sweep_names[0], Sweep::three_segments},
+       {sweep_names[1], Sweep::triangle},
+       {sweep_names[2], Sweep::faces}},
+      "What is checked of bodies: edges by the paper's three segments, which miss what fits between them; "
+      "the triangles that edges sweep; or faces as well");
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
   command->callback([options, &chosen] {
     chosen = [options] {

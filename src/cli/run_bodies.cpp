@@ -59,7 +59,7 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     const Flight<D>& flight = world.bodies()[i];
     sizes.vertices += flight.body().vertex_count();
     sizes.edges += flight.body().edges().size();
-    sizes.faces += world.faces_of(i).size();
+    sizes.faces += world.bodies()[i].body().faces().size();
     sizes.guided += scene.bodies[world.entry_of(i)].guided.has_value();
     sizes.arrived += flight.has_arrived();
   }
@@ -106,6 +106,10 @@ ordered_json to_json(const Body_counts& c) {
                       {"same_chain", share(e.same_chain, e.edges)},
                       {"clear", share(e.clear, e.edges)},
                       {"event_sweeps", share(e.event_sweeps, e.edges)}};
+  const Face_counts& f = c.faces;
+  if (f.faces > 0)
+    result["faces"] = {{"swept", f.faces}, {"clear", f.clear},     {"flooded_cells", f.flooded_cells},
+                       {"walls", f.walls}, {"clipped", f.clipped}, {"flat", f.flat}};
   result["walks"] = to_json(e.walk);
   return result;
 }

@@ -71,7 +71,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
       append_vector<D>(velocity, before.empty() ? flight.velocity() : (1 / time_step) * (x - before[point]));
     }
     const auto edges = flight.body().edges();
-    const auto faces = world.faces_of(b);
+    const auto faces = world.bodies()[b].body().faces();
     const std::size_t vertices = flight.body().vertex_count(), cells = grid.cell_count();
     begin.push_back({cells, cells + vertices, cells + vertices + edges.size()});
     for (std::uint32_t v = 0; v < vertices; ++v)

@@ -154,7 +154,7 @@ void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, do
   for (const Flight<D>& flight : world.bodies()) all_edges += flight.body().edges().size();
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
     const Body<D>& body = world.bodies()[b].body();
-    const auto faces = world.faces_of(b);
+    const auto faces = world.bodies()[b].body().faces();
     if (!faces.empty()) {
       std::vector<Point<3>> points;
       for (const Point<D>& x : body.positions()) points.push_back(io::in_space(x));

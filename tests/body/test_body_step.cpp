@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "body/rooms.h"
@@ -87,6 +89,58 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
   EXPECT_NEAR(contact->contact.time, 2.4 / 2.45, 1e-12);
   EXPECT_EQ(contact->contact.point[1], 1.25);
   EXPECT_EQ(body.positions()[0], (Point<3>{0.5, 1.25, 2.5})) << "nothing moves where there is a contact";
+}
+
+/// A face wider than the solid cell that sticks out of the floor under it.
+TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
+  const Snapshot<3> snapshot = room<3>({5, 5, 4}, {12});
+  const Locator<3> locator(snapshot);
+  const Body_soup<3> soup{
+      {{0.25, 0.25, 2.5}, {4.75, 0.25, 2.5}, {2.5, 4.75, 2.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
+  for (const Sweep sweep : {Sweep::triangle, Sweep::faces}) {
+    Body<3> body(snapshot, locator, soup);
+    Body_options options;
+    options.sweep.sweep = sweep;
+    std::vector<Body_contact<3>> contacts;
+    Body_counts counts;
+    for (int k = 0; k < 30; ++k) {
+      body.step(shifted<3>(body, {0, 0, -0.07}), options, contacts, counts);
+      body.catch_up(counts);
+      ASSERT_NO_THROW(body.validate()) << k;
+    }
+    double lowest = 4;
+    for (const Point<3>& x : body.positions()) lowest = std::min(lowest, x[2]);
+    if (sweep == Sweep::triangle) {
+      EXPECT_TRUE(contacts.empty()) << "no edge meets the cell";
+      EXPECT_NEAR(lowest, 0.4, 1e-9);
+      // Faces cannot be swept from there on: the cell sticks through.
+      options.sweep.sweep = Sweep::faces;
+      EXPECT_THROW(body.step(shifted<3>(body, {0, 0, 0.01}), options, contacts, counts), Error);
+      continue;
+    }
+    ASSERT_FALSE(contacts.empty());
+    EXPECT_EQ(contacts[0].contact.body, Body_feature::face);
+    EXPECT_EQ(contacts[0].feature, 0u);
+    EXPECT_EQ(contacts[0].contact.point[2], 1);
+    EXPECT_GT(counts.faces.faces, 50u);
+    EXPECT_GT(lowest, 0.4);
+    // Two corners may go down past the cell, if the third is left behind; but not the middle.
+    EXPECT_GT((body.positions()[0][2] + body.positions()[1][2] + body.positions()[2][2]) / 3, 0.9);
+  }
+}
+
+TEST(Body_step, RefusesFacesThatWallsPierce) {
+  const Snapshot<3> snapshot = room<3>({5, 5, 4}, {12});
+  const Body_soup<3> soup{
+      {{0.25, 0.25, 0.5}, {4.75, 0.25, 0.5}, {2.5, 4.75, 0.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
+  try {
+    Body<3>(snapshot, Locator<3>(snapshot), soup);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Error_code::outside);
+    EXPECT_EQ(std::string(error.what()).find("face 0 of the body, with vertices 0 at (0.25, 0.25, 0.5)"), 0u)
+        << error.what();
+  }
 }
 
 /// Whatever a clearance lets pass must be free for a body without one.

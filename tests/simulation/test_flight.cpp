@@ -27,6 +27,21 @@ TEST(Flight, KeepsItsInvariantsInAVessel) {
   expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 300);
 }
 
+TEST(Flight, KeepsFacesFree) {
+  // Boxes larger than the solid cells between which they fly.
+  const Snapshot<3> snapshot = rooms<3>({8, 8, 8}, {155, 236, 292, 349, 100});
+  const Body_soup<3> shape = generate_body(Box_shape{{1.7, 1.6, 1.5}, {1, 1, 1}, true});
+  Body_options options;
+  options.sweep.sweep = Sweep::faces;
+  const Flown flown = fly<3>(snapshot, shape, 8, 300, 0.05, 5, 3, true, options);
+  std::cout << flown.counts.faces.faces << " faces swept, " << flown.counts.faces.clear << " clear, "
+            << flown.contacts << " contacts, " << flown.face_contacts << " of faces\n";
+  EXPECT_EQ(flown.differing, 0u);
+  EXPECT_EQ(flown.stuck, 0u);
+  EXPECT_GT(flown.face_contacts, 5u);
+  EXPECT_GT(flown.counts.faces.clear, 1000u);
+}
+
 TEST(LongFlight, InAVessel) { expect_long_flights_are_sound(compile(branching_vessel({})), 0.5, 150'000); }
 
 }  // namespace

@@ -52,19 +52,20 @@ std::vector<Flight<D>> throw_bodies(const Snapshot<D>& snapshot, const Body_soup
 /// What was seen of flights.
 struct Flown {
   Body_counts counts;
-  std::uint64_t contacts = 0, edge_contacts = 0, validated = 0, differing = 0, stuck = 0;
+  std::uint64_t contacts = 0, edge_contacts = 0, face_contacts = 0, validated = 0, differing = 0, stuck = 0;
 };
 
 /// Throws bodies, each twice: with clearance and without. They must do the same, bit for bit; I1 and I2 hold every so many
 /// steps; and every body keeps moving.
 template <int D>
 Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, int steps, double time_step,
-          int steps_between_checks, std::uint64_t seed, bool compare) {
+          int steps_between_checks, std::uint64_t seed, bool compare, const Body_options& options = {}) {
   Flown flown;
   std::vector<Flight<D>> flights = throw_bodies(snapshot, shape, bodies, 1.0, seed);
   std::vector<Flight<D>> plain = flights;
   Flight_conditions<D> conditions, without;
   conditions.time_step = time_step;
+  conditions.body = options;
   without = conditions;
   without.body.clearance = false;
   std::vector<Body_contact<D>> contacts, others;
@@ -76,7 +77,10 @@ Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, in
       contacts.clear();
       flights[i].step(conditions, contacts, flown.counts);
       flown.contacts += contacts.size();
-      for (const auto& c : contacts) flown.edge_contacts += c.contact.body == Body_feature::edge;
+      for (const auto& c : contacts) {
+        flown.edge_contacts += c.contact.body == Body_feature::edge;
+        flown.face_contacts += c.contact.body == Body_feature::face;
+      }
       if (compare) {
         others.clear();
         plain[i].step(without, others, plain_counts);

@@ -55,10 +55,6 @@ class World {
   std::span<const Flight<D>> bodies() const { return bodies_; }
   /// The scene's entry that a body is of.
   std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
-  /// The faces of a body; bodies of the plane have none.
-  std::span<const std::array<std::uint32_t, 3>> faces_of(std::size_t body) const {
-    return shapes_[entry_of_[body]].faces;
-  }
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
   /// The catheter's way points, routes found included.
@@ -72,7 +68,7 @@ class World {
   /// What the moves of bodies did.
   const Body_counts& body_counts() const { return body_counts_; }
 
-  /// Checks I1 for every particle, and I1 and I2 for every body, by exact predicates. Bodies are caught up first (see
+  /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are caught up first (see
   /// Body::catch_up), which moves nothing and shows in the counts only.
   /// \throw Error(other) naming the first particle or body that violates them
   void validate();
