@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slide.h"
 #include "stop_candidates.h"
 
 namespace cellwalk {
 namespace {
 
-/// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion is a few ulp
-/// each; a lift that is too small only costs another contact.
-constexpr double lift_ulps = 16;
 /// Steps without a search after one that found no region: bodies near walls stay there for a while.
 constexpr std::uint32_t steps_without_search = 8;
 /// Regions larger than this many times the body are not looked for.
@@ -22,14 +20,6 @@ constexpr double smallest_region = 0.5;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, most_cells = 4096;
 
-/// The part of a motion that two walls leave: none in the plane, that along their edge in space.
-Vector<2> along_both(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return {}; }
-Vector<3> along_both(const Vector<3>& v, const Vector<3>& n, const Vector<3>& m) {
-  const Vector<3> edge = cross(n, m);
-  const double square = dot(edge, edge);
-  return square > 0 ? (dot(v, edge) / square) * edge : Vector<3>{};
-}
-
 /// What is left of a motion that met walls, the last of them just now.
 template <int D>
 Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
@@ -37,7 +27,7 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
   for (std::size_t i = normals.size() - 1; i-- > 0;) {
     if (dot(along, normals[i]) >= 0) continue;
-    const Vector<D> both = along_both(along, last, normals[i]);
+    const Vector<D> both = detail::along_both(along, last, normals[i]);
     const bool leads_out = std::all_of(normals.begin(), normals.end(),
                                        [&](const Vector<D>& n) { return dot(both, n) >= -0x1p-40; });
     return leads_out ? both : Vector<D>{};
@@ -70,7 +60,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
       normals.push_back(contact->contact.normal);
       const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
       if (!(length(left) > 0)) break;
-      target = positions_[v] + left + (lift_ulps * detail::ulp<D>(positions_[v])) * normals.back();
+      target = positions_[v] + left + (detail::lift_ulps * detail::ulp<D>(positions_[v])) * normals.back();
       if (!is_finite(target)) break;
     }
   }

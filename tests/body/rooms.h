@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Rooms of unit cells for bodies.
+// Rooms of unit cells.
 #ifndef CELLWALK_TESTS_BODY_ROOMS_H
 #define CELLWALK_TESTS_BODY_ROOMS_H
 
@@ -21,7 +21,7 @@ Snapshot<D> compile(const Cell_soup<D>& soup) {
 
 /// A grid of unit cells from the origin, with the given solid cells.
 template <int D>
-Snapshot<D> room(std::array<std::uint32_t, D> cells, std::vector<std::uint32_t> solid) {
+Snapshot<D> rooms(std::array<std::uint32_t, D> cells, std::vector<std::uint32_t> solid = {}) {
   Grid_options<D> options;
   options.cells = cells;
   options.solid_cells = std::move(solid);

@@ -33,7 +33,7 @@ Body<3> hexahedron(const Snapshot<3>& snapshot, const Point<3>& at, double side)
 }
 
 TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
-  const Snapshot<3> snapshot = room<3>({8, 4, 4}, {});
+  const Snapshot<3> snapshot = rooms<3>({8, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {2, 2, 0.5}, 1);  // stands on the floor
   std::vector<Body_contact<3>> contacts;
   Body_counts counts;
@@ -75,7 +75,7 @@ TEST(Body_step, SlidesAlongAnObliqueWall) {
 
 TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
   // A solid cell sticks out of the floor; an edge longer than it is wide comes down on it.
-  const Snapshot<3> snapshot = room<3>({5, 3, 4}, {7});
+  const Snapshot<3> snapshot = rooms<3>({5, 3, 4}, {7});
   const Body_soup<3> soup{{{0.5, 1.25, 2.5}, {4.5, 1.25, 2.5}}, {{0, 1}}, {}};
   Body<3> body(snapshot, Locator<3>(snapshot), soup);
   Body_counts counts;
@@ -93,7 +93,7 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
 
 /// A face wider than the solid cell that sticks out of the floor under it.
 TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
-  const Snapshot<3> snapshot = room<3>({5, 5, 4}, {12});
+  const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Locator<3> locator(snapshot);
   const Body_soup<3> soup{
       {{0.25, 0.25, 2.5}, {4.75, 0.25, 2.5}, {2.5, 4.75, 2.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
@@ -130,7 +130,7 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
 }
 
 TEST(Body_step, RefusesFacesThatWallsPierce) {
-  const Snapshot<3> snapshot = room<3>({5, 5, 4}, {12});
+  const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Body_soup<3> soup{
       {{0.25, 0.25, 0.5}, {4.75, 0.25, 0.5}, {2.5, 4.75, 0.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
   try {
@@ -188,9 +188,9 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
   EXPECT_GT(counts.no_region, 50u);
 }
 
-TEST(Body_step, RegionsHoldNoWalls2) { expect_sound_regions<2>(room<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
+TEST(Body_step, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
 TEST(Body_step, RegionsHoldNoWalls3) {
-  expect_sound_regions<3>(room<3>({4, 4, 4}, {21, 42, 5, 58}), {4, 4, 4}, 400);
+  expect_sound_regions<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}), {4, 4, 4}, 400);
 }
 
 }  // namespace

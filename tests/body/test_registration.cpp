@@ -25,7 +25,7 @@ std::string refusal(const Snapshot<D>& snapshot, const Body_soup<D>& soup) {
 }
 
 TEST(Registration, FindsCellsAndChains) {
-  const Snapshot<3> snapshot = room<3>({3, 1, 1}, {});
+  const Snapshot<3> snapshot = rooms<3>({3, 1, 1}, {});
   const Body_soup<3> soup{{{0.5, 0.5, 0.5}, {2.5, 0.5, 0.25}, {0.25, 0.25, 0.25}}, {{0, 1}, {0, 2}}, {}};
   const Body<3> body(snapshot, Locator<3>(snapshot), soup);
   EXPECT_EQ(body.chain(0).size(), 2u);
@@ -34,10 +34,10 @@ TEST(Registration, FindsCellsAndChains) {
 }
 
 TEST(Registration, RefusesVerticesAndEdgesWithTheirPlace) {
-  const Snapshot<2> snapshot = room<2>({3, 1}, {});
+  const Snapshot<2> snapshot = rooms<2>({3, 1}, {});
   EXPECT_EQ(refusal<2>(snapshot, {{{0.5, 0.5}, {4, 0.5}}, {{0, 1}}, {}}),
             "vertex 1 of the body, at (4, 0.5), is outside the environment: move the body into free space");
-  const Snapshot<2> with_solid = room<2>({3, 1}, {1});
+  const Snapshot<2> with_solid = rooms<2>({3, 1}, {1});
   EXPECT_EQ(refusal<2>(with_solid, {{{1.5, 0.5}}, {}, {}}),
             "vertex 0 of the body, at (1.5, 0.5), is in a solid cell: move the body into free space");
   EXPECT_EQ(refusal<2>(with_solid, {{{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}}, {}}),
@@ -81,7 +81,7 @@ TEST(Registration, TakesTheSideFromWhichAllEdgesCanBePassed) {
 }
 
 TEST(Registration, AcceptsBodiesAtRestInWallPlanes) {
-  const Snapshot<3> snapshot = room<3>({4, 4, 2}, {});
+  const Snapshot<3> snapshot = rooms<3>({4, 4, 2}, {});
   Body_placement<3> placement;
   placement.position = {2, 2, 0.5};
   const Body<3> body(snapshot, Locator<3>(snapshot),

@@ -3,7 +3,6 @@
 #ifndef CELLWALK_TESTS_SIMULATION_WORLDS_H
 #define CELLWALK_TESTS_SIMULATION_WORLDS_H
 
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/walk/locate.h>
@@ -14,24 +13,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "body/rooms.h"
+
 namespace cellwalk::test {
-
-template <int D>
-Snapshot<D> compile(const Cell_soup<D>& soup) {
-  return Snapshot<D>::compile(soup, glue(soup));
-}
-
-/// A grid of unit cells from the origin, with the given solid cells.
-template <int D>
-Snapshot<D> rooms(std::array<std::uint32_t, D> cells, std::vector<std::uint32_t> solid = {}) {
-  Grid_options<D> options;
-  options.cells = cells;
-  options.solid_cells = std::move(solid);
-  if constexpr (D == 2)
-    return compile(square_grid(options));
-  else
-    return compile(hex_grid(options));
-}
 
 /// True if the locator, which knows nothing of the walk, finds the point in free space and in the particle's cell.
 template <int D>

@@ -6,11 +6,11 @@
 #ifndef CELLWALK_SIMULATION_WORLD_H
 #define CELLWALK_SIMULATION_WORLD_H
 
+#include <cellwalk/body/verified_stop.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/contact_record.h>
 #include <cellwalk/simulation/flight.h>
-#include <cellwalk/simulation/verified_stop.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/particle.h>
 #include <cellwalk/walk/walk.h>

@@ -1,45 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/simulation/verified_stop.h>
+#include <cellwalk/body/verified_stop.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "slide.h"
+#include "stop_candidates.h"
 
 namespace cellwalk {
 namespace {
 
 constexpr int largest_shift = 1024;  // ulp
 constexpr int shrink_steps = 20;
-/// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion is a few
-/// ulp each; a lift that is too small only costs another contact, since every move is walked exactly.
-constexpr double lift_ulps = 16;
-
-template <int D>
-double largest_coordinate(const Point<D>& p) {
-  double m = 0;
-  for (const double x : p) m = std::max(m, std::abs(x));
-  return m;
-}
-
-/// The distance between doubles of the size of a point's largest coordinate.
-template <int D>
-double ulp(const Point<D>& p) {
-  const double m = largest_coordinate<D>(p);
-  return std::nextafter(m, std::numeric_limits<double>::infinity()) - m;
-}
-
 template <int D>
 bool try_move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
               Walk_counts& counts) {
   return is_finite(target) && move<Exact>(snapshot, particle, target, counts).status == Walk_status::arrived;
-}
-
-/// The part of a velocity that two walls leave: none in the plane, that along their edge in space.
-Vector<2> along_both(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return {}; }
-Vector<3> along_both(const Vector<3>& v, const Vector<3>& n, const Vector<3>& m) {
-  const Vector<3> edge = cross(n, m);
-  const double square = dot(edge, edge);
-  return square > 0 ? (dot(v, edge) / square) * edge : Vector<3>{};
 }
 
 /// The velocity after a contact with a wall, given the normals of the walls met before in the same step.
@@ -54,7 +30,7 @@ Vector<D> respond(const Vector<D>& v, const Vector<D>& normal, const std::vector
   for (std::size_t i = met.size() - 1; i-- > first;) {
     const Vector<D>& other = met[i].contact.normal;
     if (dot(after, other) >= 0) continue;
-    const Vector<D> both = along_both(after, normal, other);
+    const Vector<D> both = detail::along_both(after, normal, other);
     for (std::size_t j = first; j + 1 < met.size(); ++j)
       if (j != i && dot(both, met[j].contact.normal) < 0) return {};
     return both;
@@ -70,7 +46,7 @@ bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const P
   const Point<D> from = particle.position;
   if (contact.time == 0) return false;
   if (try_move(snapshot, particle, contact.point, counts)) return particle.position != from;
-  const double unit = ulp<D>(contact.point);
+  const double unit = detail::ulp<D>(contact.point);
   for (int shift = 1; shift <= largest_shift; shift *= 2)
     if (try_move(snapshot, particle, contact.point + (shift * unit) * contact.normal, counts)) return true;
   for (int k = shrink_steps; k >= 1; --k) {
@@ -97,7 +73,7 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
     velocity = respond(velocity, result.contact->normal, met, first, response);
     if (met.size() - first >= static_cast<std::size_t>(response.most_contacts)) return velocity;
     if (!(length(velocity) > 0)) return velocity;
-    lift = (lift_ulps * ulp<D>(particle.position)) * result.contact->normal;
+    lift = (detail::lift_ulps * detail::ulp<D>(particle.position)) * result.contact->normal;
   }
 }
 

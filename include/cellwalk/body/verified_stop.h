@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Moving a particle among walls with a response: it stops at double positions that exact walks have confirmed.
-#ifndef CELLWALK_SIMULATION_VERIFIED_STOP_H
-#define CELLWALK_SIMULATION_VERIFIED_STOP_H
+#ifndef CELLWALK_BODY_VERIFIED_STOP_H
+#define CELLWALK_BODY_VERIFIED_STOP_H
 
 #include <cellwalk/walk/walk.h>
 
@@ -45,4 +45,4 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_SIMULATION_VERIFIED_STOP_H
+#endif  // CELLWALK_BODY_VERIFIED_STOP_H

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/body/verified_stop.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/verified_stop.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
 
-#include "simulation/worlds.h"
+#include "body/rooms.h"
 
 namespace cellwalk {
 namespace {

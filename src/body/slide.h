@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// How a motion goes on along walls.
+#ifndef CELLWALK_BODY_SLIDE_H
+#define CELLWALK_BODY_SLIDE_H
+
+#include <cellwalk/kernel/point.h>
+
+namespace cellwalk::detail {
+
+/// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion is a few ulp
+/// each; a lift that is too small only costs another contact, since every move is checked exactly.
+constexpr double lift_ulps = 16;
+
+/// The part of a motion that two walls leave: none in the plane, that along their edge in space.
+inline Vector<2> along_both(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return {}; }
+inline Vector<3> along_both(const Vector<3>& v, const Vector<3>& n, const Vector<3>& m) {
+  const Vector<3> edge = cross(n, m);
+  const double square = dot(edge, edge);
+  return square > 0 ? (dot(v, edge) / square) * edge : Vector<3>{};
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_SLIDE_H
