@@ -47,8 +47,8 @@ struct Move {
                           to_r = sweep_triangle<3>(snapshot, way, at_r, pr, counts);
     are_edges_free = !to_q.contact && !to_r.contact;
     require(are_edges_free, "face: the sweeps of its edges are free");
-    face = sweep_face(snapshot, way, at_q, at_r, start.rests,
-                      {{&to_q.chain}, {&qr}, {&to_r.chain, true}}, face_counts);
+    face = sweep_face(snapshot, way, at_q, at_r, start.rests, {{&to_q.chain}, {&qr}, {&to_r.chain, true}},
+                      face_counts);
   }
   bool is_vertex_free = false, are_edges_free = false;
   Face_result face;
@@ -56,10 +56,7 @@ struct Move {
 
 Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot) {
   Space_plot plot(title, snapshot, {});
-  for (const Point<3>& x : {q, r}) {
-    plot.triangle(a, b, x, swept_by_edges);
-    plot.dashes(b, x, dash_radius, colors::start);
-  }
+  for (const Point<3>& x : {q, r}) plot.dashes(b, x, dash_radius, colors::start);
   plot.dashes(a, b, dash_radius, colors::start);
   plot.ball(b, 1.5 * edge_radius, colors::start);
   plot.label(b, "p(1)", 12, -14);
@@ -80,12 +77,11 @@ void add_face(Space_plot& plot, const Point<3>& p, const io::Color& inside, cons
 }  // namespace
 
 void draw_face_3d(const std::filesystem::path& folder) {
-  const Environment<3> environment =
-      spike_world({4, 3, 2}, {{spike_x, spike_y, spike_height, 0.1875},
-                              {1, 0, 0.5, 0.125},
-                              {1, 2, 0.5, 0.125},
-                              {0, 1, 0.625, 0.125},
-                              {3, 0, 0.625, 0.125}});
+  const Environment<3> environment = spike_world({4, 3, 2}, {{spike_x, spike_y, spike_height, 0.1875},
+                                                             {1, 0, 0.5, 0.125},
+                                                             {1, 2, 0.5, 0.125},
+                                                             {0, 1, 0.625, 0.125},
+                                                             {3, 0, 0.625, 0.125}});
   const Snapshot<3>& snapshot = environment.snapshot();
   const Move move(snapshot, b);
   require(move.face.contact.has_value(), "face: its own sweep finds the spike");
@@ -93,10 +89,13 @@ void draw_face_3d(const std::filesystem::path& folder) {
   require(contact.body == Body_feature::face && contact.kind == Contact_kind::vertex && contact.point == tip,
           "face: it is met by the tip");
   const Point<3> stop = a + contact.time * (b - a);
-  require(!Move(snapshot, a + (contact.time * 0.5) * (b - a)).face.contact, "face: free half-way to the contact");
+  require(!Move(snapshot, a + (contact.time * 0.5) * (b - a)).face.contact,
+          "face: free half-way to the contact");
 
   Space_plot before = plot_of("Before: p is to go from p(0) to p(1)", snapshot),
-             after = plot_of("At contact: s = " + text_of(contact.impact) + "; all edges sweep free", snapshot);
+             after =
+                 plot_of("At contact: s = " + text_of(contact.impact) + "; all edges sweep free", snapshot);
+  for (const Point<3>& x : {q, r}) before.triangle(a, b, x, swept_by_edges);
   add_face(before, a, face_color, colors::start);
   before.label(a, "p(0)", 12, 4);
   add_face(after, stop, blocked_face, colors::contact);
@@ -106,13 +105,14 @@ void draw_face_3d(const std::filesystem::path& folder) {
   after.contact(contact);
 
   const std::vector<Key> keys{{Key::patch, face_color, "the face at its start"},
-                              {Key::patch, blocked_face, "at the contact, with its point and normal"},
+                              {Key::patch, blocked_face, "at the contact; point and normal"},
                               {Key::dashes, colors::start, "where its edges are to go"},
                               {Key::patch, swept_by_edges, "swept by its edges: no wall"},
                               {Key::patch, colors::spike, "spikes"}};
   Sheet_options sheet;
-  sheet.panel_height = 500;
-  sheet.camera = {{0.7, -1, 0.32}, {0, 0, 1}, 24};
+  sheet.panel_width = 660;
+  sheet.panel_height = 420;
+  sheet.camera = {{0.7, -1, 0.38}, {0, 0, 1}, 24};
   io::write_file(folder / "face_3d.png",
                  io::encode_png(make_sheet(std::vector{before.panel(), after.panel()}, keys, sheet)));
   io::write_json(folder / "face_3d.json",
@@ -120,8 +120,9 @@ void draw_face_3d(const std::filesystem::path& folder) {
                       {"vertex_is_free", move.is_vertex_free},
                       {"edges_are_free", move.are_edges_free},
                       {"spike", {{"tip", tip}}},
-                      {"face", {{"contact", to_json(snapshot, static_cast<const Contact<3>&>(contact))},
-                                {"p_at_contact", stop}}}});
+                      {"face",
+                       {{"contact", to_json(snapshot, static_cast<const Contact<3>&>(contact))},
+                        {"p_at_contact", stop}}}});
 }
 
 }  // namespace cellwalk::figures

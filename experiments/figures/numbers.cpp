@@ -62,8 +62,8 @@ Json to_json(const Snapshot<D>& snapshot, const std::vector<Cell>& cells) {
   return indices;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                       \
-  template Json to_json<D>(const Snapshot<D>&, const Contact<D>&);                                    \
+#define CELLWALK_INSTANTIATE(D)                                                                \
+  template Json to_json<D>(const Snapshot<D>&, const Contact<D>&);                             \
   template std::vector<Cell> cells_met<D>(const Snapshot<D>&, Cell, const Swept_triangle<D>&); \
   template Json to_json<D>(const Snapshot<D>&, const std::vector<Cell>&);
 

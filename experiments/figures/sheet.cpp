@@ -4,6 +4,7 @@
 #include <cellwalk/io/drawing.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/picture_view.h"
@@ -25,8 +26,9 @@ constexpr double circle = 6.283185307179586;
 void fill(Image& image, int x0, int y0, int x1, int y1, const Color& c) {
   for (int y = std::max(0, y0); y < std::min(image.height, y1); ++y)
     for (int x = std::max(0, x0); x < std::min(image.width, x1); ++x) {
-      std::uint8_t* out = &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                          static_cast<std::size_t>(x))];
+      std::uint8_t* out =
+          &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(x))];
       const double part[] = {c.red, c.green, c.blue};
       for (int i = 0; i < 3; ++i)
         out[i] = static_cast<std::uint8_t>(255 * (1 - c.opacity + c.opacity * part[i]) + 0.5);
@@ -115,8 +117,8 @@ Image make_sheet(std::span<const Panel> panels, std::span<const Key> keys, const
   return sheet;
 }
 
-void add_dashes(io::Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash, bool flat,
-                std::uint32_t material) {
+void add_dashes(io::Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash,
+                bool flat, std::uint32_t material) {
   const int pieces = std::max(1, static_cast<int>(length(b - a) / (2 * dash) + 0.5));
   for (int i = 0; i < pieces; ++i) {
     const Point<3> from = a + ((i + 0.2) / pieces) * (b - a), to = a + ((i + 0.8) / pieces) * (b - a);
@@ -130,7 +132,7 @@ void add_dashes(io::Drawing& drawing, const Point<3>& a, const Point<3>& b, doub
 void add_patch(io::Drawing& drawing, std::span<const Point<3>> loop, std::uint32_t material) {
   std::vector<std::uint32_t> facet;
   for (std::uint32_t i = 0; i < loop.size(); ++i) facet.push_back(i);
-  io::add_surface(drawing, loop, std::vector{facet}, material, 0);
+  io::add_surface(drawing, loop, std::array{facet}, material, 0);
 }
 
 }  // namespace cellwalk::figures

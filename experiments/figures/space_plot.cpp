@@ -9,7 +9,7 @@
 namespace cellwalk::figures {
 namespace {
 
-constexpr double outline = 0.006, dash = 0.07, contact_ball = 0.045, arrow = 0.45, arrow_radius = 0.016;
+constexpr double outline = 0.004, dash = 0.07, contact_ball = 0.045, arrow = 0.6, arrow_radius = 0.016;
 
 }  // namespace
 
@@ -31,7 +31,8 @@ Space_plot::Space_plot(const std::string& title, const Snapshot<3>& snapshot,
       if (!snapshot.is_impassable(f)) continue;
       std::vector<Point<3>> corners;
       for (const std::uint32_t v : loop) corners.push_back(snapshot.point(v));
-      const bool is_floor = std::all_of(corners.begin(), corners.end(), [](const auto& x) { return x[2] == 0; });
+      const bool is_floor =
+          std::all_of(corners.begin(), corners.end(), [](const auto& x) { return x[2] == 0; });
       if (snapshot.neighbor(f) != Cell::none)
         add_patch(panel_.drawing, corners, material(colors::spike, true));
       else if (is_floor)

@@ -6,7 +6,8 @@
 namespace cellwalk::figures {
 namespace {
 
-using Corners = std::array<std::uint32_t, 8>;  // four below, counterclockwise seen from above, then four above
+using Corners =
+    std::array<std::uint32_t, 8>;  // four below, counterclockwise seen from above, then four above
 
 void add_spiked_cube(Cell_soup<3>& soup, const Corners& v, const Spike& spike) {
   const auto add_point = [&](double x, double y, double z) {
@@ -42,10 +43,9 @@ Environment<3> spike_world(const std::array<std::uint32_t, 3>& cubes, const std:
   for (std::uint32_t z = 0; z < nz; ++z)
     for (std::uint32_t y = 0; y < ny; ++y)
       for (std::uint32_t x = 0; x < nx; ++x) {
-        const Corners v{point(x, y, z),         point(x + 1, y, z),
-                        point(x + 1, y + 1, z), point(x, y + 1, z),
-                        point(x, y, z + 1),     point(x + 1, y, z + 1),
-                        point(x + 1, y + 1, z + 1), point(x, y + 1, z + 1)};
+        const Corners v{
+            point(x, y, z),     point(x + 1, y, z),     point(x + 1, y + 1, z),     point(x, y + 1, z),
+            point(x, y, z + 1), point(x + 1, y, z + 1), point(x + 1, y + 1, z + 1), point(x, y + 1, z + 1)};
         const auto spike = std::find_if(spikes.begin(), spikes.end(),
                                         [&](const Spike& s) { return z == 0 && s.x == x && s.y == y; });
         if (spike == spikes.end())

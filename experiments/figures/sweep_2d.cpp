@@ -24,7 +24,7 @@ using io::Color;
 
 constexpr int width = 10, height = 6;
 constexpr Point<2> a{9.25, 5.25}, b{9.25, 1}, q{0.75, 2};  // p moves from a to b
-constexpr double tolerance = 0x1p-5;                       // of the dichotomic search: coarse, so that its steps can be seen
+constexpr double tolerance = 0x1p-5;  // of the dichotomic search: coarse, so that its steps can be seen
 constexpr double thin = 0.022, medium = 0.04, thick = 0.085, dot = 0.1;  // units of the environment
 constexpr Color free_space{0.985, 0.985, 0.985}, flooded{0.84, 0.90, 0.96}, solid{0.42, 0.42, 0.44},
     grid{0.74, 0.76, 0.79}, swept{0.98, 0.75, 0.25, 0.45}, edge_color{0.08, 0.16, 0.42},
@@ -35,9 +35,8 @@ const std::vector<Polygon> ceiling{{{2.25, 6}, {3.75, 6}, {2.75, 4}}, {{5.25, 6}
 const std::vector<Polygon> low_spikes{{{2.5, 0}, {3.5, 0}, {3.25, 1.25}},
                                       {{5.25, 0}, {6.25, 0}, {5.5, 1}},
                                       {{7.25, 0}, {8.25, 0}, {7.5, 0.75}}};
-const std::vector<Polygon> high_spikes{{{2.5, 0}, {3.5, 0}, {3.25, 2.25}},
-                                       {{5.25, 0}, {6.25, 0}, {5.5, 3}},
-                                       {{7.25, 0}, {8.25, 0}, {7.5, 2.5}}};
+const std::vector<Polygon> high_spikes{
+    {{2.5, 0}, {3.5, 0}, {3.25, 2.25}}, {{5.25, 0}, {6.25, 0}, {5.5, 3}}, {{7.25, 0}, {8.25, 0}, {7.5, 2}}};
 
 /// An environment, the edge at its start, and what the sweeps say of it.
 struct Case {
@@ -91,7 +90,9 @@ class Plot {
       for (std::size_t k = 0; k < view.facet_count(); ++k)
         loop.push_back(at(view.point(view.loop(k)[0]), snapshot.is_solid(cell) ? 3 : 0));
       add_patch(panel_.drawing, loop,
-                material(snapshot.is_solid(cell) ? solid : is_tinted ? flooded : free_space));
+                material(snapshot.is_solid(cell) ? solid
+                         : is_tinted             ? flooded
+                                                 : free_space));
       if (snapshot.is_solid(cell)) continue;
       for (std::size_t k = 0; k < loop.size(); ++k)
         if (!snapshot.is_impassable(Snapshot<2>::half_facet(cell, k)))
@@ -125,7 +126,8 @@ class Plot {
   void contact(const Contact<2>& c, const std::string& time) {
     edge(c.time, thick, contact_color);
     spot(c.point, 1.2 * dot, contact_color);
-    io::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10), material(contact_color));
+    io::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10),
+                       material(contact_color));
     label(p_at(c.time), time, 14, -6);
   }
   void label(const Point<2>& x, const std::string& text, double right, double up) {
@@ -175,7 +177,7 @@ Panel draw_three_segments(Case& c, Json& json) {
   const auto contact = c.sweep(options).contact;
   require(!contact, "2D: three segments miss an obstacle inside the triangle");
   json["three_segments"] = {{"contact", nullptr}, {"cells", to_json(c.snapshot, c.traversed)}};
-  Plot plot("1. Three segments: [p(0),p(1)], then [p(1),q]: free", c, c.traversed);
+  Plot plot("1. Three segments: all of them are free", c, c.traversed);
   return plot.panel();
 }
 
@@ -195,7 +197,7 @@ Panel draw_exhaustive(Case& c, Json& json) {
   const auto vertices = vertices_inside(c);
   require(vertices.size() == high_spikes.size(), "2D: one vertex of each spike in the triangle");
   require(vertices.begin()->first == found->impact, "2D: the first of these vertices is the contact");
-  Plot plot("3. Exact and exhaustive search: blocked at s = " + text_of(found->impact), c, c.met);
+  Plot plot("3. Exact, and exhaustive: s = " + text_of(found->impact), c, c.met);
   Json candidates = Json::array();
   for (const auto& [time, vertex] : vertices) {
     candidates.push_back({{"vertex", vertex}, {"time", to_json(time)}});
@@ -205,7 +207,7 @@ Panel draw_exhaustive(Case& c, Json& json) {
       plot.label(p_at(time.rounded()), fmt::format("{:.2f}", time.rounded()), 14, -6);
     }
   }
-  plot.contact(*found, fmt::format("{:.2f} = s*", found->time));
+  plot.contact(*found, fmt::format("{:.2f}", found->time));
   json["exact"] = to_json(c.snapshot, *exact);
   json["exhaustive"] = {{"contact", to_json(c.snapshot, *found)},
                         {"candidates", candidates},
@@ -216,7 +218,7 @@ Panel draw_exhaustive(Case& c, Json& json) {
 Panel draw_dichotomic(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
   require(found && found->impact <= exact->impact, "2D: the dichotomic search is never late");
-  Plot plot(fmt::format("4. Dichotomic search to 1/{:.0f}: free until s = {}", 1 / tolerance,
+  Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance,
                         text_of(found->impact)),
             c, c.met);
   Json steps = Json::array();
@@ -228,7 +230,7 @@ Panel draw_dichotomic(Case& c, Json& json) {
     steps.push_back({{"time", to_json(Exact_time(middle))}, {"free", is_free}});
     plot.edge(middle, medium, is_free ? free_step : blocked_step);
     if (high - low >= 0.25)
-      plot.label(p_at(middle), text_of(Exact_time(middle)) + (is_free ? " free" : " not"), 14, -6);
+      plot.label(p_at(middle), text_of(Exact_time(middle)) + (is_free ? " +" : " -"), 14, -6);
     (is_free ? low : high) = middle;
   }
   require(low == found->time, "2D: the dichotomic search ends where its bisection does");
@@ -260,14 +262,16 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
 
   const std::vector<Key> keys{{Key::line, edge_color, "the edge at its start"},
                               {Key::dashes, edge_color, "where it is to go"},
-                              {Key::line, contact_color, "at the contact, with its point and normal"},
+                              {Key::line, contact_color, "at the contact; point and normal"},
                               {Key::patch, swept, "swept triangle"},
                               {Key::patch, flooded, "cells looked at"},
                               {Key::patch, solid, "obstacles"},
-                              {Key::line, free_step, "bisection: free until here"},
-                              {Key::line, blocked_step, "not free; candidates that come later"}};
+                              {Key::line, free_step, "bisection: free until here (+)"},
+                              {Key::line, blocked_step, "blocked (-); vertices met later"}};
   Sheet_options options;
   options.camera = {{0, 0, 1}, {0, 1, 0}, 0};
+  options.panel_width = 600;
+  options.panel_height = 360;
   const io::Image sheet = make_sheet(panels, keys, options);
   io::write_file(folder / "sweep_2d.png", io::encode_png(sheet));
   io::write_json(folder / "sweep_2d.json", json);

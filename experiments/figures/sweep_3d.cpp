@@ -32,9 +32,12 @@ Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot, const 
 }  // namespace
 
 void draw_sweep_3d(const std::filesystem::path& folder) {
-  const Environment<3> environment =
-      spike_world({4, 3, 1}, {{0, 0, 0.5, 0.125}, {1, 1, 0.375, 0.125}, {2, 1, 0.9375, 0.125},
-                              {1, 2, 0.75, 0.125}, {3, 2, 0.25, 0.125}, {1, 0, 0.75, 0.125}});
+  const Environment<3> environment = spike_world({4, 3, 1}, {{0, 0, 0.5, 0.125},
+                                                             {1, 1, 0.375, 0.125},
+                                                             {2, 1, 0.9375, 0.125},
+                                                             {1, 2, 0.75, 0.125},
+                                                             {3, 2, 0.25, 0.125},
+                                                             {1, 0, 0.75, 0.125}});
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
   const Particle<3> p = locator.particle_at(a), end = locator.particle_at(q);
@@ -54,7 +57,8 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
           "3D: the edge meets an edge of the spike");
   const auto exhaustive = sweep(Sweep::triangle, Contact_search::exhaustive),
              dichotomic = sweep(Sweep::triangle, Contact_search::dichotomic);
-  require(exhaustive && exhaustive->impact == exact->impact, "3D: the exhaustive search finds the exact time");
+  require(exhaustive && exhaustive->impact == exact->impact,
+          "3D: the exhaustive search finds the exact time");
   const double late = Sweep_options{}.tolerance;
   require(dichotomic && dichotomic->impact <= exact->impact && exact->time - dichotomic->time <= late,
           "3D: the dichotomic search is within its tolerance");
@@ -65,8 +69,9 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   options.visited = &traversed;
   walk(snapshot, locator.particle_at(b), q, counts.walk, options);
 
-  Space_plot segments = plot_of("Three segments: the spike crosses none of them: free", snapshot, traversed),
-             triangle = plot_of("The complete sweep: blocked at s = " + text_of(exact->impact), snapshot, met);
+  Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
+             triangle =
+                 plot_of("The complete sweep: blocked at s = " + text_of(exact->impact), snapshot, met);
   const Point<3> stop = a + exact->time * (b - a);
   triangle.line(stop, q, edge_radius, colors::contact);
   triangle.contact(*exact);
@@ -74,12 +79,14 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
 
   const std::vector<Key> keys{{Key::line, colors::start, "the edge at its start"},
                               {Key::dashes, colors::start, "where it is to go"},
-                              {Key::line, colors::contact, "at the contact, with its point and normal"},
+                              {Key::line, colors::contact, "at the contact; point and normal"},
                               {Key::patch, colors::swept, "swept triangle"},
                               {Key::line, colors::cell, "cells looked at"},
                               {Key::patch, colors::spike, "spikes"}};
   Sheet_options sheet;
-  sheet.camera = {{0.55, -1, 0.62}, {0, 0, 1}, 24};
+  sheet.panel_width = 660;
+  sheet.panel_height = 380;
+  sheet.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
   io::write_file(folder / "sweep_3d.png",
                  io::encode_png(make_sheet(std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
   io::write_json(
