@@ -218,9 +218,9 @@ Panel draw_exhaustive(Case& c, Json& json) {
 Panel draw_dichotomic(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
   require(found && found->impact <= exact->impact, "2D: the dichotomic search is never late");
-  Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance,
-                        text_of(found->impact)),
-            c, c.met);
+  Plot plot(
+      fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance, text_of(found->impact)), c,
+      c.met);
   Json steps = Json::array();
   double low = 0, high = 1;
   while (high - low > tolerance) {

@@ -96,6 +96,19 @@ class Figures(unittest.TestCase):
                          for x, y in zip(a, b) if abs(x - y) > DIFFERENCE)
             self.assertLess(differ, SHARE_OF_PIXELS * width * height, name + ": draw it again, see docs/sweep.md")
 
+    def test_the_times_beside_the_pictures_of_the_docs_are_these(self):
+        def times(value):
+            if not isinstance(value, (dict, list)):
+                return []
+            if isinstance(value, dict) and "exact" in value and "rounded" in value:
+                return [value["exact"]]
+            return [t for part in (value.values() if isinstance(value, dict) else value) for t in times(part)]
+
+        for name in NAMES:
+            kept = times(json.loads((self.docs / f"{name}.json").read_text(encoding="utf-8")))
+            self.assertGreater(len(kept), 0)
+            self.assertEqual(kept, times(self.data[name]))
+
     def test_2d_what_floats_is_missed_by_three_segments_only(self):
         data = self.data["sweep_2d"]
         floating, motion = data["floating"], data["motion"]
