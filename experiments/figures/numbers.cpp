@@ -59,6 +59,7 @@ Json to_json(const Snapshot<D>& snapshot, const std::vector<Cell>& cells) {
   std::vector<std::uint32_t> indices;
   for (const Cell c : cells) indices.push_back(snapshot.index(c));
   std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   return indices;
 }
 

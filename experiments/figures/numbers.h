@@ -32,7 +32,7 @@ Json to_json(const Snapshot<D>& snapshot, const Contact<D>& contact);
 template <int D>
 std::vector<Cell> cells_met(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle);
 
-/// Their indices in the input, ascending.
+/// Their indices in the input, ascending, each once.
 template <int D>
 Json to_json(const Snapshot<D>& snapshot, const std::vector<Cell>& cells);
 

@@ -15,7 +15,7 @@ namespace cellwalk::figures {
 
 namespace colors {
 constexpr io::Color floor{0.93, 0.93, 0.94}, spike{0.56, 0.56, 0.60}, cell{0.55, 0.63, 0.74},
-    swept{0.98, 0.75, 0.25, 0.50}, start{0.08, 0.16, 0.42}, contact{0.80, 0.10, 0.10};
+    swept{0.95, 0.62, 0.12, 0.45}, start{0.08, 0.16, 0.42}, contact{0.80, 0.10, 0.10};
 }
 
 /// A panel under construction. Sizes are in units of the environment.

@@ -26,9 +26,9 @@ constexpr int width = 10, height = 6;
 constexpr Point<2> a{9.25, 5.25}, b{9.25, 1}, q{0.75, 2};  // p moves from a to b
 constexpr double tolerance = 0x1p-5;  // of the dichotomic search: coarse, so that its steps can be seen
 constexpr double thin = 0.022, medium = 0.04, thick = 0.085, dot = 0.1;  // units of the environment
-constexpr Color free_space{0.985, 0.985, 0.985}, flooded{0.84, 0.90, 0.96}, solid{0.42, 0.42, 0.44},
-    grid{0.74, 0.76, 0.79}, swept{0.98, 0.75, 0.25, 0.45}, edge_color{0.08, 0.16, 0.42},
-    contact_color{0.80, 0.10, 0.10}, free_step{0.05, 0.45, 0.25}, blocked_step{0.62, 0.35, 0.70};
+constexpr Color free_space{0.985, 0.985, 0.985}, flooded{0.88, 0.935, 0.985}, solid{0.42, 0.42, 0.44},
+    grid{0.74, 0.76, 0.79}, swept{0.95, 0.62, 0.12, 0.45}, edge_color{0.08, 0.16, 0.42},
+    contact_color{0.80, 0.10, 0.10}, free_step{0.08, 0.58, 0.32}, blocked_step{0.70, 0.46, 0.80};
 
 const Polygon floating{{4.75, 2.5}, {7, 2.375}, {6.5, 3.5}};
 const std::vector<Polygon> ceiling{{{2.25, 6}, {3.75, 6}, {2.75, 4}}, {{5.25, 6}, {6.5, 6}, {6, 4.75}}};
@@ -53,7 +53,7 @@ struct Case {
     met = cells_met<2>(snapshot, p.cell, {a, b, q});
     Walk_options options;
     options.visited = &traversed;
-    require(!walk(snapshot, p, b, counts.walk).contact, "p itself is free");
+    require(!walk(snapshot, p, b, counts.walk, options).contact, "p itself is free");
     walk(snapshot, locator.particle_at(b), q, counts.walk, options);
   }
   Sweep_result<2> sweep(const Sweep_options& options, const Point<2>& target = b) {
@@ -70,7 +70,7 @@ struct Case {
   const Snapshot<2>& snapshot;
   Particle<2> p, end;
   Chain before;
-  std::vector<Cell> met, traversed;  // by the triangle; by the edge at its end
+  std::vector<Cell> met, traversed;  // by the triangle; by the walks of three segments
   Edge_counts counts;
 };
 

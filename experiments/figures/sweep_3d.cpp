@@ -67,6 +67,7 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   std::vector<Cell> traversed;
   Walk_options options;
   options.visited = &traversed;
+  walk(snapshot, p, b, counts.walk, options);
   walk(snapshot, locator.particle_at(b), q, counts.walk, options);
 
   Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
