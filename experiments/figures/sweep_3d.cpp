@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A thin spike through the inside of a swept triangle: its three sides are free, the sweep is not.
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/json_file.h>
+#include <cellwalk/walk/locate.h>
+
+#include "figures.h"
+#include "numbers.h"
+#include "space_plot.h"
+#include "spike_world.h"
+
+namespace cellwalk::figures {
+namespace {
+
+constexpr Point<3> a{3.625, 0.375, 0.625}, b{3.625, 2.75, 0.5}, q{0.25, 1.25, 0.75};  // p moves from a to b
+constexpr double edge_radius = 0.022, dash_radius = 0.014;
+
+Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot, const std::vector<Cell>& cells) {
+  Space_plot plot(title, snapshot, cells);
+  plot.triangle(a, b, q, colors::swept);
+  plot.line(a, q, edge_radius, colors::start);
+  plot.dashes(a, b, dash_radius, colors::start);
+  plot.dashes(b, q, dash_radius, colors::start);
+  for (const Point<3>& x : {a, b, q}) plot.ball(x, 2 * edge_radius, colors::start);
+  plot.label(a, "p(0)", -10, -32);
+  plot.label(b, "p(1)", 12, 4);
+  plot.label(q, "q", -26, 4);
+  return plot;
+}
+
+}  // namespace
+
+void draw_sweep_3d(const std::filesystem::path& folder) {
+  const Environment<3> environment = spike_world({4, 3, 1}, {{0, 0, 0.5, 0.125},
+                                                             {1, 1, 0.375, 0.125},
+                                                             {2, 1, 0.9375, 0.125},
+                                                             {1, 2, 0.75, 0.125},
+                                                             {3, 2, 0.25, 0.125},
+                                                             {1, 0, 0.75, 0.125}});
+  const Snapshot<3>& snapshot = environment.snapshot();
+  const Locator<3> locator(snapshot);
+  const Particle<3> p = locator.particle_at(a), end = locator.particle_at(q);
+  Edge_counts counts;
+  const Chain_result<3> before = find_chain(snapshot, p, end, counts.walk);
+  require(!before.contact, "3D: the edge is free at its start");
+  const auto sweep = [&](Sweep kind, Contact_search search) {
+    Sweep_options options;
+    options.sweep = kind;
+    options.search = search;
+    return sweep_edge(snapshot, p, b, end, before.chain, options, counts).contact;
+  };
+  require(!sweep(Sweep::three_segments, Contact_search::exact), "3D: three segments miss the spike");
+  const auto exact = sweep(Sweep::triangle, Contact_search::exact);
+  require(exact.has_value(), "3D: the sweep of the triangle finds it");
+  require(exact->body == Body_feature::edge && exact->kind == Contact_kind::edge,
+          "3D: the edge meets an edge of the spike");
+  const auto exhaustive = sweep(Sweep::triangle, Contact_search::exhaustive),
+             dichotomic = sweep(Sweep::triangle, Contact_search::dichotomic);
+  require(exhaustive && exhaustive->impact == exact->impact,
+          "3D: the exhaustive search finds the exact time");
+  const double late = Sweep_options{}.tolerance;
+  require(dichotomic && dichotomic->impact <= exact->impact && exact->time - dichotomic->time <= late,
+          "3D: the dichotomic search is within its tolerance");
+
+  const std::vector<Cell> met = cells_met<3>(snapshot, p.cell, {a, b, q});
+  std::vector<Cell> traversed;
+  Walk_options options;
+  options.visited = &traversed;
+  walk(snapshot, p, b, counts.walk, options);
+  walk(snapshot, locator.particle_at(b), q, counts.walk, options);
+
+  Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
+             triangle =
+                 plot_of("The complete sweep: blocked at s = " + text_of(exact->impact), snapshot, met);
+  const Point<3> stop = a + exact->time * (b - a);
+  triangle.line(stop, q, edge_radius, colors::contact);
+  triangle.contact(*exact);
+  triangle.label(stop, "s*", 12, -8);
+
+  const std::vector<Key> keys{{Key::line, colors::start, "the edge at its start"},
+                              {Key::dashes, colors::start, "where it is to go"},
+                              {Key::line, colors::contact, "at the contact; point and normal"},
+                              {Key::patch, colors::swept, "swept triangle"},
+                              {Key::line, colors::cell, "cells looked at"},
+                              {Key::patch, colors::spike, "spikes"}};
+  Sheet_options sheet;
+  sheet.panel_width = 660;
+  sheet.panel_height = 380;
+  sheet.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
+  io::write_file(folder / "sweep_3d.png",
+                 io::encode_png(make_sheet(std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
+  io::write_json(
+      folder / "sweep_3d.json",
+      Json{{"motion", {{"p", a}, {"target", b}, {"q", q}}},
+           {"three_segments", {{"contact", nullptr}, {"cells", to_json(snapshot, traversed)}}},
+           {"triangle", {{"contact", to_json(snapshot, *exact)}, {"cells", to_json(snapshot, met)}}},
+           {"exhaustive", {{"contact", to_json(snapshot, *exhaustive)}}},
+           {"dichotomic", {{"contact", to_json(snapshot, *dichotomic)}, {"tolerance", late}}}});
+}
+
+}  // namespace cellwalk::figures
