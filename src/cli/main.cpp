@@ -64,7 +64,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 2 usage, 3 unreadable or invalid input, 4 environment not certified,\n"
-      "5 a particle or body starts outside free space or across a wall, 1 anything else. Options of a command: cellwalk COMMAND "
+      "5 a particle or body starts outside free space or across a wall, 1 anything else. Options of a "
+      "command: cellwalk COMMAND "
       "--help");
 
   Action action;
