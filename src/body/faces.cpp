@@ -49,11 +49,15 @@ void Body<D>::register_faces(Error_code code, Face_counts& counts) {
     rests_[f] = found.rests;
     if (found.piercing == Half_facet::none) continue;
     const auto& [u, v, w] = faces_[f];
-    const auto place = [this](std::uint32_t x) { return fmt::format("({})", fmt::join(positions_[x], ", ")); };
-    throw Error(code, fmt::format("face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by a wall "
-                                  "of cell {}: move the body into free space",
-                                  f, u, place(u), v, place(v), w, place(w),
-                                  snapshot_->index(snapshot_->cell_of(found.piercing))));
+    const auto place = [this](std::uint32_t x) {
+      return fmt::format("({})", fmt::join(positions_[x], ", "));
+    };
+    throw Error(
+        code,
+        fmt::format(
+            "face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by a wall "
+            "of cell {}: move the body into free space",
+            f, u, place(u), v, place(v), w, place(w), snapshot_->index(snapshot_->cell_of(found.piercing))));
   }
   are_faces_swept_ = true;
 }
@@ -61,12 +65,13 @@ void Body<D>::register_faces(Error_code code, Face_counts& counts) {
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
 template <int D>
 const Chain* Body<D>::moved_chain(std::uint32_t vertex, std::uint32_t edge) const {
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
-    if (corners_[i].edge != edge) continue;
-    const Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
-    return moved.is_free ? &moved.chain : nullptr;
-  }
-  return nullptr;
+  // The corners of a vertex are in the order of their edges.
+  const auto begin = corners_.begin() + corner_begin_[vertex],
+             end = corners_.begin() + corner_begin_[vertex + 1];
+  const auto corner = std::lower_bound(
+      begin, end, edge, [](const Corner& known, std::uint32_t wanted) { return known.edge < wanted; });
+  const Moved_chain& moved = moved_chains_[static_cast<std::size_t>(corner - begin)];
+  return moved.is_free ? &moved.chain : nullptr;
 }
 
 template <int D>
@@ -95,12 +100,13 @@ void Body<D>::sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional
   }
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                         \
-  template void Body<D>::link_faces();                                                                  \
-  template Face_registration Body<D>::register_face_here(std::uint32_t, Face_counts&) const;            \
-  template void Body<D>::register_faces(Error_code, Face_counts&);                                      \
-  template const Chain* Body<D>::moved_chain(std::uint32_t, std::uint32_t) const;                       \
-  template void Body<D>::sweep_faces(std::uint32_t, const Way<D>&, std::optional<Body_contact<D>>&, Body_counts&);
+#define CELLWALK_INSTANTIATE(D)                                                                     \
+  template void Body<D>::link_faces();                                                              \
+  template Face_registration Body<D>::register_face_here(std::uint32_t, Face_counts&) const;        \
+  template void Body<D>::register_faces(Error_code, Face_counts&);                                  \
+  template const Chain* Body<D>::moved_chain(std::uint32_t, std::uint32_t) const;                   \
+  template void Body<D>::sweep_faces(std::uint32_t, const Way<D>&, std::optional<Body_contact<D>>&, \
+                                     Body_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)
