@@ -64,6 +64,14 @@ Chain Body<D>::seen_from(const Corner& corner) const {
 template <int D>
 std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
                                                     const Body_options& options, Body_counts& counts) {
+  leave_region(counts);
+  return try_move(vertex, target, options, counts);
+}
+
+template <int D>
+std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
+                                                 const Body_options& options, Body_counts& counts, bool any) {
+  if (target == positions_[vertex] && are_faces_swept_) return {};
   const Particle<D> from = particles_[vertex];
   Particle<D> to = from;
   visited_.clear();
@@ -78,6 +86,7 @@ std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const 
   else if (options.sweep.touch == Touch::stop)
     if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
       first = {*touch, vertex, vertex};
+  if (any && first) return first;
 
   moved_chains_.resize(corner_begin_[vertex + 1] - corner_begin_[vertex]);
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
@@ -87,6 +96,7 @@ std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const 
     if (swept.contact && (!first || is_before(*swept.contact, first->contact))) {
       const bool is_edge = swept.contact->body == Body_feature::edge;
       first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
+      if (any) return first;
     }
     Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
     moved.chain = swept.chain;
@@ -143,12 +153,16 @@ template void Body<2>::link_edges();
 template Chain Body<2>::seen_from(const Corner&) const;
 template std::optional<Body_contact<2>> Body<2>::move_vertex(std::uint32_t, const Point<2>&,
                                                              const Body_options&, Body_counts&);
+template std::optional<Body_contact<2>> Body<2>::try_move(std::uint32_t, const Point<2>&, const Body_options&,
+                                                          Body_counts&, bool);
 template void Body<2>::validate() const;
 template Body<3>::Body(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
 template void Body<3>::link_edges();
 template Chain Body<3>::seen_from(const Corner&) const;
 template std::optional<Body_contact<3>> Body<3>::move_vertex(std::uint32_t, const Point<3>&,
                                                              const Body_options&, Body_counts&);
+template std::optional<Body_contact<3>> Body<3>::try_move(std::uint32_t, const Point<3>&, const Body_options&,
+                                                          Body_counts&, bool);
 template void Body<3>::validate() const;
 
 }  // namespace cellwalk

@@ -10,6 +10,9 @@
 namespace cellwalk {
 namespace {
 
+/// Squares of lengths from which on what underflow takes away is far less than rounding does.
+constexpr double least_square = 1e-280;
+
 /// A direction towards a facet: towards the nearest point of it, more or less. Any will do for a bound; the better it is, the
 /// better the bound.
 Vector<2> direction_to(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
@@ -48,18 +51,20 @@ Vector<3> direction_to(const Cell_view<3>& cell, std::size_t i, const Point<3>& 
 template <int D>
 double distance_bound(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) {
   const Vector<D> n = direction_to(cell, i, x);
-  const double size = length(n);
-  if (!(size > 0) || !std::isfinite(size)) return 0;
+  const double square = dot(n, n);
+  // Underflow and overflow would void the bound.
+  if (!(square > least_square) || !std::isfinite(square)) return 0;
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint16_t v : cell.loop(i)) {
     const Vector<D> d = cell.point(v) - x;
     double magnitude = 0;
     for (int k = 0; k < D; ++k) magnitude += std::abs(n[k] * d[k]);
     // A sum of D products of a rounded difference: each term is wrong by at most D + 2 parts in 2^53 of its size.
+    if (!std::isfinite(magnitude)) return 0;
     least = std::min(least, dot(n, d) - 0x1p-50 * magnitude);
   }
   // The length of n and this quotient are wrong by a few parts in 2^53.
-  return std::max(0.0, least / size * (1 - 0x1p-49));
+  return std::max(0.0, least / std::sqrt(square) * (1 - 0x1p-49));
 }
 
 }  // namespace
@@ -87,7 +92,7 @@ std::optional<Clear_region<D>> clear_region(const Snapshot<D>& snapshot, const P
   }
   // Underflow would void the bounds.
   const double square = radius * radius * (1 - 0x1p-50);
-  if (!(square > 1e-280)) return {};
+  if (!(square > least_square)) return {};
   return Clear_region<D>{center, square};
 }
 

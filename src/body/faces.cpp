@@ -65,12 +65,13 @@ void Body<D>::register_faces(Error_code code, Face_counts& counts) {
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
 template <int D>
 const Chain* Body<D>::moved_chain(std::uint32_t vertex, std::uint32_t edge) const {
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
-    if (corners_[i].edge != edge) continue;
-    const Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
-    return moved.is_free ? &moved.chain : nullptr;
-  }
-  return nullptr;
+  // The corners of a vertex are in the order of their edges.
+  const auto begin = corners_.begin() + corner_begin_[vertex],
+             end = corners_.begin() + corner_begin_[vertex + 1];
+  const auto corner = std::lower_bound(
+      begin, end, edge, [](const Corner& known, std::uint32_t wanted) { return known.edge < wanted; });
+  const Moved_chain& moved = moved_chains_[static_cast<std::size_t>(corner - begin)];
+  return moved.is_free ? &moved.chain : nullptr;
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace cellwalk::detail {
 namespace {
@@ -53,8 +54,9 @@ class Registration {
     Sides result;
     for (const Cell cell : location.cells) {
       const Particle<D> here{soup_.points[v], cell, location.dimension, 0};
+      // Cells are linked at a point if a segment of no length has a chain from one to the other.
       const auto is_linked = [&](const Particle<D>& other) {
-        return !find_any_chain(snapshot_, other, here, counts_).contact;
+        return !find_chain(snapshot_, other, here, counts_).contact;
       };
       if (std::none_of(result.begin(), result.end(), is_linked)) result.push_back(here);
       if (location.sides <= 1) break;
@@ -78,17 +80,27 @@ class Registration {
         keep_u[i] = keep_v[j] = true;
       }
     const std::size_t before = of_u.size() + of_v.size();
-    keep(of_u, keep_u);
-    keep(of_v, keep_v);
-    is_checked_[e] = of_u.size() == 1 && of_v.size() == 1;
+    keep(soup_.edges[e][0], keep_u);
+    keep(soup_.edges[e][1], keep_v);
+    if (of_u.size() == 1 && of_v.size() == 1) {
+      is_checked_[e] = true;
+      checked_.push_back(e);
+    }
     return of_u.size() + of_v.size() < before;
   }
 
-  static void keep(Sides& sides, const std::vector<bool>& kept) {
+  void keep(std::uint32_t v, const std::vector<bool>& kept) {
+    if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
     Sides result;
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      if (kept[i]) result.push_back(sides[i]);
-    sides = result;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i]) result.push_back(sides_[v][i]);
+    dropped_.emplace_back(v, std::exchange(sides_[v], result));
+  }
+
+  /// Takes back all that was done since the last choice.
+  void undo() {
+    for (; !dropped_.empty(); dropped_.pop_back()) sides_[dropped_.back().first] = dropped_.back().second;
+    for (; !checked_.empty(); checked_.pop_back()) is_checked_[checked_.back()] = false;
   }
 
   /// Narrows an edge, and all that depend on it. False if an edge has no chain then.
@@ -118,17 +130,17 @@ class Registration {
   }
 
   void choose(std::uint32_t v) {
-    const std::vector<Sides> saved = sides_;
-    const std::vector<bool> saved_checks = is_checked_;
+    const Sides all = sides_[v];
     std::optional<Wall_contact<D>> contact;
     std::uint32_t failed = 0;
-    for (std::size_t i = 0; i < saved[v].size(); ++i) {
-      sides_[v] = {saved[v][i]};
+    for (const Particle<D>& side : all) {
+      dropped_ = {{v, all}};
+      checked_.clear();
+      sides_[v] = {side};
       bool is_good = true;
       for (const std::uint32_t e : edges_at_[v]) is_good = is_good && narrow_from(e, failed, contact);
       if (is_good) return;
-      sides_ = saved;
-      is_checked_ = saved_checks;
+      undo();
     }
     refuse(failed, *contact);
   }
@@ -147,6 +159,9 @@ class Registration {
   const Body_soup<D>& soup_;
   std::vector<Sides> sides_;
   std::vector<std::vector<std::uint32_t>> edges_at_;
+  std::vector<std::pair<std::uint32_t, Sides>>
+      dropped_;                         ///< sides of vertices before some were dropped, in order
+  std::vector<std::uint32_t> checked_;  ///< edges checked in the same time
   std::vector<bool> is_checked_ = std::vector<bool>(soup_.edges.size());
   Walk_counts counts_;
 };

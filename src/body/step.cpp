@@ -40,6 +40,7 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
 template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options,
                    std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
+  if (positions_.empty()) return;
   counts.moves += positions_.size();
   if (stays_in_region(targets, options, counts)) {
     std::copy(targets.begin(), targets.end(), positions_.begin());
@@ -52,7 +53,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
     Point<D> target = targets[v];
     normals.clear();
     for (int met = 0; met < options.most_contacts; ++met) {
-      const auto contact = move_vertex(v, target, options, counts);
+      const auto contact = try_move(v, target, options, counts);
       if (!contact) break;
       ++counts.contacts;
       contacts.push_back(*contact);
@@ -71,10 +72,12 @@ bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_cont
                    const Body_options& options, Body_counts& counts) {
   if (met.contact.impact == Exact_time()) return false;
   const Point<D> from = positions_[vertex];
+  Body_options tried = options;
+  tried.sweep.search = Contact_search::exact;  // whether there is a contact matters, not where
   return detail::try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
     if (x == from) return false;
     ++counts.stop_tries;
-    return !move_vertex(vertex, x, options, counts);
+    return !try_move(vertex, x, tried, counts, true);
   });
 }
 

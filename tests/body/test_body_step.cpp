@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "body/rooms.h"
@@ -141,6 +143,88 @@ TEST(Body_step, RefusesFacesThatWallsPierce) {
     EXPECT_EQ(std::string(error.what()).find("face 0 of the body, with vertices 0 at (0.25, 0.25, 0.5)"), 0u)
         << error.what();
   }
+}
+
+TEST(Body_step, ABodyWithoutVerticesStaysOne) {
+  const Snapshot<3> snapshot = room<3>({2, 2, 2}, {});
+  Body<3> body(snapshot, Locator<3>(snapshot), {});
+  std::vector<Body_contact<3>> contacts;
+  Body_counts counts;
+  body.step({}, {}, contacts, counts);
+  EXPECT_TRUE(contacts.empty());
+  EXPECT_EQ(counts.moves, 0u);
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
+  // A solid cell at x from 10 to 11, y from 4 to 5.
+  const Snapshot<2> snapshot = room<2>({20, 20}, {90});
+  Body<2> body(snapshot, Locator<2>(snapshot), {{{9.5, 4.5}}, {}, {}});
+  std::vector<Body_contact<2>> contacts;
+  Body_counts counts;
+  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, contacts, counts);
+  ASSERT_EQ(counts.in_region, 1u);
+  // The vertex goes from where it is now, not from where it was registered; out of the region, round the cell.
+  for (const Point<2>& target : {Point<2>{9.52, 6.5}, {11.5, 6.5}, {11.5, 4.5}})
+    ASSERT_FALSE(body.move_vertex(0, target, {}, counts));
+  EXPECT_NO_THROW(body.validate());
+  // No region lets it go back through the cell.
+  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, contacts, counts);
+  EXPECT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(body.positions()[0][0], 11);
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST(Body_step, AVertexThatStaysMeetsNothing) {
+  const Snapshot<2> snapshot = room<2>({2, 2}, {});
+  const Body_soup<2> soup{
+      {{0, 0}, {2, 0}, {1, 0}}, {{0, 1}, {1, 2}}, {}};  // along the floor, corner to corner
+  Body<2> body(snapshot, Locator<2>(snapshot), soup);
+  Body_counts counts;
+  for (const Touch touch : {Touch::pass, Touch::stop})
+    for (std::uint32_t v = 0; v < 3; ++v) {
+      Body_options options;
+      options.sweep.touch = touch;
+      EXPECT_FALSE(body.move_vertex(v, soup.points[v], options, counts));
+    }
+  EXPECT_EQ(counts.edges.edges, 0u);
+}
+
+/// Regions are as many and as large as in the same world at another scale, or smaller.
+TEST(Clear_region, IsNotEnlargedByUnderflowOrOverflow) {
+  int found = 0;
+  Random random(7);
+  for (int k = 0; k < 100; ++k) {
+    std::array<Point<3>, 4> corners;
+    for (Point<3>& x : corners)
+      for (double& c : x) c = random.real(-1, 1);
+    const double volume =
+        dot(cross(corners[1] - corners[0], corners[2] - corners[0]), corners[3] - corners[0]);
+    if (std::abs(volume) < 0.01) continue;
+    if (volume < 0) std::swap(corners[0], corners[1]);
+    double squared_radius = 0;  // at scale 1
+    for (const int scale : {0, -100, -262, -266, -268, -300, 100, 260, 500}) {
+      const auto scaled = [scale](Point<3> x) {
+        for (double& c : x) c = std::ldexp(c, scale);
+        return x;
+      };
+      Cell_soup<3> soup;
+      for (const Point<3>& x : corners) soup.points.push_back(scaled(x));
+      for (const auto& f : {std::array{0u, 2u, 1u}, {0u, 1u, 3u}, {1u, 2u, 3u}, {0u, 3u, 2u}})
+        soup.add_facet({f[0], f[1], f[2]}, true);
+      soup.end_cell();
+      const Snapshot<3> snapshot = compile(soup);
+      const Point<3> middle = scaled(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]));
+      const auto region =
+          clear_region(snapshot, Locator<3>(snapshot).particle_at(middle), 0.0, std::ldexp(100.0, scale));
+      if (!region) continue;
+      ++found;
+      if (scale == 0) squared_radius = region->squared_radius;
+      EXPECT_LE(std::ldexp(region->squared_radius, -2 * scale), squared_radius) << scale;
+    }
+    EXPECT_GT(squared_radius, 0);
+  }
+  EXPECT_GT(found, 150);
 }
 
 /// Whatever a clearance lets pass must be free for a body without one.

@@ -80,6 +80,82 @@ TEST(Registration, TakesTheSideFromWhichAllEdgesCanBePassed) {
   EXPECT_NE(refusal<2>(snapshot, {{{1, 0.5}, {0.5, 0.5}, {1.5, 0.5}}, {{0, 1}, {0, 2}}, {}}), "");
 }
 
+/// Two cells on both sides of a line. Each has two facets in it: a way from x = 0 to 1, and a wall from 1 to 2.
+Snapshot<2> gap_and_wall() {
+  Cell_soup<2> soup;
+  soup.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, -1}, {2, -1}};
+  const auto cell = [&](const std::array<std::uint32_t, 5>& v, int wall) {
+    for (int i = 0; i < 5; ++i) soup.add_facet({v[i], v[(i + 1) % 5]}, i == wall);
+    soup.end_cell();
+  };
+  cell({0, 1, 2, 4, 3}, 1);
+  cell({1, 0, 5, 6, 2}, 4);
+  return compile(soup);
+}
+
+TEST(Registration, LeadsEdgesThroughTheInsideOfAFacetInWhosePlaneTheyLie) {
+  const Snapshot<2> snapshot = gap_and_wall();
+  const Locator<2> locator(snapshot);
+  // From the way to the wall, on the side on which the third vertex is.
+  for (const double y : {0.5, -0.5})
+    for (const bool is_first_on_wall : {false, true}) {
+      const Point<2> on_way{0.5, 0}, on_wall{1.5, 0}, off{1.5, y};
+      const Body_soup<2> soup = is_first_on_wall ? Body_soup<2>{{on_wall, on_way, off}, {{0, 1}, {0, 2}}, {}}
+                                                 : Body_soup<2>{{on_way, on_wall, off}, {{0, 1}, {1, 2}}, {}};
+      ASSERT_EQ(refusal<2>(snapshot, soup), "");
+      const Body<2> body(snapshot, locator, soup);
+      EXPECT_EQ(body.particles()[is_first_on_wall ? 0 : 1].cell, body.particles()[2].cell);
+      EXPECT_NO_THROW(body.validate());
+    }
+}
+
+/// A line with walls from 2 i to 2 i + 1, behind each of which one of its sides is a pocket, closed by a wall across.
+Snapshot<2> pockets(std::uint32_t count) {
+  Cell_soup<2> soup;
+  const std::uint32_t width = 2 * count;
+  for (int y = -1; y <= 1; ++y)
+    for (std::uint32_t x = 0; x <= width; ++x)
+      soup.points.push_back({static_cast<double>(x), static_cast<double>(y)});
+  for (std::uint32_t row = 0; row < 2; ++row)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const std::uint32_t v = row * (width + 1) + x;
+      const std::array<std::uint32_t, 4> corners{v, v + 1, v + width + 2, v + width + 1};
+      const bool is_pocket = row == x / 2 % 2;
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const bool is_on_line = i == (row == 0 ? 2u : 0u), is_across = i == (x % 2 == 0 ? 1u : 3u);
+        soup.add_facet({corners[i], corners[(i + 1) % 4]},
+                       x % 2 == 0 ? is_on_line || (is_across && is_pocket) : is_across && is_pocket);
+      }
+      soup.end_cell();
+    }
+  return compile(soup);
+}
+
+TEST(Registration, FindsTheOneWayPastManyPockets) {
+  for (const std::uint32_t count : {1u, 4u, 40u}) {
+    const Snapshot<2> snapshot = pockets(count);
+    const Locator<2> locator(snapshot);
+    const double end = 2.0 * count;
+    for (const bool is_turned : {false, true}) {
+      const Point<2> left{0, 0}, right{end, 0};
+      const Body_soup<2> soup{{is_turned ? right : left, is_turned ? left : right}, {{0, 1}}, {}};
+      ASSERT_EQ(refusal<2>(snapshot, soup), "") << count;
+      const Body<2> body(snapshot, locator, soup);
+      EXPECT_GE(body.chain(0).size(), 2u * count - 2);
+      EXPECT_NO_THROW(body.validate());
+    }
+  }
+}
+
+TEST(Registration, TriesTheOtherSideWhereOneLeadsNowhere) {
+  // Vertices that no edge joins, each with a choice; and two that must agree.
+  const Snapshot<2> snapshot = membrane();
+  Body_soup<2> soup{{{1, 0.25}, {1, 0.5}, {1, 0.75}, {1, 0.875}, {0.5, 0.75}}, {{1, 2}, {2, 4}}, {}};
+  const Body<2> body(snapshot, Locator<2>(snapshot), soup);
+  EXPECT_EQ(body.particles()[1].cell, body.particles()[4].cell);
+  EXPECT_NO_THROW(body.validate());
+}
+
 TEST(Registration, AcceptsBodiesAtRestInWallPlanes) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 2}, {});
   Body_placement<3> placement;

@@ -75,7 +75,8 @@ class Body {
   void step(std::span<const Point<D>> targets, const Body_options& options,
             std::vector<Body_contact<D>>& contacts, Body_counts& counts);
 
-  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact.
+  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact. Gives a region free of walls up.
+  /// \pre the target is finite
   /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
   std::optional<Body_contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
                                              const Body_options& options, Body_counts& counts);
@@ -111,6 +112,9 @@ class Body {
   Face_registration register_face_here(std::uint32_t face, Face_counts& counts) const;
   void sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                    Body_counts& counts);
+  /// As move_vertex, where there is no region. If `any` is set, any contact will do.
+  std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
+                                          const Body_options& options, Body_counts& counts, bool any = false);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
   bool stays_in_region(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
   bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,

@@ -62,8 +62,11 @@ template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                            Walk_counts& counts);
 
-/// The same, but where the segment may pass a wall on either side, all ways are tried until one leads to the side of q.
-/// Cost: that of find_chain if that succeeds; else a walk by exact signs for each way.
+/// The same, but where the segment may pass a wall on either side, or lies in a plane of facets, through any of which it may
+/// change sides, all ways are tried until one leads to the side of q.
+/// Complete: if there is a contact, no chain leads from the cell of p to that of q.
+/// Cost: that of find_chain if that succeeds; else rational arithmetic for each facet of the cells along the segment that it
+/// touches.
 template <int D>
 Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                                Walk_counts& counts);
