@@ -13,7 +13,7 @@ Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p
   if (!result.contact) return result;
   // An edge that stands still is one that moves by nothing.
   const Swept_triangle<D> triangle{p.position, p.position, q.position};
-  const Rational now = 0;
+  const detail::Moment<D> now;
   const detail::Moving_line<D> line(triangle, now, counts);
   const auto accept = [](const Chain&) { return true; };
   detail::Moving_walk<D, decltype(accept)> ways(snapshot, line, q, accept);
@@ -33,12 +33,12 @@ bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<
   }
   if (cell != q.cell) return false;
   if (passes(snapshot, chain, p.position, q.position, counts)) return true;
-  const detail::Rational_segment<D> segment(detail::exact<D>(p.position), detail::exact<D>(q.position));
-  Rational last = 0;
+  const detail::Rational_segment<D> segment(p.position, q.position);
+  Fraction last = 0;
   for (const Half_facet f : chain) {
     const auto met = segment.in_facet(snapshot.view(snapshot.cell_of(f)), snapshot.facet_of(f));
     if (!met || met->high < last) return false;
-    last = std::max<Rational>(last, met->low);
+    last = std::max<Fraction>(last, met->low);
   }
   return true;
 }

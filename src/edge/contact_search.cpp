@@ -63,7 +63,7 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
                              const Chain& before, double tolerance, Edge_counts& counts) {
   ++counts.searches;
   std::optional<Wall_contact<D>> last;
-  const auto is_free_until = [&](const std::optional<Rational>& time) {
+  const auto is_free_until = [&](std::optional<double> time) {
     ++counts.search_sweeps;
     const Chain_result<D> sweep = follow_events(snapshot, way, q, before, counts.walk, time);
     if (sweep.contact) last = sweep.contact;
@@ -73,7 +73,7 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
   double low = 0, high = 1;
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;
-    (is_free_until(Rational(middle)) ? low : high) = middle;
+    (is_free_until(middle) ? low : high) = middle;
   }
   Contact<D> contact;
   static_cast<Wall_contact<D>&>(contact) = *last;

@@ -189,14 +189,12 @@ Point<D> point_on(const Point<D>& a, const Point<D>& b, double t) {
 template Point<2> point_on<2>(const Point<2>&, const Point<2>&, double);
 template Point<3> point_on<3>(const Point<3>&, const Point<3>&, double);
 
-Rational Exact_value::orientation(Predicate_counts&, const Point<2>& p, const Point<2>& q,
-                                  const Point<2>& r) {
-  return value<Rational>(p, q, r);
+Ring Exact_value::orientation(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return value<Ring>(p, q, r);
 }
 
-Rational Exact_value::orientation(Predicate_counts&, const Point<3>& p, const Point<3>& q, const Point<3>& r,
-                                  const Point<3>& s) {
-  return value<Rational>(p, q, r, s);
+Ring Exact_value::orientation(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  return value<Ring>(p, q, r, s);
 }
 
 }  // namespace cellwalk
