@@ -18,7 +18,7 @@ Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time
   const Facet_feature feature = lowest_feature<D>(cell, i, x);
   contact.kind = feature.kind;
   contact.corner = feature.corner;
-  for (int k = 0; k < D; ++k) contact.point[k] = x.coordinate(k);
+  contact.point = x.rounded();
   return contact;
 }
 

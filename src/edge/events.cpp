@@ -65,8 +65,8 @@ class Events {
       if (!next_chain) {
         chain.clear();
         result.impact = to_time(time.value());
-        result.contact =
-            contact(result.impact, exact_segment(), walk.wall() != Half_facet::none ? walk.wall() : parting);
+        result.contact = contact(result.impact, line, exact_segment(),
+                                 walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }
       chain = *next_chain;
@@ -101,9 +101,27 @@ class Events {
     return end;
   }
 
-  Wall_contact<D> contact(const Exact_time& time, const Rational_segment<D>& segment, Half_facet wall) const {
-    const auto met = segment.in_facet(snapshot_.view(snapshot_.cell_of(wall)), snapshot_.facet_of(wall));
-    return edge_contact<D>(snapshot_, time, wall, segment.at(met ? met->low : Fraction(1)));
+  Wall_contact<D> contact(const Exact_time& time, const Moving_line<D>& line,
+                          const Rational_segment<D>& segment, Half_facet wall) const {
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(wall));
+    const std::size_t i = snapshot_.facet_of(wall);
+    std::optional<Fraction> at;
+    if (leaves_through(cell, i, line))
+      at = segment.in_plane(cell, i);
+    else if (const auto met = segment.in_facet(cell, i))
+      at = met->low;
+    return edge_contact<D>(snapshot_, time, wall, segment.at(at ? *at : Fraction(1)));
+  }
+
+  /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time of a line.
+  bool leaves_through(const Cell_view<D>& cell, std::size_t i, const Moving_line<D>& line) const {
+    if (side<Exact>(cell, i, triangle_.q, counts_) <= 0) return false;
+    const Moment<D>& now = line.time();
+    if (now.sign_of(line.side_of(cell, i)) > 0) return false;
+    const std::size_t ridges = cell.loop(i).size();
+    for (std::size_t k = 0; k < ridges; ++k)
+      if (now.sign_of(line.along_of(cell, i, k)) < 0) return false;
+    return true;
   }
 
   const Snapshot<D>& snapshot_;

@@ -74,7 +74,7 @@ class Face_sweep {
     Face_contact contact;
     contact.impact = to_time(first_.time);
     contact.time = contact.impact.rounded();
-    for (std::size_t k = 0; k < 3; ++k) contact.point[k] = first_.point.coordinate(static_cast<int>(k));
+    contact.point = first_.point.rounded();
     contact.kind = first_.feature.kind;
     contact.corner = first_.feature.corner;
     contact.body = first_.body;

@@ -54,7 +54,12 @@ struct Exact_point {
   Ring_vector<D> place;
   Ring weight = Ring(1);
 
-  double coordinate(int i) const { return to_double(Fraction(place[i], weight)); }
+  /// Its coordinates, rounded towards 0.
+  Point<D> rounded() const {
+    Point<D> x;
+    for (int i = 0; i < D; ++i) x[i] = to_double(Fraction(place[i], weight));
+    return x;
+  }
   /// From another point to this one, times the weight.
   Ring_vector<D> from(const Ring_vector<D>& x) const {
     Ring_vector<D> r;

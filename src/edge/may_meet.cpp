@@ -48,6 +48,16 @@ int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_
 
 }  // namespace
 
+template <int D>
+bool may_be_near(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t, Walk_counts& counts) {
+  if (!boxes_meet<D>(cell, i, t)) return false;
+  const int at_q = side<Exact>(cell, i, t.q, counts);
+  return at_q == 0 || side<Exact>(cell, i, t.a, counts) != at_q || side<Exact>(cell, i, t.b, counts) != at_q;
+}
+
+template bool may_be_near<2>(const Cell_view<2>&, std::size_t, const Swept_triangle<2>&, Walk_counts&);
+template bool may_be_near<3>(const Cell_view<3>&, std::size_t, const Swept_triangle<3>&, Walk_counts&);
+
 bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts) {
   if (!boxes_meet<2>(cell, i, t)) return false;
   const auto loop = cell.loop(i);

@@ -2,12 +2,31 @@
 #include "rational_segment.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cellwalk::detail {
 namespace {
 
 bool are_zero(const auto& vector) {
   return std::all_of(vector.begin(), vector.end(), [](const Ring& x) { return CGAL::is_zero(x); });
+}
+
+/// True proves that a point, known by its coordinates rounded towards 0, is not on the line uv: a component of (v - u) x (x - u)
+/// is not 0. With w = 2^-53, the differences and products have relative errors w each, and a coordinate of x one of 2w or
+/// 2^-1074: less than 16w times the magnitude below.
+bool is_off(const Point<3>& u, const Point<3>& v, const Point<3>& x) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double e_i = v[i] - u[i], e_j = v[j] - u[j];
+    const double left = e_i * (x[j] - u[j]), right = e_j * (x[i] - u[i]);
+    const double magnitude = std::abs(left) + std::abs(right) +
+                             std::abs(e_i) * (std::abs(x[j]) + underflow_allowance) +
+                             std::abs(e_j) * (std::abs(x[i]) + underflow_allowance);
+    if (magnitude > smallest_magnitude && magnitude < largest_magnitude &&
+        std::abs(left - right) > orientation_error * magnitude)
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -57,15 +76,24 @@ std::optional<Span> Rational_segment<D>::in_facet(const Cell_view<D>& cell, std:
 }
 
 template <int D>
+Fraction Rational_segment<D>::in_plane(const Cell_view<D>& cell, std::size_t i) const {
+  const Half_space<D> plane = plane_of(cell, i);
+  const Ring at_p = plane.at(p_);
+  return {at_p, at_p - p_.weight * plane.at(q_)};
+}
+
+template <int D>
 Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Exact_point<D>& x) {
   const auto loop = cell.loop(i);
+  const Point<D> rounded = x.rounded();
   for (std::size_t k = 0; k < loop.size(); ++k)
-    if (are_zero(x.from(exact<D>(cell.point(loop[k])))))
+    if (cell.point(loop[k]) == rounded && are_zero(x.from(exact<D>(cell.point(loop[k])))))
       return {Contact_kind::vertex, static_cast<std::uint16_t>(k)};
   if constexpr (D == 3) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const auto u = exact<3>(cell.point(loop[k])), v = exact<3>(cell.point(loop[(k + 1) % loop.size()]));
-      const auto edge = minus(v, u), from_u = x.from(u);
+      const Point<3>&from = cell.point(loop[k]), &to = cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]);
+      if (is_off(from, to, rounded)) continue;
+      const auto u = exact<3>(from), v = exact<3>(to), edge = minus(v, u), from_u = x.from(u);
       // Other edges of the facet may lie on the same line.
       if (are_zero(exact_cross(edge, from_u)) && CGAL::sign(exact_dot(edge, from_u)) != CGAL::NEGATIVE &&
           CGAL::sign(exact_dot(edge, x.from(v))) != CGAL::POSITIVE)

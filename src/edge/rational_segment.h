@@ -30,6 +30,8 @@ class Rational_segment {
   Exact_point<D> at(const Fraction& t) const;
   /// Parameters of the points in closed facet i of a cell.
   std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
+  /// The parameter of the point in the plane of facet i. \pre there is one
+  Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
 
  private:
   bool clip(Span& span, const Half_space<D>& h) const;

@@ -129,12 +129,21 @@ class Relinking {
 /// False proves that no facet of cells linked with the edge holds the triangle.
 template <int D>
 bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start) {
-  constexpr std::size_t most_cells = 64;  // to look at; beyond, the exact search decides
-  Edge_counts counts;
-  Flooded cells;
-  if (!flood(snapshot, start, line.triangle(), counts, most_cells, cells, [](Half_facet) { return true; }))
-    return true;
-  return std::any_of(cells.begin(), cells.end(), [&](Cell c) { return holds_triangle(snapshot, line, c); });
+  Flooded cells{start};
+  for (std::size_t head = 0; head < cells.size(); ++head) {
+    const Cell c = cells[head];
+    if (holds_triangle(snapshot, line, c)) return true;
+    const Cell_view<D> cell = snapshot.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      if (snapshot.is_impassable(f)) continue;
+      const Cell next = snapshot.neighbor(f);
+      if (std::find(cells.begin(), cells.end(), next) == cells.end() &&
+          may_be_near(cell, i, line.triangle(), line.counts()))
+        cells.push_back(next);
+    }
+  }
+  return false;
 }
 
 }  // namespace

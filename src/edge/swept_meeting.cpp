@@ -165,7 +165,7 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   Contact<D> contact;
   contact.impact = to_time(meeting.time);
   contact.time = contact.impact.rounded();
-  for (int k = 0; k < D; ++k) contact.point[k] = meeting.point.coordinate(k);
+  contact.point = meeting.point.rounded();
   const Facet_feature feature = lowest_feature<D>(cell, i, meeting.point);
   contact.kind = feature.kind;
   contact.corner = feature.corner;
