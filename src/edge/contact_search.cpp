@@ -102,6 +102,7 @@ std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const W
       if (!snapshot.is_impassable(f) || !may_meet(cell, i, triangle, counts.walk)) continue;
       ++counts.search_walls;
       for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
+        if (!may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
         const auto meeting = first_meeting<D>(triangle, half_spaces_of_ridge(cell, i, k));
         if (!meeting) continue;
         const Contact<D> contact = contact_with(snapshot, triangle, f, *meeting);

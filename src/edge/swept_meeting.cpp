@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "rational_segment.h"
 
@@ -31,19 +33,31 @@ Weights common_root(const Weights& f, const Weights& g) {
   return std::any_of(root.begin(), root.end(), is_negative) ? negative(root) : root;
 }
 
-/// The part of a polygon on which a function is >= 0.
-Polygon clip(const Polygon& polygon, const Weights& function) {
-  Polygon kept;
+/// Keeps the part of a polygon on which a function is >= 0.
+void clip(Polygon& polygon, const Weights& function) {
+  const auto is_negative = [](const Ring& x) { return CGAL::sign(x) == CGAL::NEGATIVE; };
+  if (std::none_of(function.begin(), function.end(), is_negative)) return;
   boost::container::small_vector<int, 8> signs;
   for (const Corner& corner : polygon) signs.push_back(CGAL::sign(exact_dot(function, corner.at)));
+  if (std::all_of(signs.begin(), signs.end(), [](int sign) { return sign >= 0; })) return;
+  Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const int here = signs[k], next = signs[k + 1 == polygon.size() ? 0 : k + 1];
-    const Weights& side = polygon[k].side;
-    if (here > 0 || (here == 0 && next >= 0)) kept.push_back(polygon[k]);
-    if (here == 0 && next < 0) kept.push_back({polygon[k].at, function});
-    if (here * next < 0) kept.push_back({common_root(side, function), here > 0 ? function : side});
+    Corner& corner = polygon[k];
+    std::optional<Weights> root;
+    if (here * next < 0) root = common_root(corner.side, function);
+    if (here > 0 && root) {
+      kept.push_back({std::move(corner.at), std::move(corner.side)});
+      kept.push_back({std::move(*root), function});
+    } else if (root) {
+      kept.push_back({std::move(*root), std::move(corner.side)});
+    } else if (here == 0 && next < 0) {
+      kept.push_back({std::move(corner.at), function});
+    } else if (here >= 0) {
+      kept.push_back(std::move(corner));
+    }
   }
-  return kept;
+  polygon = std::move(kept);
 }
 
 /// True if x lies on the segment from u to v, all three being on one line.
@@ -61,7 +75,7 @@ std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
                                               exact<D>(triangle.q)};
   Polygon polygon{{{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}};
   for (const Half_space<D>& h : feature) {
-    polygon = clip(polygon, {h.at(corners[0]), h.at(corners[1]), h.at(corners[2])});
+    clip(polygon, {h.at(corners[0]), h.at(corners[1]), h.at(corners[2])});
     if (polygon.empty()) return {};
   }
   const Weights* first = nullptr;
