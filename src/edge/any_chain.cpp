@@ -21,7 +21,7 @@ class All_ways {
         p_(p),
         q_(q),
         counts_(counts),
-        segment_(detail::exact<D>(p.position), detail::exact<D>(q.position)) {}
+        segment_(p.position, q.position) {}
 
   /// True if there is one; it is put into `chain`.
   bool find(Chain& chain) {
@@ -37,7 +37,7 @@ class All_ways {
         if (snapshot_.is_impassable(f) || is_apart(cell, i)) continue;
         const auto met = segment_.in_facet(cell, i);
         if (!met || met->high < places_[head].time) continue;
-        reach({snapshot_.neighbor(f), std::max<Rational>(places_[head].time, met->low), head, f});
+        reach({snapshot_.neighbor(f), std::max<Fraction>(places_[head].time, met->low), head, f});
       }
     }
     return false;
@@ -46,7 +46,7 @@ class All_ways {
  private:
   struct Place {
     Cell cell;
-    Rational time;       ///< along the segment
+    Fraction time;       ///< along the segment
     std::size_t parent;  ///< from which it is reached,
     Half_facet facet;    ///< through this
   };
@@ -75,7 +75,7 @@ class All_ways {
   Walk_counts& counts_;
   const detail::Rational_segment<D> segment_;
   std::vector<Place> places_;
-  std::map<Cell, Rational> earliest_;
+  std::map<Cell, Fraction> earliest_;
 };
 
 }  // namespace
@@ -99,12 +99,12 @@ bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<
   }
   if (cell != q.cell) return false;
   if (passes(snapshot, chain, p.position, q.position, counts)) return true;
-  const detail::Rational_segment<D> segment(detail::exact<D>(p.position), detail::exact<D>(q.position));
-  Rational last = 0;
+  const detail::Rational_segment<D> segment(p.position, q.position);
+  Fraction last = 0;
   for (const Half_facet f : chain) {
     const auto met = segment.in_facet(snapshot.view(snapshot.cell_of(f)), snapshot.facet_of(f));
     if (!met || met->high < last) return false;
-    last = std::max<Rational>(last, met->low);
+    last = std::max<Fraction>(last, met->low);
   }
   return true;
 }

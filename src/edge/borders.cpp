@@ -24,7 +24,7 @@ class Border {
     if (holding.empty()) return Half_facet::none;
     edge_.emplace(snapshot_, side_.from, side_.to);
     // Between the ends of the pieces that walls hold, all is as in the middle.
-    std::vector<Rational> ends;
+    std::vector<Fraction> ends;
     for (const Half_facet wall : near.walls) {
       const std::optional<Span> met = edge_->in_facet(wall);
       if (met) ends.insert(ends.end(), {met->low, met->high});
@@ -34,7 +34,7 @@ class Border {
       const std::optional<Span> met = edge_->in_facet(wall);
       for (std::size_t k = 0; met && k + 1 < ends.size(); ++k) {
         if (!(ends[k] < ends[k + 1]) || ends[k] < met->low || ends[k + 1] > met->high) continue;
-        if (!begins_at((ends[k] + ends[k + 1]) / 2, rests)) return wall;
+        if (!begins_at(middle(ends[k], ends[k + 1]), rests)) return wall;
       }
     }
     return Half_facet::none;
@@ -46,7 +46,7 @@ class Border {
   }
 
   /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
-  bool begins_at(const Rational& t, const Face_rests& rests) const {
+  bool begins_at(const Fraction& t, const Face_rests& rests) const {
     for (const Cell c : linked_cells(*edge_, side_.start, *side_.chain.chain, t)) {
       bool holds_face = true;
       for (std::size_t i = 0; i < snapshot_.facet_count(c) && holds_face; ++i) {

@@ -9,7 +9,7 @@ namespace cellwalk::detail {
 namespace {
 
 /// The cell in which the chain passes a point of the segment.
-Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Rational& t) {
+Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t) {
   Cell cell = start;
   for (const Half_facet f : chain) {
     const std::optional<Span> met = edge.in_facet(f);
@@ -42,7 +42,7 @@ bool Exact_edge::is_apart(const Cell_view<3>& cell, std::size_t i) const {
   return false;
 }
 
-std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Rational& t) {
+std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t) {
   std::vector<Cell> found{cell_at(edge, start, chain, t)};
   for (std::size_t head = 0; head < found.size(); ++head) {
     const Cell c = found[head];
@@ -62,7 +62,7 @@ std::optional<Half_facet> passed_side(const Exact_edge& edge, Cell start, const 
                                       Half_facet wall) {
   const std::optional<Span> met = edge.in_facet(wall);
   if (!met) return {};
-  const Rational t = (met->low + met->high) / 2;
+  const Fraction t = middle(met->low, met->high);
   const std::vector<Cell> cells = linked_cells(edge, start, chain, t);
   const auto is_linked = [&](Half_facet f) {
     return f != Half_facet::none &&

@@ -12,11 +12,11 @@
 
 namespace cellwalk::detail {
 
-/// An edge of a body, by its ends and in rationals.
+/// An edge of a body, by its ends and exactly.
 class Exact_edge {
  public:
   Exact_edge(const Snapshot<3>& snapshot, const Point<3>& from, const Point<3>& to)
-      : snapshot_(snapshot), from_(from), to_(to), segment_(exact<3>(from), exact<3>(to)) {}
+      : snapshot_(snapshot), from_(from), to_(to), segment_(from, to) {}
 
   /// Its part in a closed facet. Cost: some comparisons and two signs where they show that there is none.
   std::optional<Span> in_facet(Half_facet f) const;
@@ -32,7 +32,7 @@ class Exact_edge {
 
 /// All cells linked, at the point of the edge with this parameter, with the one in which a chain passes it.
 /// \pre the edge passes the chain, from the cell `start`
-std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Rational& t);
+std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t);
 
 /// The side of a wall on which a chain passes that meets it: the half-facet whose cell is linked there with that of the
 /// chain. No value if both are (round the rim of the wall), or the edge misses the wall.

@@ -63,7 +63,7 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
                              const Chain& before, double tolerance, Edge_counts& counts) {
   ++counts.searches;
   std::optional<Wall_contact<D>> last;
-  const auto is_free_until = [&](const std::optional<Rational>& time) {
+  const auto is_free_until = [&](std::optional<double> time) {
     ++counts.search_sweeps;
     const Chain_result<D> sweep = follow_events(snapshot, way, q, before, counts.walk, time);
     if (sweep.contact) last = sweep.contact;
@@ -73,7 +73,7 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
   double low = 0, high = 1;
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;
-    (is_free_until(Rational(middle)) ? low : high) = middle;
+    (is_free_until(middle) ? low : high) = middle;
   }
   Contact<D> contact;
   static_cast<Wall_contact<D>&>(contact) = *last;
@@ -102,6 +102,7 @@ std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const W
       if (!snapshot.is_impassable(f) || !may_meet(cell, i, triangle, counts.walk)) continue;
       ++counts.search_walls;
       for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
+        if (!may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
         const auto meeting = first_meeting<D>(triangle, half_spaces_of_ridge(cell, i, k));
         if (!meeting) continue;
         const Contact<D> contact = contact_with(snapshot, triangle, f, *meeting);

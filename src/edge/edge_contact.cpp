@@ -7,7 +7,7 @@ namespace cellwalk::detail {
 
 template <int D>
 Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
-                             const Rational_point<D>& x) {
+                             const Exact_point<D>& x) {
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
   Wall_contact<D> contact;
@@ -18,13 +18,13 @@ Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time
   const Facet_feature feature = lowest_feature<D>(cell, i, x);
   contact.kind = feature.kind;
   contact.corner = feature.corner;
-  for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(x[k]);
+  contact.point = x.rounded();
   return contact;
 }
 
 template Wall_contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet,
-                                         const Rational_point<2>&);
+                                         const Exact_point<2>&);
 template Wall_contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet,
-                                         const Rational_point<3>&);
+                                         const Exact_point<3>&);
 
 }  // namespace cellwalk::detail

@@ -12,7 +12,7 @@ namespace cellwalk::detail {
 /// x is a point of the wall.
 template <int D>
 Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
-                             const Rational_point<D>& x);
+                             const Exact_point<D>& x);
 
 }  // namespace cellwalk::detail
 

@@ -20,7 +20,7 @@ class Linked {
 
   /// Searches from a cell that holds the point at t until `to` is found.
   Linked(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
-         const Rational& t)
+         const Fraction& t)
       : found_{{from, 0, Half_facet::none}} {
     const auto is_found = [&](Cell c) {
       return std::any_of(found_.begin(), found_.end(), [c](const Found& f) { return f.cell == c; });
@@ -36,7 +36,7 @@ class Linked {
         if (!met || met->low > t) continue;
         const bool is_wall = snapshot.is_impassable(f);
         if (met->high < t) {
-          if (!is_wall) last_before = std::max<Rational>(last_before, met->high);
+          if (!is_wall) last_before = std::max<Fraction>(last_before, met->high);
           continue;
         }
         if (is_wall) {
@@ -46,8 +46,8 @@ class Linked {
         const Cell next = snapshot.neighbor(f);
         if (is_found(next)) continue;
         found_.push_back({next, head, f});
-        part.low = std::max<Rational>(part.low, met->low);
-        part.high = std::min<Rational>(part.high, met->high);
+        part.low = std::max<Fraction>(part.low, met->low);
+        part.high = std::min<Fraction>(part.high, met->high);
       }
     }
   }
@@ -65,7 +65,7 @@ class Linked {
 
   Span part{0, 1};                     ///< all facets passed hold this part of the segment
   Half_facet wall = Half_facet::none;  ///< a wall at the point, of one of the cells found
-  Rational last_before = 0;            ///< the last end of a passable facet of theirs before the point
+  Fraction last_before = 0;            ///< the last end of a passable facet of theirs before the point
 
  private:
   std::vector<Found> found_;
@@ -78,15 +78,15 @@ class Linked {
 /// link the cells before and after, which are compared themselves.
 template <int D>
 std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
-                                     Cell cell, Cell other, const Rational& low, const Rational& high) {
+                                     Cell cell, Cell other, const Fraction& low, const Fraction& high) {
   if (cell == other || !(low < high)) return {};
-  const Linked<D> linked(snapshot, segment, cell, other, (low + high) / 2);
+  const Linked<D> linked(snapshot, segment, cell, other, middle(low, high));
   if (linked) {
     const auto before = first_parting(snapshot, segment, cell, other, low, linked.part.low);
     return before ? before : first_parting(snapshot, segment, cell, other, linked.part.high, high);
   }
   // Towards low, nothing can link them before another facet comes.
-  const Rational since = std::max<Rational>(low, linked.last_before);
+  const Fraction since = std::max<Fraction>(low, linked.last_before);
   const auto before = first_parting(snapshot, segment, cell, other, low, since);
   return before ? before : Parting{since, linked.wall};
 }
@@ -95,14 +95,14 @@ std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational
 
 template <int D>
 std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
-                             std::span<const Half_facet> chain, const Rational& end) {
+                             std::span<const Half_facet> chain, const Fraction& end) {
   std::vector<Piece> pieces;
   Cell cell = start;
-  Rational last = 0;
+  Fraction last = 0;
   for (const Half_facet f : chain) {
     const auto met = segment.in_facet(snapshot.view(snapshot.cell_of(f)), snapshot.facet_of(f));
-    Rational next = last;
-    if (met) next = std::min<Rational>(end, std::max<Rational>(last, met->low));
+    Fraction next = last;
+    if (met) next = std::min<Fraction>(end, std::max<Fraction>(last, met->low));
     pieces.push_back({cell, last, next});
     cell = snapshot.neighbor(f);
     last = next;
@@ -116,8 +116,8 @@ std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_se
                                   const std::vector<Piece>& chain, const std::vector<Piece>& other) {
   for (auto piece = chain.begin(), with = other.begin();;) {
     const auto parting =
-        first_parting(snapshot, segment, piece->cell, with->cell, std::max<Rational>(piece->low, with->low),
-                      std::min<Rational>(piece->high, with->high));
+        first_parting(snapshot, segment, piece->cell, with->cell, std::max<Fraction>(piece->low, with->low),
+                      std::min<Fraction>(piece->high, with->high));
     if (parting) return parting;
     if (piece->high <= with->high) {
       if (++piece == chain.end()) return {};
@@ -129,7 +129,7 @@ std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_se
 
 template <int D>
 std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
-                                Cell to, const Rational& t) {
+                                Cell to, const Fraction& t) {
   return Linked<D>(snapshot, segment, from, to, t).way();
 }
 
@@ -147,11 +147,11 @@ bool are_equal(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, 
 
 #define CELLWALK_INSTANTIATE(D)                                                                           \
   template std::vector<Piece> pieces_of<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,          \
-                                           std::span<const Half_facet>, const Rational&);                 \
+                                           std::span<const Half_facet>, const Fraction&);                 \
   template std::optional<Parting> parting_of<D>(const Snapshot<D>&, const Rational_segment<D>&,           \
                                                 const std::vector<Piece>&, const std::vector<Piece>&);    \
   template std::vector<Half_facet> link_at<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, Cell, \
-                                              const Rational&);                                           \
+                                              const Fraction&);                                           \
   template bool are_equal<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, const Chain&,          \
                              const Chain&, Half_facet&);
 

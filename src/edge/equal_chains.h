@@ -12,18 +12,18 @@ namespace cellwalk::detail {
 /// A part of a segment, and the cell that a chain passes there.
 struct Piece {
   Cell cell;
-  Rational low, high;
+  Fraction low, high;
 };
 
 /// The pieces of a chain that starts in a cell at parameter 0 and ends at another; one more than it has facets.
 /// \pre the segment passes the chain there
 template <int D>
 std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
-                             std::span<const Half_facet> chain, const Rational& end);
+                             std::span<const Half_facet> chain, const Fraction& end);
 
 /// Where two chains of a segment part: they are linked up to a parameter, but not after it, for there is a wall.
 struct Parting {
-  Rational at;
+  Fraction at;
   Half_facet wall;
 };
 
@@ -36,7 +36,7 @@ std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_se
 /// \pre the cells are linked there
 template <int D>
 std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
-                                Cell to, const Rational& t);
+                                Cell to, const Fraction& t);
 
 /// Compares two chains that start in the cell `start`, both passed by the segment. If they are not equal, `wall` is set to a
 /// wall that parts them.
@@ -46,11 +46,11 @@ bool are_equal(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, 
 
 #define CELLWALK_DECLARE(D)                                                                                  \
   extern template std::vector<Piece> pieces_of<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,      \
-                                                  std::span<const Half_facet>, const Rational&);             \
+                                                  std::span<const Half_facet>, const Fraction&);             \
   extern template std::optional<Parting> parting_of<D>(                                                      \
       const Snapshot<D>&, const Rational_segment<D>&, const std::vector<Piece>&, const std::vector<Piece>&); \
   extern template std::vector<Half_facet> link_at<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell,   \
-                                                     Cell, const Rational&);                                 \
+                                                     Cell, const Fraction&);                                 \
   extern template bool are_equal<D>(const Snapshot<D>&, const Rational_segment<D>&, Cell, const Chain&,      \
                                     const Chain&, Half_facet&);
 

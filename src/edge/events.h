@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The sweep of an edge from event to event, in exact rationals. Theory: docs/sweep.md, events.
+// The sweep of an edge from event to event, exactly. Theory: docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_EVENTS_H
 #define CELLWALK_EDGE_EVENTS_H
 
 #include <cellwalk/edge/triangle.h>
-#include <cellwalk/kernel/exact_value.h>
 
 #include <optional>
 
@@ -14,8 +13,7 @@ namespace cellwalk::detail {
 /// p moving in the line of its edge too.
 template <int D>
 Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                              const Chain& before, Walk_counts& counts,
-                              const std::optional<Rational>& until = {});
+                              const Chain& before, Walk_counts& counts, std::optional<double> until = {});
 
 }  // namespace cellwalk::detail
 

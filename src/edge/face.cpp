@@ -74,7 +74,7 @@ class Face_sweep {
     Face_contact contact;
     contact.impact = to_time(first_.time);
     contact.time = contact.impact.rounded();
-    for (std::size_t k = 0; k < 3; ++k) contact.point[k] = CGAL::to_double(first_.point[k]);
+    contact.point = first_.point.rounded();
     contact.kind = first_.feature.kind;
     contact.corner = first_.feature.corner;
     contact.body = first_.body;
@@ -151,8 +151,8 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
     result.contact = sweep.first_contact(near, rests);
     if (result.contact && way.blocked) {
       const Cell last = way.visited.back();
-      const Rational blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
-      if (to_rational(result.contact->impact) >= blocked) result.contact.reset();
+      const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
+      if (result.contact->impact >= to_time(blocked.value())) result.contact.reset();
     }
     if (result.contact || !is_made) return result;
     result.rests = sweep.rests_at_end(near);

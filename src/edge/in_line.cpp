@@ -11,8 +11,7 @@ namespace cellwalk {
 
 template <int D>
 Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                      const Chain& before, Walk_counts& counts,
-                                      const std::optional<Rational>& until) {
+                                      const Chain& before, Walk_counts& counts, std::optional<double> until) {
   const Point<D>&a = way.from.position, &b = way.to.position;
   Chain_result<D> result{before, {}, {}};
   int axis = 0;
@@ -25,23 +24,23 @@ Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>&
     return result;
   }
   // Shares of the way from a to b or to q, whichever is further: where q is, and where p ends.
-  const auto from = exact<D>(a), to = exact<D>(b), other = exact<D>(q.position);
-  const Rational way_of_p = CGAL::abs(Rational(to[axis] - from[axis]));
-  const Rational way_to_q = CGAL::abs(Rational(other[axis] - from[axis]));
-  const Rational whole = std::max<Rational>(way_of_p, way_to_q);
-  const Rational_segment<D> line(from, way_of_p < way_to_q ? other : to);
-  const Rational at_q = way_to_q / whole;
-  Rational end = way_of_p / whole;
-  Rational limit = until.value_or(1);
-  if (way.blocked)
-    limit = std::min<Rational>(limit, exit_time<D>(snapshot.view(way.visited.back()), a, b, counts));
-  end *= limit;
+  const Ring way_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
+  const Ring way_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
+  const Ring whole = std::max<Ring>(way_of_p, way_to_q);
+  const Rational_segment<D> line(a, way_of_p < way_to_q ? q.position : b);
+  const Fraction at_q(way_to_q, whole);
+  Moment<D> limit(until.value_or(1));
+  if (way.blocked) {
+    const auto blocked = exit_time<D>(snapshot.view(way.visited.back()), a, b, counts);
+    if (blocked < limit) limit = blocked;
+  }
+  const Fraction end = Fraction(way_of_p, whole) * limit.value();
 
   const auto pieces = pieces_of<D>(snapshot, line, way.from.cell, {before.data(), before.size()}, at_q);
   const auto walked = pieces_of<D>(snapshot, line, way.from.cell, way.crossed, end);
   if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
     result.chain.clear();
-    result.impact = to_time(parting->at * whole / way_of_p);
+    result.impact = to_time(parting->at * Fraction(whole, way_of_p));
     result.contact = edge_contact<D>(snapshot, result.impact, parting->wall, line.at(parting->at));
     return result;
   }
@@ -63,8 +62,7 @@ Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>&
 
 #define CELLWALK_INSTANTIATE(D)                                                                            \
   template Chain_result<D> detail::sweep_in_line<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
-                                                    const Chain&, Walk_counts&,                            \
-                                                    const std::optional<Rational>&);
+                                                    const Chain&, Walk_counts&, std::optional<double>);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

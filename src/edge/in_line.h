@@ -13,7 +13,7 @@ namespace cellwalk::detail {
 /// the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
 template <int D>
 Chain_result<D> sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                              const Chain& before, Walk_counts& counts, const std::optional<Rational>& until);
+                              const Chain& before, Walk_counts& counts, std::optional<double> until);
 
 }  // namespace cellwalk::detail
 

@@ -48,6 +48,17 @@ int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_
 
 }  // namespace
 
+template <int D>
+bool may_be_near(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t, Walk_counts& counts) {
+  const int at_q = side<Exact>(cell, i, t.q, counts);
+  if (at_q != 0 && side<Exact>(cell, i, t.a, counts) == at_q && side<Exact>(cell, i, t.b, counts) == at_q)
+    return false;
+  return boxes_meet<D>(cell, i, t);
+}
+
+template bool may_be_near<2>(const Cell_view<2>&, std::size_t, const Swept_triangle<2>&, Walk_counts&);
+template bool may_be_near<3>(const Cell_view<3>&, std::size_t, const Swept_triangle<3>&, Walk_counts&);
+
 bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts) {
   if (!boxes_meet<2>(cell, i, t)) return false;
   const auto loop = cell.loop(i);
@@ -97,6 +108,32 @@ bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& 
     if (passed) return true;
   }
   return false;
+}
+
+bool may_meet_ridge(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Swept_triangle<2>& t,
+                    Walk_counts& counts) {
+  const int turn = sign_in_plane(t.a, t.b, t.q, counts);
+  const Point<2>& x = cell.point(cell.loop(i)[k]);
+  return turn == 0 ||
+         (turn * sign_in_plane(t.a, t.b, x, counts) >= 0 && turn * sign_in_plane(t.b, t.q, x, counts) >= 0 &&
+          turn * sign_in_plane(t.q, t.a, x, counts) >= 0);
+}
+
+bool may_meet_ridge(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Swept_triangle<3>& t,
+                    Walk_counts& counts) {
+  const auto loop = cell.loop(i);
+  const Point<3>&u = cell.point(loop[k]), &v = cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]);
+  const auto sign = [&](const Point<3>& x, const Point<3>& y, const Point<3>& z, const Point<3>& w) {
+    return Exact::orientation(counts.predicates, x, y, z, w);
+  };
+  const int at_u = sign(t.a, t.b, t.q, u), at_v = sign(t.a, t.b, t.q, v);
+  if (at_u * at_v > 0) return false;
+  if (at_u == 0 && at_v == 0) return true;
+  One_sided passed;
+  passed.add(sign(u, v, t.a, t.b));
+  passed.add(sign(u, v, t.b, t.q));
+  passed.add(sign(u, v, t.q, t.a));
+  return static_cast<bool>(passed);
 }
 
 }  // namespace cellwalk::detail

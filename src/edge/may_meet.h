@@ -17,6 +17,17 @@ namespace cellwalk::detail {
 bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts);
 bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts);
 
+/// False proves that vertex k of facet i (2D), or its edge from vertex k to the next (3D), misses the closed triangle. True where
+/// they meet, and where they may meet in one plane or line.
+bool may_meet_ridge(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Swept_triangle<2>& t,
+                    Walk_counts& counts);
+bool may_meet_ridge(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Swept_triangle<3>& t,
+                    Walk_counts& counts);
+
+/// As may_meet(), by boxes and the plane of the facet only: cheaper, and more often true.
+template <int D>
+bool may_be_near(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t, Walk_counts& counts);
+
 /// Cells of a flood.
 using Flooded = boost::container::small_vector<Cell, 64>;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A segment with a rational end, and where it meets facets, in rationals: for chains that lie in planes of facets.
+// A segment with a rational end, and where it meets facets, exactly: for chains that lie in planes of facets.
 #ifndef CELLWALK_EDGE_RATIONAL_SEGMENT_H
 #define CELLWALK_EDGE_RATIONAL_SEGMENT_H
 
+#include <cellwalk/edge/flood.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <cstddef>
@@ -14,30 +15,34 @@ namespace cellwalk::detail {
 
 /// Closed interval of parameters.
 struct Span {
-  Rational low, high;
+  Fraction low, high;
 };
 
 /// The segment from p (parameter 0) to q (parameter 1).
 template <int D>
 class Rational_segment {
  public:
-  Rational_segment(const Rational_point<D>& p, const Rational_point<D>& q) : p_(p), q_(q) {}
+  Rational_segment(const Point<D>& p, const Point<D>& q) : p_{exact<D>(p)}, q_(exact<D>(q)) {}
+  /// The edge that sweeps a triangle, at a time.
+  Rational_segment(const Swept_triangle<D>& triangle, const Fraction& time)
+      : p_(Rational_segment(triangle.a, triangle.b).at(time)), q_(exact<D>(triangle.q)) {}
 
-  Rational_point<D> at(const Rational& t) const {
-    Rational_point<D> x;
-    for (int i = 0; i < D; ++i) x[i] = p_[i] + t * (q_[i] - p_[i]);
-    return x;
-  }
+  Exact_point<D> at(const Fraction& t) const;
   /// Parameters of the points in closed facet i of a cell.
   std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
+  /// The parameter of the point in the plane of facet i. \pre there is one
+  Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
 
  private:
-  Rational_point<D> p_, q_;
+  bool clip(Span& span, const Half_space<D>& h) const;
+
+  Exact_point<D> p_;
+  Ring_vector<D> q_;
 };
 
 /// The lowest vertex, edge or facet of closed facet i of a cell that holds x, a point of it.
 template <int D>
-Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Rational_point<D>& x);
+Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Exact_point<D>& x);
 
 extern template class Rational_segment<2>;
 extern template class Rational_segment<3>;

@@ -7,9 +7,19 @@
 
 #include "equal_chains.h"
 #include "link.h"
+#include "may_meet.h"
 
 namespace cellwalk::detail {
 namespace {
+
+/// True if a facet of a cell does.
+template <int D>
+bool holds_triangle(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell c) {
+  const Cell_view<D> cell = snapshot.view(c);
+  for (std::size_t i = 0; i < cell.facet_count(); ++i)
+    if (line.holds_triangle(cell, i)) return true;
+  return false;
+}
 
 template <int D>
 class Relinking {
@@ -21,22 +31,19 @@ class Relinking {
         start_(start),
         q_(q),
         chain_(chain),
-        now_(at(line.time())),
+        now_(at(line.time().value())),
         pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)) {}
 
   std::optional<Chain> run() {
     find_cells();
     if (!lies_in_plane()) return {};
-    const Rational_segment<D> after = at((line_.time() + next_root()) / 2);
+    const Rational_segment<D> after = at(middle(line_.time().value(), next_root().value()));
     if (!from(after, start_, 0)) return {};
     return found_;
   }
 
  private:
-  Rational_segment<D> at(const Rational& time) const {
-    const auto& t = line_.triangle();
-    return {Rational_segment<D>(exact<D>(t.a), exact<D>(t.b)).at(time), exact<D>(t.q)};
-  }
+  Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
 
   /// All cells linked with the chain somewhere on the edge.
   void find_cells() {
@@ -54,31 +61,26 @@ class Relinking {
   }
 
   bool lies_in_plane() const {
-    return std::any_of(cells_.begin(), cells_.end(), [&](Cell c) {
-      const Cell_view<D> cell = snapshot_.view(c);
-      for (std::size_t i = 0; i < cell.facet_count(); ++i)
-        if (line_.holds_triangle(cell, i)) return true;
-      return false;
-    });
+    return std::any_of(cells_.begin(), cells_.end(),
+                       [&](Cell c) { return holds_triangle(snapshot_, line_, c); });
   }
 
   /// Until then, the edge passes the facets of these cells in the same way.
-  Rational next_root() const {
-    Rational end = 1;
-    const auto note = [&](const auto& function) {
-      const auto root = function.root_after(line_.time());
-      if (root && *root < end) end = *root;
+  Moment<D> next_root() const {
+    Moment<D> end(1.0);
+    const auto note = [&](const Moment<D>& root) {
+      if (root < end) end = root;
     };
     for (const Cell c : cells_) {
       const Cell_view<D> cell = snapshot_.view(c);
-      for (std::size_t i = 0; i < cell.facet_count(); ++i) line_.for_all_functions(cell, i, note);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i) line_.for_all_roots(cell, i, note);
     }
     return end;
   }
 
   /// Goes on from a cell in which the edge is at t; true once at q. Ways to the same place are as good as each other, since
   /// all are equal to the chain.
-  bool from(const Rational_segment<D>& after, Cell c, const Rational& t) {
+  bool from(const Rational_segment<D>& after, Cell c, const Fraction& t) {
     if (parts() || !seen_.emplace(c, t).second) return false;
     if (arrive(c)) return true;
     const Cell_view<D> cell = snapshot_.view(c);
@@ -88,7 +90,7 @@ class Relinking {
       const std::optional<Span> met = after.in_facet(cell, i);
       if (!met || met->high < t) continue;
       found_.push_back(f);
-      if (from(after, snapshot_.neighbor(f), std::max<Rational>(t, met->low))) return true;
+      if (from(after, snapshot_.neighbor(f), std::max<Fraction>(t, met->low))) return true;
       found_.pop_back();
     }
     return false;
@@ -120,15 +122,36 @@ class Relinking {
   const Rational_segment<D> now_;
   const std::vector<Piece> pieces_;  ///< of the chain
   std::vector<Cell> cells_;
-  std::set<std::pair<Cell, Rational>> seen_;
+  std::set<std::pair<Cell, Fraction>> seen_;
   Chain found_;
 };
+
+/// False proves that no facet of cells linked with the edge holds the triangle.
+template <int D>
+bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start) {
+  Flooded cells{start};
+  for (std::size_t head = 0; head < cells.size(); ++head) {
+    const Cell c = cells[head];
+    if (holds_triangle(snapshot, line, c)) return true;
+    const Cell_view<D> cell = snapshot.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      if (snapshot.is_impassable(f)) continue;
+      const Cell next = snapshot.neighbor(f);
+      if (std::find(cells.begin(), cells.end(), next) == cells.end() &&
+          may_be_near(cell, i, line.triangle(), line.counts()))
+        cells.push_back(next);
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
 template <int D>
 std::optional<Chain> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
                             const Particle<D>& q, const Chain& chain) {
+  if (!may_lie_in_plane(snapshot, line, start)) return {};
   return Relinking<D>(snapshot, line, start, q, chain).run();
 }
 

@@ -11,7 +11,8 @@ namespace cellwalk::detail {
 /// triangles in the plane of facets, where the edge may change sides all along a facet, not only where it leaves a cell;
 /// elsewhere nothing is looked for.
 /// \pre the chain is valid at line.time() < 1, and starts in that cell
-/// Cost: milliseconds: rational numbers for all facets of the cells linked with the edge.
+/// Cost: some signs a facet of the cells near the triangle where none holds it; else up to a millisecond: exact numbers for all
+/// facets of the cells linked with the edge.
 template <int D>
 std::optional<Chain> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
                             const Particle<D>& q, const Chain& chain);

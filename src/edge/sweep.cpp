@@ -89,8 +89,8 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const 
                           Walk_counts& counts) {
   Contact<D> result;
   static_cast<Wall_contact<D>&>(result) = contact;
-  result.impact = to_time(
-      detail::exit_time<D>(snapshot.view(way.visited.back()), way.from.position, way.to.position, counts));
+  const Cell_view<D> last = snapshot.view(way.visited.back());
+  result.impact = to_time(detail::exit_time<D>(last, way.from.position, way.to.position, counts).value());
   result.time = result.impact.rounded();
   return result;
 }

@@ -4,32 +4,60 @@
 #include <cellwalk/kernel/predicates.h>
 #include <cellwalk/walk/detail/star.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <optional>
+#include <utility>
 
 #include "rational_segment.h"
 
 namespace cellwalk::detail {
 namespace {
 
-/// A point of the triangle by its weights at a, b and q. Unlike coordinates these serve where the triangle is a segment.
-using Weights = std::array<Rational, 3>;
+/// A point of the triangle by its weights at a, b and q, up to a positive factor; or a function on the triangle by its values
+/// there. Unlike coordinates these serve where the triangle is a segment.
+using Weights = Ring_vector<3>;
 
-/// The part of a polygon on which a function, given by its values at the corners of the triangle, is >= 0.
-std::vector<Weights> clip(const std::vector<Weights>& polygon, const Weights& values) {
-  std::vector<Weights> kept;
+/// A corner of a polygon in the triangle, and a function that is 0 on the side from there to the next corner. New corners are
+/// made of the functions of two sides, not of other corners: so their weights stay short.
+struct Corner {
+  Weights at, side;
+};
+using Polygon = boost::container::small_vector<Corner, 6>;
+
+/// Where two functions are 0. \pre they are in one point of the triangle
+Weights common_root(const Weights& f, const Weights& g) {
+  Weights root = exact_cross(f, g);
+  const auto is_negative = [](const Ring& x) { return CGAL::sign(x) == CGAL::NEGATIVE; };
+  return std::any_of(root.begin(), root.end(), is_negative) ? negative(root) : root;
+}
+
+/// Keeps the part of a polygon on which a function is >= 0.
+void clip(Polygon& polygon, const Weights& function) {
+  const auto is_negative = [](const Ring& x) { return CGAL::sign(x) == CGAL::NEGATIVE; };
+  if (std::none_of(function.begin(), function.end(), is_negative)) return;
+  boost::container::small_vector<int, 8> signs;
+  for (const Corner& corner : polygon) signs.push_back(CGAL::sign(exact_dot(function, corner.at)));
+  if (std::all_of(signs.begin(), signs.end(), [](int sign) { return sign >= 0; })) return;
+  Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Weights &here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
-    const Rational at = exact_dot(values, here), at_next = exact_dot(values, next);
-    if (at >= 0) kept.push_back(here);
-    if (CGAL::sign(at) * CGAL::sign(at_next) >= 0) continue;
-    const Rational t = at / (at - at_next);
-    Weights root;
-    for (std::size_t i = 0; i < 3; ++i) root[i] = here[i] + t * (next[i] - here[i]);
-    kept.push_back(root);
+    const int here = signs[k], next = signs[k + 1 == polygon.size() ? 0 : k + 1];
+    Corner& corner = polygon[k];
+    std::optional<Weights> root;
+    if (here * next < 0) root = common_root(corner.side, function);
+    if (here > 0 && root) {
+      kept.push_back({std::move(corner.at), std::move(corner.side)});
+      kept.push_back({std::move(*root), function});
+    } else if (root) {
+      kept.push_back({std::move(*root), std::move(corner.side)});
+    } else if (here == 0 && next < 0) {
+      kept.push_back({std::move(corner.at), function});
+    } else if (here >= 0) {
+      kept.push_back(std::move(corner));
+    }
   }
-  return kept;
+  polygon = std::move(kept);
 }
 
 /// True if x lies on the segment from u to v, all three being on one line.
@@ -42,45 +70,50 @@ bool lies_between(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
 
 template <int D>
 std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
-                                              std::span<const Half_space<D>> feature) {
-  const std::array<Rational_point<D>, 3> corners{exact<D>(triangle.a), exact<D>(triangle.b),
-                                                 exact<D>(triangle.q)};
-  std::vector<Weights> polygon{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const Half_space<D>& h : feature)
-    polygon = clip(polygon, {h.at(corners[0]), h.at(corners[1]), h.at(corners[2])});
+                                              const Half_spaces<D>& feature) {
+  const std::array<Ring_vector<D>, 3> corners{exact<D>(triangle.a), exact<D>(triangle.b),
+                                              exact<D>(triangle.q)};
+  Polygon polygon{{{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}};
+  for (const Half_space<D>& h : feature) {
+    clip(polygon, {h.at(corners[0]), h.at(corners[1]), h.at(corners[2])});
+    if (polygon.empty()) return {};
+  }
   const Weights* first = nullptr;
-  Rational time;
+  Fraction time, off_p;
   bool goes_on = false;
-  for (const Weights& w : polygon) {
-    const Rational off_q = w[0] + w[1];
+  for (const Corner& corner : polygon) {
+    const Weights& w = corner.at;
+    const Ring off_q = w[0] + w[1];
     if (CGAL::is_zero(off_q)) continue;
-    const Rational here = w[1] / off_q;
-    goes_on |= here > 0;
-    if (first && (here > time || (here == time && w[2] >= (*first)[2]))) continue;
+    const Fraction here(w[1], off_q), here_off_p(w[2], off_q);
+    goes_on |= here.sign() > 0;
+    if (first && (here > time || (here == time && here_off_p >= off_p))) continue;
     first = &w;
     time = here;
+    off_p = here_off_p;
   }
   if (!first || !goes_on) return {};
   Meeting<D> meeting{time, {}, CGAL::is_zero((*first)[2])};
+  meeting.point.weight = (*first)[0] + (*first)[1] + (*first)[2];
   for (int i = 0; i < D; ++i)
-    meeting.point[i] =
+    meeting.point.place[i] =
         (*first)[0] * corners[0][i] + (*first)[1] * corners[1][i] + (*first)[2] * corners[2][i];
   return meeting;
 }
 
 /// p moves in the line of the edge. What is swept off its start is a part of the way of p.
 template <int D>
-std::optional<Meeting<D>> meeting_in_line(const Swept_triangle<D>& t,
-                                          std::span<const Half_space<D>> feature) {
+std::optional<Meeting<D>> meeting_in_line(const Swept_triangle<D>& t, const Half_spaces<D>& feature) {
   if (lies_between<D>(t.a, t.q, t.b)) return {};
   if (!lies_between<D>(t.a, t.b, t.q)) return meeting_in_triangle<D>({t.a, t.b, t.a}, feature);
   auto meeting = meeting_in_triangle<D>({t.q, t.b, t.q}, feature);
   if (!meeting) return {};
   int axis = 0;
   while (t.a[axis] == t.b[axis]) ++axis;
-  const Rational a(t.a[axis]), b(t.b[axis]), q(t.q[axis]);
-  const Rational at_q = (q - a) / (b - a);
-  meeting->time = at_q + meeting->time * (1 - at_q);
+  const Ring a(t.a[axis]), to_b = Ring(t.b[axis]) - a, to_q = Ring(t.q[axis]) - a;
+  const Fraction& from_q = meeting->time;
+  meeting->time =
+      Fraction(to_q * from_q.denominator() + from_q.numerator() * (to_b - to_q), to_b * from_q.denominator());
   return meeting;
 }
 
@@ -121,8 +154,7 @@ constexpr double parallel = 0x1p-40;
 }  // namespace
 
 template <int D>
-std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle,
-                                        std::span<const Half_space<D>> feature) {
+std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle, const Half_spaces<D>& feature) {
   if (are_collinear(triangle.a, triangle.b, triangle.q)) return meeting_in_line<D>(triangle, feature);
   return meeting_in_triangle<D>(triangle, feature);
 }
@@ -147,7 +179,7 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   Contact<D> contact;
   contact.impact = to_time(meeting.time);
   contact.time = contact.impact.rounded();
-  for (int k = 0; k < D; ++k) contact.point[k] = CGAL::to_double(meeting.point[k]);
+  contact.point = meeting.point.rounded();
   const Facet_feature feature = lowest_feature<D>(cell, i, meeting.point);
   contact.kind = feature.kind;
   contact.corner = feature.corner;
@@ -160,8 +192,7 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                           \
-  template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&,                           \
-                                                      std::span<const Half_space<D>>);                    \
+  template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&, const Half_spaces<D>&);   \
   template Vector<D> edge_normal<D>(const Snapshot<D>&, const Swept_triangle<D>&, const Wall_contact<D>&, \
                                     const Vector<D>&);                                                    \
   template Contact<D> contact_with<D>(const Snapshot<D>&, const Swept_triangle<D>&, Half_facet,           \

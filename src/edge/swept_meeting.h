@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// When the edge that sweeps a triangle meets closed features of the environment, in rationals. Theory: docs/sweep.md, touches.
+// When the edge that sweeps a triangle meets closed features of the environment, exactly. Theory: docs/sweep.md, touches.
 #ifndef CELLWALK_EDGE_SWEPT_MEETING_H
 #define CELLWALK_EDGE_SWEPT_MEETING_H
 
@@ -7,7 +7,6 @@
 #include <cellwalk/edge/flood.h>
 
 #include <optional>
-#include <span>
 
 #include "half_space.h"
 
@@ -16,8 +15,8 @@ namespace cellwalk::detail {
 /// The edge meets a feature.
 template <int D>
 struct Meeting {
-  Rational time;
-  Rational_point<D> point;
+  Fraction time;
+  Exact_point<D> point;
   bool at_p = false;  ///< the point is p itself
 };
 
@@ -25,8 +24,7 @@ struct Meeting {
 /// and go on to do so. Of several points at that time, the one nearest to p.
 /// Degenerate cases: the triangle may be a segment; a and q may coincide.
 template <int D>
-std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle,
-                                        std::span<const Half_space<D>> feature);
+std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle, const Half_spaces<D>& feature);
 
 /// A contact with a wall at a point of it: its lowest feature there, and the normal that goes with it.
 template <int D>

@@ -16,36 +16,30 @@ Corners with(const Corners& corners, std::size_t k, const Point<3>& x) {
   return result;
 }
 
-Rational volume(const Corners& c) {
-  Predicate_counts counts;
-  return Exact_value::orientation(counts, c[0], c[1], c[2], c[3]);
-}
-
-Rational sum(const Volumes& v) { return v[0] + v[1] + v[2] + v[3]; }
+Ring volume(const Corners& c) { return Exact_value::orientation(c[0], c[1], c[2], c[3]); }
 
 /// Keeps the part of a convex polygon in which volume k is not negative.
 std::vector<Volumes> clipped(const std::vector<Volumes>& polygon, std::size_t k) {
   std::vector<Volumes> result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Volumes &u = polygon[i], &v = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    if (u[k] >= 0) result.push_back(u);
-    if (CGAL::sign(u[k]) * CGAL::sign(v[k]) >= 0) continue;
-    const Rational t = u[k] / (u[k] - v[k]);
+    const int at_u = CGAL::sign(u[k]), at_v = CGAL::sign(v[k]);
+    if (at_u >= 0) result.push_back(u);
+    if (at_u * at_v >= 0) continue;
+    const Volumes &inside = at_u > 0 ? u : v, &outside = at_u > 0 ? v : u;
     Volumes x;
-    for (std::size_t j = 0; j < 4; ++j) x[j] = u[j] + t * (v[j] - u[j]);
-    x[k] = 0;
+    for (std::size_t j = 0; j < 4; ++j) x[j] = outside[j] * inside[k] - inside[j] * outside[k];
     result.push_back(x);
   }
   return result;
 }
 
-Rational_point<3> point_of(const Volumes& volumes, const Corners& corners) {
-  const Rational whole = sum(volumes);
-  Rational_point<3> x;
+Exact_point<3> point_of(const Volumes& volumes, const Corners& corners) {
+  Exact_point<3> x;
+  x.weight = volumes[0] + volumes[1] + volumes[2] + volumes[3];
   for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = 0;
-    for (std::size_t k = 0; k < 4; ++k) x[i] += volumes[k] * Rational(corners[k][i]);
-    x[i] /= whole;
+    x.place[i] = 0;
+    for (std::size_t k = 0; k < 4; ++k) x.place[i] += volumes[k] * Ring(corners[k][i]);
   }
   return x;
 }
@@ -53,7 +47,7 @@ Rational_point<3> point_of(const Volumes& volumes, const Corners& corners) {
 }  // namespace
 
 std::vector<Volumes> clip(const Cell_view<3>& cell, std::size_t i, const Corners& corners) {
-  const bool is_negative = volume(corners) < 0;
+  const bool is_negative = CGAL::sign(volume(corners)) == CGAL::NEGATIVE;
   std::vector<Volumes> polygon;
   for (const std::uint16_t v : cell.loop(i)) {
     Volumes volumes;
@@ -69,7 +63,7 @@ std::vector<Volumes> clip(const Cell_view<3>& cell, std::size_t i, const Corners
 
 bool reaches_inside(const std::vector<Volumes>& polygon) {
   for (std::size_t k = 0; k < 4; ++k)
-    if (std::all_of(polygon.begin(), polygon.end(), [k](const Volumes& v) { return v[k] == 0; }))
+    if (std::all_of(polygon.begin(), polygon.end(), [k](const Volumes& v) { return CGAL::is_zero(v[k]); }))
       return false;
   return true;
 }
@@ -126,14 +120,14 @@ Swept_tetrahedron::Touch Swept_tetrahedron::first_touch(const Cell_view<3>& cell
   ++counts_.clipped;
   std::optional<Touch> first;
   for (const Volumes& x : clip(cell, i, corners_)) {
-    const Rational moving = x[0] + x[1];
-    if (moving == 0) continue;
-    const Rational time = x[1] / moving;
+    const Ring moving = x[0] + x[1];
+    if (CGAL::is_zero(moving)) continue;
+    const Fraction time(x[1], moving);
     if (first && first->time < time) continue;
-    const Rational_point<3> point = point_of(x, corners_);
+    const Exact_point<3> point = point_of(x, corners_);
     const Facet_feature feature = lowest_feature<3>(cell, i, point);
     if (first && first->time == time && first->feature.kind <= feature.kind) continue;
-    const int sides = (x[2] == 0) + (x[3] == 0);
+    const int sides = int{CGAL::is_zero(x[2])} + int{CGAL::is_zero(x[3])};
     first = Touch{time, point, feature,
                   sides == 0   ? Body_feature::face
                   : sides == 1 ? Body_feature::edge
@@ -142,25 +136,18 @@ Swept_tetrahedron::Touch Swept_tetrahedron::first_touch(const Cell_view<3>& cell
   return *first;
 }
 
-Vector<3> Swept_tetrahedron::normal_at(const Rational& time) const {
-  const Rational_point<3> a = exact<3>(corners_[0]), b = exact<3>(corners_[1]), q = exact<3>(corners_[2]),
-                          r = exact<3>(corners_[3]);
-  Rational_point<3> u, v, n;  // from p to q and r
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Rational p = a[i] + time * (b[i] - a[i]);
-    u[i] = q[i] - p;
-    v[i] = r[i] - p;
-  }
-  Rational largest = 0, against = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    n[i] = u[j] * v[k] - u[k] * v[j];
-    largest = std::max<Rational>(largest, abs(n[i]));
-    against += n[i] * (a[i] - b[i]);
-  }
-  if (against < 0) largest = -largest;
+Vector<3> Swept_tetrahedron::normal_at(const Fraction& time) const {
+  const Exact_point<3> p = Rational_segment<3>(corners_[0], corners_[1]).at(time);
+  // From p to q and r, times a positive number.
+  const Ring_vector<3> u = negative(p.from(exact<3>(corners_[2]))),
+                       v = negative(p.from(exact<3>(corners_[3])));
+  const Ring_vector<3> n = exact_cross(u, v);
+  Ring largest = 0;
+  for (const Ring& x : n) largest = std::max<Ring>(largest, CGAL::abs(x));
+  if (CGAL::sign(exact_dot(n, minus(exact<3>(corners_[0]), exact<3>(corners_[1])))) == CGAL::NEGATIVE)
+    largest = -largest;
   Vector<3> normal;
-  for (std::size_t i = 0; i < 3; ++i) normal[i] = CGAL::to_double(Rational(n[i] / largest));
+  for (std::size_t i = 0; i < 3; ++i) normal[i] = to_double(Fraction(n[i], largest));
   const double size = length(normal);
   for (double& x : normal) x = x / size + 0.0;  // no negative zeros for readers of tables
   return normal;

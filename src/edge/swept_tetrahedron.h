@@ -13,8 +13,9 @@
 
 namespace cellwalk::detail {
 
-/// The volumes that a point spans with the facets of a tetrahedron opposite to a, b, q and r; positive inside.
-using Volumes = std::array<Rational, 4>;
+/// The volumes that a point spans with the facets of a tetrahedron opposite to a, b, q and r; positive inside. They may have a
+/// common factor.
+using Volumes = std::array<Ring, 4>;
 
 /// The part of a facet in a closed tetrahedron, by the volumes of its corners, in order. Empty, or a point, or a segment too.
 std::vector<Volumes> clip(const Cell_view<3>& cell, std::size_t i, const Corners& corners);
@@ -33,8 +34,8 @@ class Swept_tetrahedron {
 
   /// Where a part of a facet is met first.
   struct Touch {
-    Rational time;
-    Rational_point<3> point;
+    Fraction time;
+    Exact_point<3> point;
     Facet_feature feature;  ///< the lowest of the facet that holds the point
     Body_feature body;      ///< the part of the face
   };
@@ -43,7 +44,7 @@ class Swept_tetrahedron {
   Touch first_touch(const Cell_view<3>& cell, std::size_t i) const;
 
   /// Unit normal of the face at a time, on the side of a, rounded.
-  Vector<3> normal_at(const Rational& time) const;
+  Vector<3> normal_at(const Fraction& time) const;
 
  private:
   int sign(std::size_t corner, const Point<3>& x) const;

@@ -4,6 +4,9 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <array>
+#include <cstddef>
+
 namespace cellwalk::detail {
 namespace {
 
@@ -20,17 +23,26 @@ int orientation_in(const Point<3>& p, const Point<3>& q, const Point<3>& r, cons
                            P(s[0], s[1], s[2]));
 }
 
+/// True if the points agree in a coordinate, or two of them are one: the orientation is 0. What rests in walls along the axes
+/// asks for little else.
+template <std::size_t D, class... Others>
+bool is_plainly_zero(const std::array<double, D>& p, const Others&... others) {
+  for (std::size_t k = 0; k < D; ++k)
+    if (((others[k] == p[k]) && ...)) return true;
+  return ((others == p) || ...);
+}
+
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Lazy_exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
 }  // namespace
 
 int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-  return orientation_in<Filtered>(p, q, r);
+  return is_plainly_zero(p, q, r) ? 0 : orientation_in<Filtered>(p, q, r);
 }
 
 int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
-  return orientation_in<Filtered>(p, q, r, s);
+  return is_plainly_zero(p, q, r, s) ? 0 : orientation_in<Filtered>(p, q, r, s);
 }
 
 int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r) {

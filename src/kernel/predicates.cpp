@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace cellwalk {
 namespace {
@@ -71,13 +72,21 @@ std::array<double, D> normalized(std::array<double, D> n) {
   return n;
 }
 
+using Interval = CGAL::Interval_nt<false>;
+
+/// The rounding mode is set once for all operations. Not to be inlined: nothing else may be computed in that mode.
+template <class... P>
+[[gnu::noinline]] std::array<Interval, sizeof...(P)> interval_normal(const P&... points) {
+  const Interval::Protector protector;
+  return normal<Interval>(points...);
+}
+
 template <class... P>
 std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
   constexpr std::size_t D = sizeof...(P);
   std::array<double, D> n;
   {
-    using Interval = CGAL::Interval_nt<true>;
-    const auto wide = normal<Interval>(points...);
+    const auto wide = interval_normal(points...);
     double width = 0, largest = 0;
     for (std::size_t i = 0; i < D; ++i) {
       n[i] = wide[i].inf() + (wide[i].sup() - wide[i].inf()) / 2;
@@ -97,20 +106,24 @@ std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
 /// 4 ulp of 1/2 relative: the widest interval whose midpoint is reported.
 constexpr double report_width = 4 * 0x1p-53;
 
+/// The time from values va at a and vb at b: va / (va - vb), where the interval of the divisor is off 0.
+template <class... P>
+[[gnu::noinline]] std::optional<Interval> interval_time(const Point<sizeof...(P)>& a,
+                                                        const Point<sizeof...(P)>& b, const P&... plane) {
+  const Interval::Protector protector;
+  const Interval va = value<Interval>(plane..., a), vb = value<Interval>(plane..., b);
+  const Interval difference = va - vb;
+  if (!(difference.inf() > 0 || difference.sup() < 0)) return {};
+  return va / difference;
+}
+
 /// The time from values va at a and vb at b: va / (va - vb). Intervals first, rationals where they are too
 /// wide.
 template <class... P>
 double time_of(const Point<sizeof...(P)>& a, const Point<sizeof...(P)>& b, const P&... plane) {
-  {
-    using Interval = CGAL::Interval_nt<true>;
-    const Interval va = value<Interval>(plane..., a), vb = value<Interval>(plane..., b);
-    const Interval difference = va - vb;
-    if (difference.inf() > 0 || difference.sup() < 0) {
-      const Interval t = va / difference;
-      if (t.inf() > 0 && t.sup() < 1 && t.sup() - t.inf() <= report_width * t.inf())
-        return t.inf() + (t.sup() - t.inf()) / 2;
-    }
-  }
+  if (const auto t = interval_time(a, b, plane...))
+    if (t->inf() > 0 && t->sup() < 1 && t->sup() - t->inf() <= report_width * t->inf())
+      return t->inf() + (t->sup() - t->inf()) / 2;
   const Rational va = value<Rational>(plane..., a), vb = value<Rational>(plane..., b);
   if (va == vb) return 0;
   const Rational t = va / (va - vb);
@@ -189,14 +202,12 @@ Point<D> point_on(const Point<D>& a, const Point<D>& b, double t) {
 template Point<2> point_on<2>(const Point<2>&, const Point<2>&, double);
 template Point<3> point_on<3>(const Point<3>&, const Point<3>&, double);
 
-Rational Exact_value::orientation(Predicate_counts&, const Point<2>& p, const Point<2>& q,
-                                  const Point<2>& r) {
-  return value<Rational>(p, q, r);
+Ring Exact_value::orientation(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return value<Ring>(p, q, r);
 }
 
-Rational Exact_value::orientation(Predicate_counts&, const Point<3>& p, const Point<3>& q, const Point<3>& r,
-                                  const Point<3>& s) {
-  return value<Rational>(p, q, r, s);
+Ring Exact_value::orientation(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  return value<Ring>(p, q, r, s);
 }
 
 }  // namespace cellwalk

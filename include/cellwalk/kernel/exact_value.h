@@ -7,10 +7,43 @@
 #include <cellwalk/kernel/policies.h>
 
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Mpzf.h>
 
 namespace cellwalk {
 
 using Rational = CGAL::Exact_rational;
+
+namespace detail {
+
+/// The GMP number in a rational, whoever wraps it.
+template <class R>
+auto gmp_number(R& x) -> decltype(x.get_mpq_t()) {
+  return x.get_mpq_t();
+}
+template <class R>
+auto gmp_number(R& x) -> decltype(x.backend().data()) {
+  return x.backend().data();
+}
+
+/// Exact numbers for sums, differences and products.
+template <class Field>
+struct Ring_of {
+  using type = Field;
+};
+
+#ifdef CGAL_HAS_MPZF
+/// Floats of any length, where rationals are those of GMP.
+template <class Field>
+requires requires(Field x, const CGAL::Mpzf& y) { y.export_to_mpq_t(gmp_number(x)); }
+struct Ring_of<Field> {
+  using type = CGAL::Mpzf;
+};
+#endif
+
+}  // namespace detail
+
+/// Every double is one; sums, differences and products are exact, and cheaper than those of rationals.
+using Ring = detail::Ring_of<Rational>::type;
 
 /// What an Exact_time holds.
 struct Exact_fraction {
@@ -21,11 +54,10 @@ struct Exact_fraction {
 Exact_time to_time(const Rational& fraction);
 Rational to_rational(const Exact_time& time);
 
-/// Like a number policy, but orientation() is the determinant itself, not its sign.
+/// Not the sign of an orientation, but the determinant itself.
 struct Exact_value {
-  static Rational orientation(Predicate_counts&, const Point<2>& p, const Point<2>& q, const Point<2>& r);
-  static Rational orientation(Predicate_counts&, const Point<3>& p, const Point<3>& q, const Point<3>& r,
-                              const Point<3>& s);
+  static Ring orientation(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+  static Ring orientation(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
 };
 
 }  // namespace cellwalk

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/fraction.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <type_traits>
+
+namespace cellwalk {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Beyond these, the quotient of two doubles may be far off.
+constexpr double smallest_quotient = 1e-290, largest_quotient = 1e+290;
+
+template <class R>
+Rational exported(const R& x) {
+  if constexpr (std::is_same_v<R, Rational>) {
+    return x;
+  } else {
+    Rational result;
+    x.export_to_mpq_t(detail::gmp_number(result));
+    return result;
+  }
+}
+
+/// A double near a positive fraction.
+double near(const Fraction& x) {
+  const double quotient = CGAL::to_double(x.numerator()) / CGAL::to_double(x.denominator());
+  if (quotient > smallest_quotient && quotient < largest_quotient) return quotient;
+  return CGAL::to_double(to_rational(x));
+}
+
+/// The sign of a fraction less a double.
+int compare(const Fraction& x, double y) {
+  return static_cast<int>(CGAL::sign(Ring(x.numerator() - x.denominator() * Ring(y))));
+}
+
+struct Rounded {
+  double value;
+  bool is_exact;
+};
+
+/// The greatest double that is not above a positive fraction.
+Rounded rounded_down(const Fraction& x) {
+  double value = near(x);
+  int above = compare(x, value);
+  while (above < 0) {
+    value = std::nextafter(value, -infinity);
+    above = compare(x, value);
+  }
+  while (above > 0) {
+    const double next = std::nextafter(value, infinity);
+    above = compare(x, next);
+    if (above < 0) return {value, false};
+    value = next;
+  }
+  return {value, true};
+}
+
+}  // namespace
+
+Rational to_rational(const Fraction& fraction) {
+  return exported(fraction.numerator()) / exported(fraction.denominator());
+}
+
+Exact_time to_time(const Fraction& fraction) {
+  if (fraction.sign() == 0) return Exact_time(0);
+  const Rounded rounded = rounded_down(fraction);
+  if (rounded.is_exact) return Exact_time(rounded.value);
+  return {rounded.value, std::make_shared<const Exact_fraction>(Exact_fraction{to_rational(fraction)})};
+}
+
+double to_double(const Fraction& fraction) {
+  if (fraction.sign() == 0) return 0;
+  if (fraction.sign() > 0) return rounded_down(fraction).value;
+  return -rounded_down(Fraction(-fraction.numerator(), fraction.denominator())).value;
+}
+
+}  // namespace cellwalk
