@@ -50,9 +50,17 @@ bool clip(Span& span, const Big& at_0, const Big& at_1, const Values* maker) {
   return !(span.high < span.low);
 }
 
+/// The sign that a function has all along the triangle, its corners included; 2 if it changes. 0 counts as negative.
+int common_sign(const Values& f) {
+  const int positive = (f.at_a > 0) + (f.at_b > 0) + (f.at_q > 0);
+  return positive == 0 ? -1 : positive == 3 ? 1 : 2;
+}
+
 bool clip(Span& span, const std::vector<Values>& functions, const Share& time) {
-  return std::all_of(functions.begin(), functions.end(),
-                     [&](const Values& f) { return clip(span, at(f, time), time.denominator * f.at_q, &f); });
+  return std::all_of(functions.begin(), functions.end(), [&](const Values& f) {
+    const int sign = common_sign(f);
+    return sign == 2 ? clip(span, at(f, time), time.denominator * f.at_q, &f) : sign < 0;
+  });
 }
 
 /// The times at which p is where no function is positive.
@@ -149,8 +157,32 @@ int Moving_segment<D>::facet_of(std::uint32_t half_facet) const {
 }
 
 template <int D>
+typename Moving_segment<D>::Points Moving_segment<D>::vertices() const {
+  Points points;
+  for (const std::uint32_t c : cells_)
+    for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f)
+      for (const std::uint32_t v : complex_.soup.facet(f)) {
+        const auto [found, is_new] = points.try_emplace(v);
+        if (!is_new) continue;
+        for (int i = 0; i < D; ++i) found->second[i] = complex_.points[v][i] << extra_shift_;
+      }
+  return points;
+}
+
+template <int D>
+void Moving_segment<D>::add_passing(std::vector<Share>& times, const std::array<Vec<2>, 3>& abq,
+                                    const Vec<2>& x) const {
+  const auto& [a, b, q] = abq;
+  const Big at_a = area(a, q, x), at_b = area(b, q, x);
+  // Not the points outside a triangle: beyond ab, or on the other side of q.
+  const int turn = sign(area(a, b, q));
+  if (turn * sign(at_a) > 0 || turn * sign(at_b) < 0 || turn * sign(area(a, b, x)) < 0) return;
+  add_critical(times, at_a, at_b);
+}
+
+template <int D>
 void Moving_segment<D>::add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const {
-  if (at_a == at_b || at_a * at_b > 0) return;
+  if (at_a == at_b || sign(at_a) * sign(at_b) > 0) return;
   Share t = root(at_a, at_b);
   const Big divisor = gcd(t.numerator, t.denominator);
   times.push_back({t.numerator / divisor, t.denominator / divisor});
@@ -158,39 +190,48 @@ void Moving_segment<D>::add_critical(std::vector<Share>& times, const Big& at_a,
 
 template <int D>
 void Moving_segment<D>::add_features(std::vector<Share>& times) const {
-  std::set<std::uint32_t> vertices;
+  const auto points = vertices();
+  if constexpr (D == 2) {
+    for (const auto& [v, x] : points) add_passing(times, {a_, b_, q_}, x);
+  } else {
+    add_edges(times, points);
+  }
+}
+
+template <int D>
+void Moving_segment<D>::add_edges(std::vector<Share>& times, const Points& points) const
+  requires(D == 3)
+{
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const std::uint32_t c : cells_)
     for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f) {
       const auto loop = complex_.soup.facet(f);
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        vertices.insert(loop[i]);
+      for (std::size_t i = 0; i < loop.size(); ++i)
         edges.insert(std::minmax(loop[i], loop[(i + 1) % loop.size()]));
-      }
     }
-  std::map<std::uint32_t, Vec<D>> points;
-  for (const std::uint32_t v : vertices) {
-    Vec<D>& point = points[v];
-    for (int i = 0; i < D; ++i) point[i] = complex_.points[v][i] << extra_shift_;
+  const Vec<3> normal = cross(minus(b_, a_), minus(q_, a_));
+  std::size_t axis = 0;
+  while (axis < 2 && normal[axis] == 0) ++axis;
+  const bool is_triangle = normal[axis] != 0;
+  const auto drop = [axis](const Vec<3>& x) { return Vec<2>{x[(axis + 1) % 3], x[(axis + 2) % 3]}; };
+  const std::array<Vec<2>, 3> corners{drop(a_), drop(b_), drop(q_)};
+  std::map<std::uint32_t, int> sides;  // of the plane of the triangle
+  for (const auto& [v, x] : points) {
+    sides[v] = sign(dot(normal, minus(x, a_)));
+    if (sides[v] == 0) add_passing(times, corners, drop(x));
   }
-  if constexpr (D == 2) {
-    for (const auto& [v, x] : points) add_critical(times, area(a_, q_, x), area(b_, q_, x));
-  } else {
-    const Vec<3> normal = cross(minus(b_, a_), minus(q_, a_));
-    std::size_t axis = 0;
-    while (axis < 2 && normal[axis] == 0) ++axis;
-    const auto drop = [axis](const Vec<3>& x) { return Vec<2>{x[(axis + 1) % 3], x[(axis + 2) % 3]}; };
-    std::map<std::uint32_t, int> sides;  // of the plane of the triangle
-    for (const auto& [v, x] : points) {
-      sides[v] = sign(dot(normal, minus(x, a_)));
-      if (sides[v] != 0) continue;
-      add_critical(times, area(drop(a_), drop(q_), drop(x)), area(drop(b_), drop(q_), drop(x)));
-    }
-    for (const auto& [u, v] : edges) {
-      if (sides[u] * sides[v] > 0) continue;  // passes the plane of the triangle nowhere
-      const Vec<3> across = cross(minus(q_, points[u]), minus(points[v], points[u]));
-      add_critical(times, dot(across, minus(a_, points[u])), dot(across, minus(b_, points[u])));
-    }
+  for (const auto& [u, v] : edges) {
+    // Passes the plane of the triangle nowhere, or in a vertex.
+    if (is_triangle && sides[u] * sides[v] >= 0) continue;
+    const Vec<3>& x = points.at(u);
+    const Vec<3> along = minus(points.at(v), x), to_a = minus(a_, x);
+    const Vec<3> across = cross(minus(q_, x), along);
+    const Big at_a = dot(across, to_a), at_b = dot(across, minus(b_, x));
+    if (sign(at_a) * sign(at_b) > 0) continue;
+    // Where the line of the edge meets the triangle, it passes its three sides in the same turn.
+    const int turn = sign(at_b) == 0 ? -sign(at_a) : sign(at_b);
+    if (is_triangle && turn * sign(dot(cross(minus(b_, x), along), to_a)) < 0) continue;
+    add_critical(times, at_a, at_b);
   }
 }
 

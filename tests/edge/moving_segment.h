@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "edge/integer_complex.h"
@@ -57,8 +58,7 @@ class Moving_segment {
   const std::vector<std::uint32_t>& cells() const { return cells_; }
 
   /// All times in [0,1] at which the combinatorics of cut() may change, ascending, 0 and 1 included: p enters or leaves a
-  /// cell or facet or is at q; the segment passes a vertex (2D) or the line of an edge (3D), or a vertex in the plane in which
-  /// it moves.
+  /// cell or facet or is at q; the segment passes a vertex (2D) or an edge (3D), or a vertex in the plane in which it moves.
   std::vector<Share> critical_times() const;
   Cut cut(const Share& time) const;
   /// Where a point that cuts the segments of an open interval between critical times ends up at one of its ends.
@@ -76,9 +76,17 @@ class Moving_segment {
     std::vector<Values> sides;  ///< the plane twice, once turned round, then the rims
   };
 
+  using Points = std::map<std::uint32_t, std::array<Big, D>>;
+
   Values values(const Affine<D, Big>& f) const;
   void add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const;
+  /// The time at which the segment passes x, both in the plane of the triangle. Its corners.
+  void add_passing(std::vector<Share>& times, const std::array<std::array<Big, 2>, 3>& abq,
+                   const std::array<Big, 2>& x) const;
+  Points vertices() const;  ///< of the cells
   void add_features(std::vector<Share>& times) const;
+  void add_edges(std::vector<Share>& times, const Points& points) const
+    requires(D == 3);
 
   const Integer_complex<D>& complex_;
   int extra_shift_ = 0;

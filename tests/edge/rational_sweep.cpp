@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge/rational_sweep.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace cellwalk::test {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 template <std::size_t D>
 using Vec = std::array<Rational, D>;
 
@@ -207,6 +210,13 @@ std::optional<std::array<Vec<D>, 2>> overlap_of(const std::array<double, D>& a,
   return overlap(exact(a), exact(b), exact(q), exact<D>(facet));
 }
 
+/// The nearest double. \pre x >= 0
+double nearest(const Rational& x) {
+  // The conversion cuts off.
+  const double low = static_cast<double>(x), high = std::nextafter(low, std::numeric_limits<double>::infinity());
+  return x - low <= high - x ? low : high;
+}
+
 template <std::size_t D>
 std::optional<double> first(const std::array<double, D>& a, const std::array<double, D>& b,
                             const std::array<double, D>& q, std::span<const std::array<double, D>> facet) {
@@ -219,7 +229,7 @@ std::optional<double> first(const std::array<double, D>& a, const std::array<dou
     const Rational time = time_of(exact(a), exact(b), exact(q), x);
     if (!first || time < *first) first = time;
   }
-  return static_cast<double>(*first);
+  return nearest(*first);
 }
 
 }  // namespace

@@ -22,23 +22,6 @@ struct Seen {
   Edge_counts counts;
 };
 
-/// The first time at which a wall crosses the swept triangle.
-template <int D>
-std::optional<double> first_hit(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
-                                const Point<D>& q) {
-  std::optional<double> first;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
-    const Cell c = snapshot.cell(i);
-    for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(c, f);
-      if (!snapshot.is_impassable(facet)) continue;
-      const auto time = first_crossing(a, b, q, polygon(snapshot, facet));
-      if (time && (!first || *time < *first)) first = time;
-    }
-  }
-  return first;
-}
-
 /// p is blocked on its way: the edge must be hit exactly if a wall crosses its triangle before that.
 template <int D>
 void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<D>& target,
@@ -50,7 +33,7 @@ void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<
   to.cell = visited.back();
   const Chain_result<D> edge =
       sweep_triangle<D>(w.snapshot, {from, to, visited, crossed, true}, q, chain, seen.counts);
-  const auto hit = first_hit(w.snapshot, from.position, target, q.position);
+  const auto hit = w.walls.first_hit(from.position, target, q.position);
   constexpr double rounding = 0x1p-50;  // of all three times
   ++seen.blocked;
   if (edge.contact) {
@@ -99,7 +82,7 @@ Seen sweep(bool generic) {
         if (is_compared) {
           EXPECT_EQ(is_free, !edge.contact) << w.world.name << ": a certificate changes the answer";
         }
-        const auto hit = first_hit(w.snapshot, from.position, p.position, q.position);
+        const auto hit = w.walls.first_hit(from.position, p.position, q.position);
         ++seen.sweeps;
         seen.hits += hit.has_value();
         if (!edge.contact) expect_leads(w.snapshot, edge.chain, p.cell, q.cell);

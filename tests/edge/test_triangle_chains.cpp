@@ -58,7 +58,7 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   seen.choices += outcomes.choices > 0;
   seen.long_chains += before.size() >= 8;
   if (way.blocked) return;
-  seen.only_together += result.contact && !is_crossed(w.snapshot, motion.a, motion.b, motion.q);
+  seen.only_together += result.contact && !w.walls.is_crossed(motion.a, motion.b, motion.q);
   seen.at_once += result.contact && result.contact->time == 0;
   // A weaker sweep must not satisfy the oracle.
   Walk_counts counts;
