@@ -189,7 +189,7 @@ void test_critical_times() {
   for (std::uint64_t number = 0; number < oracle::scaled_count(oracle::world_kinds); ++number) {
     Edge_world<D> w(number, number % 3 == 0);
     const oracle::Integer_complex<D> complex(w.world.soup);
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 12; ++k) {
       const Particle<D> a = w.start();
       const Point<D> b = w.target(a), q = w.target(a);
       const oracle::Moving_segment<D> segment(complex, a.position, b, q);
