@@ -35,8 +35,8 @@ using Sides = std::map<std::size_t, int>;
 
 class Judge {
  public:
-  Judge(const Snapshot<3>& snapshot, std::string name, const Wall_list<3>& walls, Face_body& body, bool generic,
-        Seen& seen)
+  Judge(const Snapshot<3>& snapshot, std::string name, const Wall_list<3>& walls, Face_body& body,
+        bool generic, Seen& seen)
       : snapshot_(snapshot),
         name_(std::move(name)),
         walls_(walls),
@@ -191,7 +191,8 @@ class Judge {
 };
 
 /// Registering says that a face is pierced if a wall pierces it; and else only where two walls meet in its plane.
-inline void check_piercing(const Wall_list<3>& walls, Face_body& body, bool is_valid, bool generic, Seen& seen) {
+inline void check_piercing(const Wall_list<3>& walls, Face_body& body, bool is_valid, bool generic,
+                           Seen& seen) {
   bool is_pierced = false;
   for (const auto& wall : walls.polygons) is_pierced |= pierces(body.triangle(), wall);
   ++seen.registered;

@@ -199,9 +199,7 @@ void Moving_segment<D>::add_features(std::vector<Share>& times) const {
 }
 
 template <int D>
-void Moving_segment<D>::add_edges(std::vector<Share>& times, const Points& points) const
-  requires(D == 3)
-{
+void Moving_segment<D>::add_edges(std::vector<Share>& times, const Points& points) const requires(D == 3) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const std::uint32_t c : cells_)
     for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f) {

@@ -85,8 +85,7 @@ class Moving_segment {
                    const std::array<Big, 2>& x) const;
   Points vertices() const;  ///< of the cells
   void add_features(std::vector<Share>& times) const;
-  void add_edges(std::vector<Share>& times, const Points& points) const
-    requires(D == 3);
+  void add_edges(std::vector<Share>& times, const Points& points) const requires(D == 3);
 
   const Integer_complex<D>& complex_;
   int extra_shift_ = 0;

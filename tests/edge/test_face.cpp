@@ -36,7 +36,7 @@ Seen sweep(bool generic) {
   Seen seen;
   for (std::uint64_t number = 0; number < worlds(generic); ++number) {
     Edge_world<3> w(number, generic);
-        for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 40; ++k) {
       const Particle<3> p = w.start();
       if (p.cell == Cell::none) continue;
       const Particle<3> q = w.end(p), r = w.end(p);

@@ -47,12 +47,15 @@ void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<
   }
 }
 
-std::size_t worlds() { return oracle::scaled_count(4 * oracle::world_kinds); }
+/// Of each kind. Sweeps in 3D take four times as long.
+template <int D>
+constexpr std::size_t worlds_of_a_kind = D == 2 ? 20 : 16;
 
 template <int D>
 Seen sweep(bool generic) {
   Seen seen;
-  for (std::uint64_t number = 0; number < worlds(); ++number) {
+  const std::size_t worlds = oracle::scaled_count(worlds_of_a_kind<D> * oracle::world_kinds);
+  for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(number, generic);
     for (int k = 0; k < 60; ++k) {
       Particle<D> p = w.start();
@@ -113,7 +116,8 @@ Seen sweep(bool generic) {
             << seen.hits << " crossed by a wall, " << seen.only_blocked << " blocked otherwise; "
             << seen.third_free << " of these with a free third side; same cell " << c.same_cell
             << ", convex pair " << c.convex_pair << ", same chain " << c.same_chain << ", clear " << c.clear
-            << ", events " << c.event_sweeps << "; missed " << seen.misses << "\n";
+            << ", events " << c.event_sweeps << "; missed " << seen.misses << "; p blocked " << seen.blocked
+            << ", the edge before " << seen.edge_first << "\n";
   return seen;
 }
 
@@ -123,18 +127,18 @@ void test_sweeps() {
     const Seen seen = sweep<D>(generic);
     EXPECT_EQ(seen.misses, 0);
     EXPECT_EQ(seen.wrong_times, 0);
-    if (worlds() < 2 * oracle::world_kinds) continue;  // too few to meet everything
-    EXPECT_GT(seen.sweeps, 1000);
-    EXPECT_GT(seen.compared, 400u);
-    EXPECT_GT(seen.hits, 50);
-    EXPECT_GT(seen.third_free, 3);
-    EXPECT_GT(seen.blocked, 200);
-    EXPECT_GT(seen.edge_first, 10);
-    EXPECT_GT(seen.counts.event_sweeps, 50u);
-    EXPECT_GT(seen.counts.same_cell, 100u);
-    EXPECT_GT(seen.counts.convex_pair, 20u);
-    EXPECT_GT(seen.counts.same_chain, 100u);
-    EXPECT_GT(seen.counts.clear, 10u);
+    if (oracle::scaled_count(2) < 2) continue;  // too few to meet everything
+    EXPECT_GT(seen.sweeps, D == 2 ? 15'000 : 10'000);
+    EXPECT_GT(seen.compared, 2'000u);
+    EXPECT_GT(seen.hits, 500);
+    EXPECT_GT(seen.third_free, 40);
+    EXPECT_GT(seen.blocked, 7'000);
+    EXPECT_GT(seen.edge_first, 800);
+    EXPECT_GT(seen.counts.event_sweeps, 8'000u);
+    EXPECT_GT(seen.counts.same_cell, 1'000u);
+    EXPECT_GT(seen.counts.convex_pair, 300u);
+    EXPECT_GT(seen.counts.same_chain, 3'500u);
+    EXPECT_GT(seen.counts.clear, 60u);
   }
 }
 

@@ -32,8 +32,8 @@ void test_list() {
       EXPECT_EQ(w.walls.first_hit(a, b, q), first) << w.world.name;
     }
   }
-  std::cout << D << "D: " << triangles << " triangles, crossed " << crossed << ", by several walls " << several
-            << "\n";
+  std::cout << D << "D: " << triangles << " triangles, crossed " << crossed << ", by several walls "
+            << several << "\n";
   EXPECT_GT(triangles, 300);
   EXPECT_GT(crossed, 50);
   EXPECT_GT(triangles - crossed, 50);
