@@ -20,7 +20,6 @@ class Integer_scale {
     for (const auto& p : points)
       for (const double x : p) {
         if (x == 0) continue;
-        constexpr int bits = std::numeric_limits<double>::digits;
         int exponent = 0;
         const auto mantissa =
             static_cast<std::uint64_t>(std::ldexp(std::abs(std::frexp(x, &exponent)), bits));
@@ -35,7 +34,9 @@ class Integer_scale {
   }
 
  private:
-  int lowest_ = 0, highest_ = 0;  ///< powers of two: of the last digit, and above the first
+  static constexpr int bits = std::numeric_limits<double>::digits;
+  /// Powers of two: of the last digit, and above the first.
+  int lowest_ = 0, highest_ = std::numeric_limits<double>::min_exponent - bits;
 };
 
 }  // namespace cellwalk::test
