@@ -2,11 +2,11 @@
 #include "edge/moving_segment.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "edge/segment_passings.h"
 
 namespace cellwalk::oracle {
 namespace {
@@ -14,20 +14,8 @@ namespace {
 template <std::size_t D>
 using Vec = std::array<Big, D>;
 
-/// Twice the area of the triangle pqx.
-Big area(const Vec<2>& p, const Vec<2>& q, const Vec<2>& x) {
-  const Vec<2> u = minus(q, p), v = minus(x, p);
-  return u[0] * v[1] - u[1] * v[0];
-}
-
 Big at(const Values& f, const Share& time) {
   return (time.denominator - time.numerator) * f.at_a + time.numerator * f.at_b;
-}
-
-/// Where a function vanishes that has these values at 0 and 1, not the same.
-Share root(const Big& at_0, const Big& at_1) {
-  if (at_0 > at_1) return {at_0, at_0 - at_1};
-  return {-at_0, at_1 - at_0};
 }
 
 struct Span {
@@ -157,86 +145,9 @@ int Moving_segment<D>::facet_of(std::uint32_t half_facet) const {
 }
 
 template <int D>
-typename Moving_segment<D>::Points Moving_segment<D>::vertices() const {
-  Points points;
-  for (const std::uint32_t c : cells_)
-    for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f)
-      for (const std::uint32_t v : complex_.soup.facet(f)) {
-        const auto [found, is_new] = points.try_emplace(v);
-        if (!is_new) continue;
-        for (int i = 0; i < D; ++i) found->second[i] = complex_.points[v][i] << extra_shift_;
-      }
-  return points;
-}
-
-template <int D>
-void Moving_segment<D>::add_passing(std::vector<Share>& times, const std::array<Vec<2>, 3>& abq,
-                                    const Vec<2>& x) const {
-  const auto& [a, b, q] = abq;
-  const Big at_a = area(a, q, x), at_b = area(b, q, x);
-  // Not the points outside a triangle: beyond ab, or on the other side of q.
-  const int turn = sign(area(a, b, q));
-  if (turn * sign(at_a) > 0 || turn * sign(at_b) < 0 || turn * sign(area(a, b, x)) < 0) return;
-  add_critical(times, at_a, at_b);
-}
-
-template <int D>
-void Moving_segment<D>::add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const {
-  if (at_a == at_b || sign(at_a) * sign(at_b) > 0) return;
-  Share t = root(at_a, at_b);
-  const Big divisor = gcd(t.numerator, t.denominator);
-  times.push_back({t.numerator / divisor, t.denominator / divisor});
-}
-
-template <int D>
-void Moving_segment<D>::add_features(std::vector<Share>& times) const {
-  const auto points = vertices();
-  if constexpr (D == 2) {
-    for (const auto& [v, x] : points) add_passing(times, {a_, b_, q_}, x);
-  } else {
-    add_edges(times, points);
-  }
-}
-
-template <int D>
-void Moving_segment<D>::add_edges(std::vector<Share>& times, const Points& points) const requires(D == 3) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const std::uint32_t c : cells_)
-    for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f) {
-      const auto loop = complex_.soup.facet(f);
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        edges.insert(std::minmax(loop[i], loop[(i + 1) % loop.size()]));
-    }
-  const Vec<3> normal = cross(minus(b_, a_), minus(q_, a_));
-  std::size_t axis = 0;
-  while (axis < 2 && normal[axis] == 0) ++axis;
-  const bool is_triangle = normal[axis] != 0;
-  const auto drop = [axis](const Vec<3>& x) { return Vec<2>{x[(axis + 1) % 3], x[(axis + 2) % 3]}; };
-  const std::array<Vec<2>, 3> corners{drop(a_), drop(b_), drop(q_)};
-  std::map<std::uint32_t, int> sides;  // of the plane of the triangle
-  for (const auto& [v, x] : points) {
-    sides[v] = sign(dot(normal, minus(x, a_)));
-    if (sides[v] == 0) add_passing(times, corners, drop(x));
-  }
-  for (const auto& [u, v] : edges) {
-    // Passes the plane of the triangle nowhere, or in a vertex.
-    if (is_triangle && sides[u] * sides[v] >= 0) continue;
-    const Vec<3>& x = points.at(u);
-    const Vec<3> along = minus(points.at(v), x), to_a = minus(a_, x);
-    const Vec<3> across = cross(minus(q_, x), along);
-    const Big at_a = dot(across, to_a), at_b = dot(across, minus(b_, x));
-    if (sign(at_a) * sign(at_b) > 0) continue;
-    // Where the line of the edge meets the triangle, it passes its three sides in the same turn.
-    const int turn = sign(at_b) == 0 ? -sign(at_a) : sign(at_b);
-    if (is_triangle && turn * sign(dot(cross(minus(b_, x), along), to_a)) < 0) continue;
-    add_critical(times, at_a, at_b);
-  }
-}
-
-template <int D>
 std::vector<Share> Moving_segment<D>::critical_times() const {
   std::vector<Share> times{{0, 1}, {1, 1}};
-  add_features(times);
+  add_passings(times, complex_, cells_, extra_shift_, {a_, b_, q_});
   const auto add_way = [&](const std::vector<Values>& functions) {
     Span span;
     if (!clip_way(span, functions)) return;
@@ -246,7 +157,7 @@ std::vector<Share> Moving_segment<D>::critical_times() const {
   for (const auto& planes : planes_) add_way(planes);
   for (const Facet& f : facets_) add_way(f.sides);
   // p is at q where their distance along each axis is 0; a time at which one of these vanishes will do.
-  for (int i = 0; i < D; ++i) add_critical(times, a_[i] - q_[i], b_[i] - q_[i]);
+  for (int i = 0; i < D; ++i) add_root(times, a_[i] - q_[i], b_[i] - q_[i]);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "edge/integer_complex.h"
@@ -76,16 +75,7 @@ class Moving_segment {
     std::vector<Values> sides;  ///< the plane twice, once turned round, then the rims
   };
 
-  using Points = std::map<std::uint32_t, std::array<Big, D>>;
-
   Values values(const Affine<D, Big>& f) const;
-  void add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const;
-  /// The time at which the segment passes x, both in the plane of the triangle. Its corners.
-  void add_passing(std::vector<Share>& times, const std::array<std::array<Big, 2>, 3>& abq,
-                   const std::array<Big, 2>& x) const;
-  Points vertices() const;  ///< of the cells
-  void add_features(std::vector<Share>& times) const;
-  void add_edges(std::vector<Share>& times, const Points& points) const requires(D == 3);
 
   const Integer_complex<D>& complex_;
   int extra_shift_ = 0;

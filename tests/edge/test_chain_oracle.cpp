@@ -163,8 +163,8 @@ TEST(ChainOracle, AnEndMovesInTheLineOfTheEdge) {
 TEST(ChainOracle, AnEdgePassesAMembraneInItsLine) {
   const Case<3> passes{{0.5, 1, 1.5}, {1.5, 1, 1.5}, {1, 1, 0.5}, {4, 0}};
   const Scene<3> two_walls(make_cubes(2, 2, 2), {{0, 1}, {2, 3}});
-  EXPECT_FALSE(Wall_list<3>(two_walls.snapshot).is_crossed(passes.a, passes.b, passes.q))
-      << "no wall crosses by itself";
+  const Wall_list<3> list(two_walls.snapshot);
+  EXPECT_FALSE(list.is_crossed(passes.a, passes.b, passes.q)) << "no wall crosses by itself";
   expect_blocked(two_walls, passes, {1, 2});
   // Round the rim of one wall there is a way.
   expect_free({make_cubes(2, 2, 2), {{0, 1}}}, passes);
