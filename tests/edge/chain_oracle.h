@@ -49,7 +49,7 @@ class Chain_oracle {
   const Cell_soup<D>& soup() const { return complex_.soup; }
 
   /// \throw std::invalid_argument if the chain before is none, or the way of p is impossible
-  /// Cost: some 0.1 ms a critical time, of which there are about six.
+  /// Cost: some 0.2 ms, most of it for cutting the segment at its critical times and between them.
   Outcomes judge(const Edge_motion<D>& motion) const;
 
   /// True if a chain is one of the ends among the outcomes of this motion: it is passed by the edge where p ends, and equal to a chain

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "edge/rational_sweep.h"
+#include "edge/wall_list.h"
 #include "walk/oracle_worlds.h"
 
 namespace cellwalk::test {
@@ -27,6 +27,7 @@ class Edge_world {
       : world(std::move(w)),
         snapshot(Snapshot<D>::compile(world.soup, glue(world.soup))),
         locator(snapshot),
+        walls(snapshot),
         generic_(generic),
         source_(world, seed) {}
   Edge_world(const Edge_world&) = delete;  // the source refers to the world
@@ -50,6 +51,7 @@ class Edge_world {
   const oracle::World<D> world;
   const Snapshot<D> snapshot;
   const Locator<D> locator;
+  const Wall_list<D> walls;
   bool slides = false;  ///< all edges lie in the plane of a wall and move within it
 
  private:
@@ -65,26 +67,6 @@ class Edge_world {
   oracle::Motion_kind kind_{};
   oracle::Motion_source<D> source_;
 };
-
-template <int D>
-std::vector<Point<D>> polygon(const Snapshot<D>& snapshot, Half_facet f) {
-  std::vector<Point<D>> points;
-  for (const std::uint32_t v : snapshot.loop(f)) points.push_back(snapshot.point(v));
-  return points;
-}
-
-/// True if a wall crosses the open triangle abq, by brute force over all walls.
-template <int D>
-bool is_crossed(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, const Point<D>& q) {
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
-    const Cell c = snapshot.cell(i);
-    for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(c, f);
-      if (snapshot.is_impassable(facet) && crosses(a, b, q, polygon(snapshot, facet))) return true;
-    }
-  }
-  return false;
-}
 
 /// Follows a chain through passable facets from one cell to the other.
 template <int D>

@@ -20,24 +20,6 @@
 
 namespace cellwalk::test {
 
-/// All walls of a world, each once.
-struct Walls {
-  std::vector<Half_facet> facets;
-  std::vector<std::vector<Point<3>>> polygons;
-
-  explicit Walls(const Snapshot<3>& snapshot) {
-    for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
-      const Cell c = snapshot.cell(i);
-      for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
-        const Half_facet facet = Snapshot<3>::half_facet(c, f), other = snapshot.opposite(facet);
-        if (!snapshot.is_impassable(facet) || (other != Half_facet::none && other < facet)) continue;
-        facets.push_back(facet);
-        polygons.push_back(polygon(snapshot, facet));
-      }
-    }
-  }
-};
-
 struct Seen {
   int registered = 0, pierced = 0, pierced_together = 0;
   int sweeps = 0, hits = 0, face_only = 0, through_vertex = 0, at_once = 0, inside_hits = 0;
@@ -53,8 +35,8 @@ using Sides = std::map<std::size_t, int>;
 
 class Judge {
  public:
-  Judge(const Snapshot<3>& snapshot, std::string name, const Walls& walls, Face_body& body, bool generic,
-        Seen& seen)
+  Judge(const Snapshot<3>& snapshot, std::string name, const Wall_list<3>& walls, Face_body& body,
+        bool generic, Seen& seen)
       : snapshot_(snapshot),
         name_(std::move(name)),
         walls_(walls),
@@ -201,7 +183,7 @@ class Judge {
 
   const Snapshot<3>& snapshot_;
   const std::string name_;
-  const Walls& walls_;
+  const Wall_list<3>& walls_;
   Face_body& body_;
   bool generic_;
   Seen& seen_;
@@ -209,7 +191,8 @@ class Judge {
 };
 
 /// Registering says that a face is pierced if a wall pierces it; and else only where two walls meet in its plane.
-inline void check_piercing(const Walls& walls, Face_body& body, bool is_valid, bool generic, Seen& seen) {
+inline void check_piercing(const Wall_list<3>& walls, Face_body& body, bool is_valid, bool generic,
+                           Seen& seen) {
   bool is_pierced = false;
   for (const auto& wall : walls.polygons) is_pierced |= pierces(body.triangle(), wall);
   ++seen.registered;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge/integer_complex.h"
 
+#include <cmath>
+#include <optional>
+
 namespace cellwalk::oracle {
 namespace {
 
@@ -39,7 +42,37 @@ void add_functions(const std::vector<Vec<3>>& loop, Integer_complex<3>& complex)
   }
 }
 
+constexpr int limb_bits = 64;
+static_assert(sizeof(boost::multiprecision::limb_type) * 8 == limb_bits);
+
+/// |x| / 2^(limb_bits * (limbs - 1)) by its two leading limbs: off by less than a share of 2^-51, one half for what they are
+/// rounded to and the rest for what is left out and for the sum.
+double leading(const Big& x) {
+  const auto* limbs = x.backend().limbs();
+  const auto size = x.backend().size();
+  const auto top = static_cast<double>(limbs[size - 1]);
+  return size == 1 ? top : top + std::ldexp(static_cast<double>(limbs[size - 2]), -limb_bits);
+}
+
+/// A fraction but for a share of 2^-49: those of two numbers and of their quotient. No value if it is very large or small.
+std::optional<double> estimate(const Share& s) {
+  if (s.numerator == 0) return 0.0;
+  constexpr int most_limbs = 8;  // far from where doubles end
+  const int limbs =
+      static_cast<int>(s.numerator.backend().size()) - static_cast<int>(s.denominator.backend().size());
+  if (std::abs(limbs) > most_limbs) return {};
+  const double size = std::ldexp(leading(s.numerator) / leading(s.denominator), limb_bits * limbs);
+  return s.numerator < 0 ? -size : size;
+}
+
 }  // namespace
+
+int order(const Share& s, const Share& t) {
+  constexpr double error = 0x1p-47;  // more than those of both together
+  const auto x = estimate(s), y = estimate(t);
+  if (x && y && std::abs(*x - *y) > error * std::max(std::abs(*x), std::abs(*y))) return *x < *y ? -1 : 1;
+  return Big(s.numerator * t.denominator).compare(Big(t.numerator * s.denominator));
+}
 
 Share exact_share(double x) {
   const Dyadic d = to_dyadic(x);

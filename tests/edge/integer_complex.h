@@ -29,8 +29,10 @@ struct Product<Big> {
 /// A time, or a parameter along the segment from p (0) to q (1).
 using Share = Fraction<Big>;
 
-inline bool operator<(const Share& s, const Share& t) { return compare(s, t) < 0; }
-inline bool operator==(const Share& s, const Share& t) { return compare(s, t) == 0; }
+/// Sign of s - t: by leading digits where they decide it, else by products.
+int order(const Share& s, const Share& t);
+inline bool operator<(const Share& s, const Share& t) { return order(s, t) < 0; }
+inline bool operator==(const Share& s, const Share& t) { return order(s, t) == 0; }
 
 /// A double as a fraction.
 Share exact_share(double x);

@@ -2,11 +2,11 @@
 #include "edge/moving_segment.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "edge/segment_passings.h"
 
 namespace cellwalk::oracle {
 namespace {
@@ -14,20 +14,8 @@ namespace {
 template <std::size_t D>
 using Vec = std::array<Big, D>;
 
-/// Twice the area of the triangle pqx.
-Big area(const Vec<2>& p, const Vec<2>& q, const Vec<2>& x) {
-  const Vec<2> u = minus(q, p), v = minus(x, p);
-  return u[0] * v[1] - u[1] * v[0];
-}
-
 Big at(const Values& f, const Share& time) {
   return (time.denominator - time.numerator) * f.at_a + time.numerator * f.at_b;
-}
-
-/// Where a function vanishes that has these values at 0 and 1, not the same.
-Share root(const Big& at_0, const Big& at_1) {
-  if (at_0 > at_1) return {at_0, at_0 - at_1};
-  return {-at_0, at_1 - at_0};
 }
 
 struct Span {
@@ -50,9 +38,17 @@ bool clip(Span& span, const Big& at_0, const Big& at_1, const Values* maker) {
   return !(span.high < span.low);
 }
 
+/// The sign that a function has all along the triangle, its corners included; 2 if it changes. 0 counts as negative.
+int common_sign(const Values& f) {
+  const int positive = (f.at_a > 0) + (f.at_b > 0) + (f.at_q > 0);
+  return positive == 0 ? -1 : positive == 3 ? 1 : 2;
+}
+
 bool clip(Span& span, const std::vector<Values>& functions, const Share& time) {
-  return std::all_of(functions.begin(), functions.end(),
-                     [&](const Values& f) { return clip(span, at(f, time), time.denominator * f.at_q, &f); });
+  return std::all_of(functions.begin(), functions.end(), [&](const Values& f) {
+    const int sign = common_sign(f);
+    return sign == 2 ? clip(span, at(f, time), time.denominator * f.at_q, &f) : sign < 0;
+  });
 }
 
 /// The times at which p is where no function is positive.
@@ -149,55 +145,9 @@ int Moving_segment<D>::facet_of(std::uint32_t half_facet) const {
 }
 
 template <int D>
-void Moving_segment<D>::add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const {
-  if (at_a == at_b || at_a * at_b > 0) return;
-  Share t = root(at_a, at_b);
-  const Big divisor = gcd(t.numerator, t.denominator);
-  times.push_back({t.numerator / divisor, t.denominator / divisor});
-}
-
-template <int D>
-void Moving_segment<D>::add_features(std::vector<Share>& times) const {
-  std::set<std::uint32_t> vertices;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const std::uint32_t c : cells_)
-    for (std::size_t f = complex_.soup.cell_begin[c]; f < complex_.soup.cell_begin[c + 1]; ++f) {
-      const auto loop = complex_.soup.facet(f);
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        vertices.insert(loop[i]);
-        edges.insert(std::minmax(loop[i], loop[(i + 1) % loop.size()]));
-      }
-    }
-  std::map<std::uint32_t, Vec<D>> points;
-  for (const std::uint32_t v : vertices) {
-    Vec<D>& point = points[v];
-    for (int i = 0; i < D; ++i) point[i] = complex_.points[v][i] << extra_shift_;
-  }
-  if constexpr (D == 2) {
-    for (const auto& [v, x] : points) add_critical(times, area(a_, q_, x), area(b_, q_, x));
-  } else {
-    const Vec<3> normal = cross(minus(b_, a_), minus(q_, a_));
-    std::size_t axis = 0;
-    while (axis < 2 && normal[axis] == 0) ++axis;
-    const auto drop = [axis](const Vec<3>& x) { return Vec<2>{x[(axis + 1) % 3], x[(axis + 2) % 3]}; };
-    std::map<std::uint32_t, int> sides;  // of the plane of the triangle
-    for (const auto& [v, x] : points) {
-      sides[v] = sign(dot(normal, minus(x, a_)));
-      if (sides[v] != 0) continue;
-      add_critical(times, area(drop(a_), drop(q_), drop(x)), area(drop(b_), drop(q_), drop(x)));
-    }
-    for (const auto& [u, v] : edges) {
-      if (sides[u] * sides[v] > 0) continue;  // passes the plane of the triangle nowhere
-      const Vec<3> across = cross(minus(q_, points[u]), minus(points[v], points[u]));
-      add_critical(times, dot(across, minus(a_, points[u])), dot(across, minus(b_, points[u])));
-    }
-  }
-}
-
-template <int D>
 std::vector<Share> Moving_segment<D>::critical_times() const {
   std::vector<Share> times{{0, 1}, {1, 1}};
-  add_features(times);
+  add_passings(times, complex_, cells_, extra_shift_, {a_, b_, q_});
   const auto add_way = [&](const std::vector<Values>& functions) {
     Span span;
     if (!clip_way(span, functions)) return;
@@ -207,7 +157,7 @@ std::vector<Share> Moving_segment<D>::critical_times() const {
   for (const auto& planes : planes_) add_way(planes);
   for (const Facet& f : facets_) add_way(f.sides);
   // p is at q where their distance along each axis is 0; a time at which one of these vanishes will do.
-  for (int i = 0; i < D; ++i) add_critical(times, a_[i] - q_[i], b_[i] - q_[i]);
+  for (int i = 0; i < D; ++i) add_root(times, a_[i] - q_[i], b_[i] - q_[i]);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

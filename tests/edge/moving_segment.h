@@ -57,8 +57,7 @@ class Moving_segment {
   const std::vector<std::uint32_t>& cells() const { return cells_; }
 
   /// All times in [0,1] at which the combinatorics of cut() may change, ascending, 0 and 1 included: p enters or leaves a
-  /// cell or facet or is at q; the segment passes a vertex (2D) or the line of an edge (3D), or a vertex in the plane in which
-  /// it moves.
+  /// cell or facet or is at q; the segment passes a vertex (2D) or an edge (3D), or a vertex in the plane in which it moves.
   std::vector<Share> critical_times() const;
   Cut cut(const Share& time) const;
   /// Where a point that cuts the segments of an open interval between critical times ends up at one of its ends.
@@ -77,8 +76,6 @@ class Moving_segment {
   };
 
   Values values(const Affine<D, Big>& f) const;
-  void add_critical(std::vector<Share>& times, const Big& at_a, const Big& at_b) const;
-  void add_features(std::vector<Share>& times) const;
 
   const Integer_complex<D>& complex_;
   int extra_shift_ = 0;

@@ -2,8 +2,11 @@
 #include "edge/rational_face.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
+
+#include "edge/integer_scale.h"
 
 namespace cellwalk::test {
 namespace {
@@ -11,12 +14,24 @@ namespace {
 using Vec = std::array<Fraction, 3>;
 using Polygon = std::vector<Vec>;
 
-Vec exact(const Point<3>& p) { return {Fraction(p[0]), Fraction(p[1]), Fraction(p[2])}; }
-
-Polygon exact(std::span<const Point<3>> points) {
-  Polygon r;
-  for (const auto& p : points) r.push_back(exact(p));
+/// Points times a power of two, which makes no difference to what is asked.
+Vec exact(const Point<3>& p, int exponent = 0) {
+  Vec r;
+  for (std::size_t i = 0; i < 3; ++i) r[i] = Fraction(std::ldexp(p[i], exponent));
   return r;
+}
+
+Polygon exact(std::span<const Point<3>> points, int exponent = 0) {
+  Polygon r;
+  for (const auto& p : points) r.push_back(exact(p, exponent));
+  return r;
+}
+
+int exponent_for(std::span<const Point<3>> points, std::span<const Point<3>> more) {
+  Integer_scale scale;
+  scale.add<3>(points);
+  scale.add<3>(more);
+  return scale.exponent();
 }
 
 Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -27,6 +42,7 @@ Vec cross(const Vec& a, const Vec& b) {
 Vec on(const Vec& a, const Vec& b, const Fraction& t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
+int sign(const Fraction& x) { return (x > 0) - (x < 0); }
 Fraction root_of(const Fraction& at_0, const Fraction& at_1) { return at_0 / (at_0 - at_1); }
 bool is_zero(const Vec& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 Fraction volume(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
@@ -94,6 +110,14 @@ bool is_overlapped(const Polygon& face, const Polygon& facet) {
   return !is_parted(face, n, facet) && !is_parted(facet, normal(facet), face);
 }
 
+/// True if a polygon lies on the other side of the plane xyz than a further corner of a tetrahedron, or in it.
+bool is_outside(const Vec& x, const Vec& y, const Vec& z, const Vec& corner, const Polygon& polygon) {
+  const Vec n = cross(minus(y, x), minus(z, x));
+  const int inner = sign(dot(n, minus(corner, x)));
+  return std::all_of(polygon.begin(), polygon.end(),
+                     [&](const Vec& v) { return sign(dot(n, minus(v, x))) * inner <= 0; });
+}
+
 /// True if the boxes of a face with a further point and of a facet are apart.
 bool boxes_apart(const Triangle& face, const Point<3>& b, std::span<const Point<3>> facet) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -113,24 +137,26 @@ bool boxes_apart(const Triangle& face, const Point<3>& b, std::span<const Point<
 }  // namespace
 
 bool pierces(const Triangle& face, std::span<const Point<3>> facet) {
-  return !boxes_apart(face, face[0], facet) &&
-         is_pierced(exact(std::span<const Point<3>>(face)), exact(facet));
+  if (boxes_apart(face, face[0], facet)) return false;
+  const int exponent = exponent_for(face, facet);
+  return is_pierced(exact(face, exponent), exact(facet, exponent));
 }
 
 bool overlaps_in_plane(const Triangle& face, std::span<const Point<3>> facet) {
-  return !boxes_apart(face, face[0], facet) &&
-         is_overlapped(exact(std::span<const Point<3>>(face)), exact(facet));
+  if (boxes_apart(face, face[0], facet)) return false;
+  const int exponent = exponent_for(face, facet);
+  return is_overlapped(exact(face, exponent), exact(facet, exponent));
 }
 
 int side_of_plane(std::span<const Point<3>> facet, const Point<3>& x) {
   const Polygon polygon = exact(facet);
   const Fraction height = dot(normal(polygon), minus(exact(x), polygon[0]));
-  return (height > 0) - (height < 0);
+  return sign(height);
 }
 
 int orientation_of(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
   const Fraction v = volume(exact(a), exact(b), exact(c), exact(d));
-  return (v > 0) - (v < 0);
+  return sign(v);
 }
 
 bool on_one_line(const Triangle& face) { return is_zero(normal(exact(std::span<const Point<3>>(face)))); }
@@ -138,15 +164,18 @@ bool on_one_line(const Triangle& face) { return is_zero(normal(exact(std::span<c
 std::optional<Fraction> first_piercing(const Triangle& face, std::size_t k, const Point<3>& b,
                                        std::span<const Point<3>> facet) {
   if (boxes_apart(face, b, facet)) return {};
-  const Polygon polygon = exact(facet);
-  const Vec from = exact(face[k]), to = exact(b), q = exact(face[(k + 1) % 3]), r = exact(face[(k + 2) % 3]);
-  const std::array<Vec, 4> swept{from, to, q, r};
+  const std::array<Point<3>, 4> corners{face[k], b, face[(k + 1) % 3], face[(k + 2) % 3]};
+  const int exponent = exponent_for(corners, facet);
+  const Polygon polygon = exact(facet, exponent), swept = exact(corners, exponent);
+  const Vec &from = swept[0], &to = swept[1], &q = swept[2], &r = swept[3];
   const Vec n = normal(polygon);
   const auto is_beside = [&](int sign) {
     return std::all_of(swept.begin(), swept.end(),
                        [&](const Vec& x) { return sign * dot(n, minus(x, polygon[0])) >= 0; });
   };
   if (is_beside(1) || is_beside(-1)) return {};  // on one side of the facet
+  for (std::size_t i = 0; i < swept.size(); ++i)
+    if (is_outside(swept[i], swept[(i + 1) % 4], swept[(i + 2) % 4], swept[(i + 3) % 4], polygon)) return {};
   std::set<Fraction> times{0, 1};
   const auto note = [&](const Vec& x, const Vec& y, const Vec& z) {
     const Fraction at_0 = volume(from, x, y, z), at_1 = volume(to, x, y, z);

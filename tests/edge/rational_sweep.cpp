@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge/rational_sweep.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
+
+#include "edge/integer_scale.h"
 
 namespace cellwalk::test {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 template <std::size_t D>
 using Vec = std::array<Rational, D>;
 
 template <std::size_t D>
-Vec<D> exact(const std::array<double, D>& p) {
+Vec<D> exact(const std::array<double, D>& p, int exponent = 0) {
   Vec<D> r;
-  for (std::size_t i = 0; i < D; ++i) r[i] = Rational(p[i]);
+  for (std::size_t i = 0; i < D; ++i) r[i] = Rational(std::ldexp(p[i], exponent));
   return r;
 }
 
@@ -62,9 +67,9 @@ Vec<3> normal(const std::vector<Vec<3>>& facet) {
 }
 
 template <std::size_t D>
-std::vector<Vec<D>> exact(std::span<const std::array<double, D>> points) {
+std::vector<Vec<D>> exact(std::span<const std::array<double, D>> points, int exponent = 0) {
   std::vector<Vec<D>> r;
-  for (const auto& p : points) r.push_back(exact(p));
+  for (const auto& p : points) r.push_back(exact(p, exponent));
   return r;
 }
 
@@ -198,48 +203,77 @@ std::optional<std::array<Vec<3>, 2>> overlap(const Vec<3>& a, const Vec<3>& b, c
   return ends;
 }
 
+/// A triangle and a facet in exact numbers: integers if the coordinates are not too far apart, since these are faster. The unit
+/// makes no difference to what is asked.
 template <std::size_t D>
-std::optional<std::array<Vec<D>, 2>> overlap_of(const std::array<double, D>& a,
-                                                const std::array<double, D>& b,
-                                                const std::array<double, D>& q,
-                                                std::span<const std::array<double, D>> facet) {
-  if (boxes_apart<D>({a, b, q}, facet)) return {};
-  return overlap(exact(a), exact(b), exact(q), exact<D>(facet));
+struct Exact_pair {
+  Vec<D> a, b, q;
+  std::vector<Vec<D>> facet;
+
+  Exact_pair(const std::array<std::array<double, D>, 3>& triangle,
+             std::span<const std::array<double, D>> points) {
+    Integer_scale scale;
+    scale.add<D>(triangle);
+    scale.add<D>(points);
+    const int exponent = scale.exponent();
+    a = exact(triangle[0], exponent);
+    b = exact(triangle[1], exponent);
+    q = exact(triangle[2], exponent);
+    facet = exact<D>(points, exponent);
+  }
+};
+
+/// The nearest double. \pre x >= 0
+double nearest(const Rational& x) {
+  // The conversion cuts off.
+  const double low = static_cast<double>(x),
+               high = std::nextafter(low, std::numeric_limits<double>::infinity());
+  return x - low <= high - x ? low : high;
 }
 
 template <std::size_t D>
-std::optional<double> first(const std::array<double, D>& a, const std::array<double, D>& b,
-                            const std::array<double, D>& q, std::span<const std::array<double, D>> facet) {
-  const auto ends = overlap_of<D>(a, b, q, facet);
+bool crosses_facet(const std::array<std::array<double, D>, 3>& abq,
+                   std::span<const std::array<double, D>> facet) {
+  if (boxes_apart<D>(abq, facet)) return false;
+  const Exact_pair<D> pair(abq, facet);
+  return overlap(pair.a, pair.b, pair.q, pair.facet).has_value();
+}
+
+template <std::size_t D>
+std::optional<double> first(const std::array<std::array<double, D>, 3>& abq,
+                            std::span<const std::array<double, D>> facet) {
+  if (boxes_apart<D>(abq, facet)) return {};
+  const auto [a, b, q, points] = Exact_pair<D>(abq, facet);
+  const auto ends = overlap(a, b, q, points);
   if (!ends) return {};
   // Along a line in the triangle the time is monotonous, and constant where the line passes q.
   std::optional<Rational> first;
   for (const Vec<D>& x : *ends) {
-    if (x == exact(q)) continue;
-    const Rational time = time_of(exact(a), exact(b), exact(q), x);
+    if (x == q) continue;
+    const Rational time = time_of(a, b, q, x);
     if (!first || time < *first) first = time;
   }
-  return static_cast<double>(*first);
+  return nearest(*first);
 }
 
 }  // namespace
 
 bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& q, std::span<const Point<2>> facet) {
-  return overlap_of<2>(a, b, q, facet).has_value();
+  return crosses_facet<2>({a, b, q}, facet);
 }
 
 bool crosses(const Point<3>& a, const Point<3>& b, const Point<3>& q, std::span<const Point<3>> facet) {
-  return overlap_of<3>(a, b, q, facet).has_value();
+  return crosses_facet<3>({a, b, q}, facet);
 }
 
 std::optional<double> first_crossing(const Point<2>& a, const Point<2>& b, const Point<2>& q,
                                      std::span<const Point<2>> facet) {
-  return first<2>(a, b, q, facet);
+  return first<2>({a, b, q}, facet);
 }
 
 std::optional<double> first_crossing(const Point<3>& a, const Point<3>& b, const Point<3>& q,
                                      std::span<const Point<3>> facet) {
-  return first<3>(a, b, q, facet);
+  return first<3>({a, b, q}, facet);
 }
 
 bool meets_in_order(const Point<2>& p, const Point<2>& q, const std::vector<std::vector<Point<2>>>& facets) {

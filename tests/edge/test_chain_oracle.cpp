@@ -163,7 +163,8 @@ TEST(ChainOracle, AnEndMovesInTheLineOfTheEdge) {
 TEST(ChainOracle, AnEdgePassesAMembraneInItsLine) {
   const Case<3> passes{{0.5, 1, 1.5}, {1.5, 1, 1.5}, {1, 1, 0.5}, {4, 0}};
   const Scene<3> two_walls(make_cubes(2, 2, 2), {{0, 1}, {2, 3}});
-  EXPECT_FALSE(is_crossed(two_walls.snapshot, passes.a, passes.b, passes.q)) << "no wall crosses by itself";
+  const Wall_list<3> list(two_walls.snapshot);
+  EXPECT_FALSE(list.is_crossed(passes.a, passes.b, passes.q)) << "no wall crosses by itself";
   expect_blocked(two_walls, passes, {1, 2});
   // Round the rim of one wall there is a way.
   expect_free({make_cubes(2, 2, 2), {{0, 1}}}, passes);
@@ -173,7 +174,7 @@ TEST(ChainOracle, AnEdgePassesAMembraneInItsLine) {
 TEST(ChainOracle, WallsMeetInThePlaneOfTheTriangle) {
   const Case<3> between{{0.75, 1.75, 1}, {1.75, 1.5, 1}, {0.5, 0.25, 1}, {2, 0}};
   const Scene<3> two_walls(make_cubes(2, 2, 2), {{0, 1}, {4, 5}});
-  EXPECT_FALSE(is_crossed(two_walls.snapshot, between.a, between.b, between.q));
+  EXPECT_FALSE(Wall_list<3>(two_walls.snapshot).is_crossed(between.a, between.b, between.q));
   expect_blocked(two_walls, between, {9, 14});
   expect_free({make_cubes(2, 2, 2), {{0, 1}}}, between);
   // A wall, and at an angle to it a roof that leads into another.

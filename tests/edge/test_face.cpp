@@ -36,7 +36,6 @@ Seen sweep(bool generic) {
   Seen seen;
   for (std::uint64_t number = 0; number < worlds(generic); ++number) {
     Edge_world<3> w(number, generic);
-    const Walls walls(w.snapshot);
     for (int k = 0; k < 40; ++k) {
       const Particle<3> p = w.start();
       if (p.cell == Cell::none) continue;
@@ -45,9 +44,9 @@ Seen sweep(bool generic) {
       Face_body body(w.snapshot);
       const bool is_valid = body.place({p, q, r});
       if (body.counts.faces == 0) continue;  // an edge crosses a wall
-      check_piercing(walls, body, is_valid, generic, seen);
+      check_piercing(w.walls, body, is_valid, generic, seen);
       if (is_valid) {
-        Judge judge(w.snapshot, w.world.name, walls, body, generic, seen);
+        Judge judge(w.snapshot, w.world.name, w.walls, body, generic, seen);
         for (std::size_t step = 0; step < 9; ++step) {
           w.choose_kind();
           judge.move(step % 3, w.target(body.corner(step % 3)));
@@ -77,7 +76,7 @@ Seen sweep_among_spikes() {
       for (std::size_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) soup.impassable[f] = 1;
     }
     const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
-    const Walls walls(snapshot);
+    const Wall_list<3> walls(snapshot);
     const Locator<3> locator(snapshot);
     const auto anywhere = [&] {
       return Point<3>{random.real(0.3, 3.7), random.real(0.3, 3.7), random.real(0.3, 3.7)};

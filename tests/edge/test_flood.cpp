@@ -26,7 +26,7 @@ Seen flood(bool generic) {
       w.choose_kind();
       const Point<D> q = w.target(p);
       const bool clear = is_clear<D>(w.snapshot, p.cell, {p.position, b, q}, counts, 1000);
-      const bool is_hit = is_crossed(w.snapshot, p.position, b, q);
+      const bool is_hit = w.walls.is_crossed(p.position, b, q);
       ++seen.triangles;
       seen.clear += clear;
       seen.crossed += is_hit;

@@ -7,7 +7,6 @@
 #include <iostream>
 
 #include "edge/edge_worlds.h"
-#include "edge/rational_sweep.h"
 
 namespace cellwalk::test {
 namespace {
@@ -39,7 +38,7 @@ Seen sweep(bool generic) {
         const std::uint64_t proved_before = seen.counts.same_cell + seen.counts.same_chain;
         edge = check_third_segment(w.snapshot, edge.chain, crossed, p, q, seen.counts);
         const bool proved = seen.counts.same_cell + seen.counts.same_chain > proved_before;
-        const bool is_hit = is_crossed(w.snapshot, a, p.position, q.position);
+        const bool is_hit = w.walls.is_crossed(a, p.position, q.position);
         ++seen.sweeps;
         seen.blocked += edge.contact.has_value();
         seen.crossed += is_hit;

@@ -58,7 +58,7 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   seen.choices += outcomes.choices > 0;
   seen.long_chains += before.size() >= 8;
   if (way.blocked) return;
-  seen.only_together += result.contact && !is_crossed(w.snapshot, motion.a, motion.b, motion.q);
+  seen.only_together += result.contact && !w.walls.is_crossed(motion.a, motion.b, motion.q);
   seen.at_once += result.contact && result.contact->time == 0;
   // A weaker sweep must not satisfy the oracle.
   Walk_counts counts;
@@ -111,30 +111,33 @@ void report(const std::string& name, const Seen& seen) {
             << ", of the third side " << count(seen.faults_of_third_side) << "\n";
 }
 
+/// Other worlds than those of test_triangle.cpp, at any length of the tests.
+constexpr std::uint64_t first_world = 1'000'000 * oracle::world_kinds;
+
 template <int D>
 void test_worlds() {
-  const std::size_t worlds = oracle::scaled_count(2 * oracle::world_kinds);
+  const std::size_t worlds = oracle::scaled_count(6 * oracle::world_kinds);
   for (const bool generic : {true, false}) {
     Seen seen;
     int beside = 0;
     for (std::uint64_t number = 0; number < worlds; ++number) {
-      Edge_world<D> w(number, generic);
+      Edge_world<D> w(first_world + number, generic);
       beside += walls_beside_ways(w.snapshot);
       sweep(w, D == 2 ? 60 : 40, seen);
     }
     report(std::to_string(D) + (generic ? "D, generic" : "D, degenerate"), seen);
-    if (worlds < 2 * oracle::world_kinds) continue;  // too few to meet everything
-    EXPECT_GT(seen.judged, 1500);
-    EXPECT_GT(seen.must_block, 100);
-    EXPECT_GT(seen.p_blocked, 500);
-    EXPECT_GT(seen.counts.event_sweeps, 500u);
-    EXPECT_GT(misses(seen.faults_of_third_side), 1);
+    if (worlds < 6 * oracle::world_kinds) continue;  // too few to meet everything
+    EXPECT_GT(seen.judged, 4'000);
+    EXPECT_GT(seen.must_block, 300);
+    EXPECT_GT(seen.p_blocked, 1'500);
+    EXPECT_GT(seen.counts.event_sweeps, 1'500u);
+    EXPECT_GT(misses(seen.faults_of_third_side), 5);
     if (generic) continue;
-    EXPECT_GT(beside, 5);
-    EXPECT_GT(seen.in_line, 500);
-    EXPECT_GT(seen.in_wall_free, 50);
-    EXPECT_GT(seen.only_together, 3);
-    EXPECT_GT(seen.at_once, 3);
+    EXPECT_GT(beside, 15);
+    EXPECT_GT(seen.in_line, 1'500);
+    EXPECT_GT(seen.in_wall_free, 300);
+    EXPECT_GT(seen.only_together, 10);
+    EXPECT_GT(seen.at_once, 80);
   }
 }
 
@@ -143,17 +146,17 @@ TEST(TriangleChains, AreRight3) { test_worlds<3>(); }
 
 template <int D>
 void test_spikes() {
-  const std::size_t worlds = oracle::scaled_count(12);
+  const std::size_t worlds = oracle::scaled_count(24);
   Seen seen;
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(spikes<D>(number), number, number % 4 == 3);
     sweep(w, 30, seen);
   }
   report(std::to_string(D) + "D, spikes", seen);
-  if (worlds < 12) return;
-  EXPECT_GT(seen.must_block, 50);
-  EXPECT_GT(seen.long_chains, 30);
-  EXPECT_GT(misses(seen.faults_of_third_side), 3);
+  if (worlds < 24) return;
+  EXPECT_GT(seen.must_block, 150);
+  EXPECT_GT(seen.long_chains, 80);
+  EXPECT_GT(misses(seen.faults_of_third_side), 10);
 }
 
 TEST(TriangleChains, AreRightAmongSpikes2) { test_spikes<2>(); }
@@ -162,7 +165,7 @@ TEST(TriangleChains, AreRightAmongSpikes3) { test_spikes<3>(); }
 /// Edges at rest in planes of walls slide there.
 template <int D>
 void test_sliding() {
-  const std::size_t worlds = oracle::scaled_count(12);
+  const std::size_t worlds = oracle::scaled_count(24);
   Seen seen;
   int beside = 0;
   for (std::uint64_t number = 0; number < worlds; ++number) {
@@ -172,11 +175,11 @@ void test_sliding() {
     sweep(w, 40, seen);
   }
   report(std::to_string(D) + "D, sliding", seen);
-  if (worlds < 12) return;
-  EXPECT_GT(seen.judged, 500);
-  EXPECT_GT(beside, 5);
-  EXPECT_GT(seen.in_wall_free, 100);
-  EXPECT_GT(D == 2 ? seen.in_line : seen.choices, 5);
+  if (worlds < 24) return;
+  EXPECT_GT(seen.judged, 2'000);
+  EXPECT_GT(beside, 15);
+  EXPECT_GT(seen.in_wall_free, 250);
+  EXPECT_GT(D == 2 ? seen.in_line : seen.choices, 10);
 }
 
 TEST(TriangleChains, AreRightWhereEdgesSlide2) { test_sliding<2>(); }
@@ -189,7 +192,7 @@ void test_critical_times() {
   for (std::uint64_t number = 0; number < oracle::scaled_count(oracle::world_kinds); ++number) {
     Edge_world<D> w(number, number % 3 == 0);
     const oracle::Integer_complex<D> complex(w.world.soup);
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 12; ++k) {
       const Particle<D> a = w.start();
       const Point<D> b = w.target(a), q = w.target(a);
       const oracle::Moving_segment<D> segment(complex, a.position, b, q);
