@@ -144,8 +144,9 @@ const std::deque<Blocked>& blocked() {
       const Chain_result<3> edge = find_chain(scene(), from, to, counts.walk);
       if (edge.contact) continue;
       const auto swept = sweep_edge(scene(), from, t, to, edge.chain, {}, counts);
-      if (swept.contact && swept.contact->body == Body_feature::edge)
-        found.push_back({from, to, t, edge.chain});
+      if (!swept.contact || swept.contact->body != Body_feature::edge) continue;
+      const Blocked motion{from, to, t, edge.chain};
+      found.push_back(motion);
     }
     return found;
   }();

@@ -4,7 +4,7 @@
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/drawing.h>
 #include <cellwalk/io/json_file.h>
-#include <cellwalk/kernel/exact_value.h>
+#include <cellwalk/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
 #include <fmt/core.h>
@@ -145,10 +145,8 @@ class Plot {
 
 /// When the edge passes an obstacle's vertex: where the orientation of p(s), q and the vertex is 0.
 Exact_time time_of(const Point<2>& vertex) {
-  Predicate_counts counts;
-  const Rational first = Exact_value::orientation(counts, a, q, vertex),
-                 last = Exact_value::orientation(counts, b, q, vertex);
-  return to_time(Rational(first / (first - last)));
+  const Ring first = Exact_value::orientation(a, q, vertex), last = Exact_value::orientation(b, q, vertex);
+  return to_time(Fraction(first, first - last));
 }
 
 /// The vertices of walls of the cells met that lie in the swept triangle, by their times.
@@ -160,10 +158,10 @@ std::map<Exact_time, Point<2>> vertices_inside(const Case& c) {
       if (!c.snapshot.is_impassable(f)) continue;
       for (const std::uint32_t v : c.snapshot.loop(f)) {
         const Point<2>& x = c.snapshot.point(v);
-        Predicate_counts counts;
         const auto side = [&](const Point<2>& from, const Point<2>& to, const Point<2>& third) {
-          return Rational(Exact_value::orientation(counts, from, to, x) *
-                          Exact_value::orientation(counts, from, to, third)) >= 0;
+          return CGAL::sign(Exact_value::orientation(from, to, x)) *
+                     CGAL::sign(Exact_value::orientation(from, to, third)) >=
+                 0;
         };
         if (side(a, b, q) && side(b, q, a) && side(q, a, b)) result.emplace(time_of(x), x);
       }

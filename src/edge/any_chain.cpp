@@ -17,11 +17,7 @@ template <int D>
 class All_ways {
  public:
   All_ways(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q, Walk_counts& counts)
-      : snapshot_(snapshot),
-        p_(p),
-        q_(q),
-        counts_(counts),
-        segment_(p.position, q.position) {}
+      : snapshot_(snapshot), p_(p), q_(q), counts_(counts), segment_(p.position, q.position) {}
 
   /// True if there is one; it is put into `chain`.
   bool find(Chain& chain) {

@@ -146,7 +146,7 @@ TEST(Body_step, RefusesFacesThatWallsPierce) {
 }
 
 TEST(Body_step, ABodyWithoutVerticesStaysOne) {
-  const Snapshot<3> snapshot = room<3>({2, 2, 2}, {});
+  const Snapshot<3> snapshot = rooms<3>({2, 2, 2}, {});
   Body<3> body(snapshot, Locator<3>(snapshot), {});
   std::vector<Body_contact<3>> contacts;
   Body_counts counts;
@@ -158,7 +158,7 @@ TEST(Body_step, ABodyWithoutVerticesStaysOne) {
 
 TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   // A solid cell at x from 10 to 11, y from 4 to 5.
-  const Snapshot<2> snapshot = room<2>({20, 20}, {90});
+  const Snapshot<2> snapshot = rooms<2>({20, 20}, {90});
   Body<2> body(snapshot, Locator<2>(snapshot), {{{9.5, 4.5}}, {}, {}});
   std::vector<Body_contact<2>> contacts;
   Body_counts counts;
@@ -176,7 +176,7 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
 }
 
 TEST(Body_step, AVertexThatStaysMeetsNothing) {
-  const Snapshot<2> snapshot = room<2>({2, 2}, {});
+  const Snapshot<2> snapshot = rooms<2>({2, 2}, {});
   const Body_soup<2> soup{
       {{0, 0}, {2, 0}, {1, 0}}, {{0, 1}, {1, 2}}, {}};  // along the floor, corner to corner
   Body<2> body(snapshot, Locator<2>(snapshot), soup);
