@@ -151,7 +151,18 @@ TEST_F(Run_bodies, ThreeSegmentsAreTheOtherSweep) {
   EXPECT_EQ(report("paper")["manifest"]["sweep"], "three_segments");
   EXPECT_EQ(report("paper")["body_counts"]["edges"]["floods"], 0) << "looks at no swept triangle";
   EXPECT_GT(report("triangle")["body_counts"]["edges"]["floods"], 100);
-  expect_failure(2, {"run", "flat.json", "-o", "out", "--sweep", "faces"}, {"--sweep"});
+  // In the plane there are no faces to sweep.
+  succeed({"run", "flat.json", "-o", "faces", "--sweep", "faces"});
+  EXPECT_EQ(text("faces/contacts.csv"), text("triangle/contacts.csv"));
+  expect_failure(2, {"run", "flat.json", "-o", "out", "--sweep", "none"}, {"--sweep"});
+}
+
+TEST_F(Run_bodies, FacesAreSweptOnRequest) {
+  run_grid();
+  succeed({"run", "grid.json", "-o", "faces", "--sweep", "faces"});
+  EXPECT_FALSE(report("out")["body_counts"].contains("faces"));
+  EXPECT_GT(report("faces")["body_counts"]["faces"]["swept"], 0);
+  EXPECT_EQ(report("faces")["validated"], true);
 }
 
 TEST_F(Run_bodies, TheShippedScenesRun) {
