@@ -16,6 +16,7 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
   in_region += other.in_region;
   regions += other.regions;
   no_region += other.no_region;
+  region_cells += other.region_cells;
   catch_ups += other.catch_ups;
   contacts += other.contacts;
   stop_tries += other.stop_tries;
@@ -27,7 +28,13 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : snapshot_(&snapshot), positions_(soup.points), edges_(soup.edges), faces_(soup.faces) {
+    : snapshot_(&snapshot),
+      positions_(soup.points),
+      edges_(soup.edges),
+      faces_(soup.faces),
+      is_outside_(soup.points.size()),
+      vertex_behind_(soup.points.size()),
+      edge_behind_(soup.edges.size()) {
   detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);
   particles_ = std::move(registered.particles);
   chains_ = std::move(registered.chains);
@@ -72,6 +79,9 @@ template <int D>
 std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
                                                  const Body_options& options, Body_counts& counts, bool any) {
   if (target == positions_[vertex] && are_faces_swept_) return {};
+  catch_up_vertex(vertex, counts);
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    catch_up_edge(corners_[i].edge, counts);
   const Particle<D> from = particles_[vertex];
   Particle<D> to = from;
   visited_.clear();
@@ -115,7 +125,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
   }
   particles_[vertex] = to;
-  positions_[vertex] = target;
+  place(vertex, target);
   return {};
 }
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_BODY_BODY_H
 #define CELLWALK_BODY_BODY_H
 
-#include <cellwalk/body/clearance.h>
+#include <cellwalk/body/clear_region.h>
 #include <cellwalk/edge/face.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/kernel/error.h>
@@ -36,11 +36,12 @@ struct Body_options {
 
 /// What the moves of bodies did. All counts are machine-independent.
 struct Body_counts {
-  std::uint64_t moves = 0;      ///< moves of vertices asked for
-  std::uint64_t in_region = 0;  ///< made without a test, all positions being in a region free of walls
-  std::uint64_t regions = 0;    ///< such regions found
-  std::uint64_t no_region = 0;  ///< searches that found none
-  std::uint64_t catch_ups = 0;  ///< vertices located anew when a body left its region
+  std::uint64_t moves = 0;         ///< moves of vertices asked for
+  std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
+  std::uint64_t regions = 0;       ///< such regions found
+  std::uint64_t no_region = 0;     ///< searches that found none
+  std::uint64_t region_cells = 0;  ///< cells looked at by these searches
+  std::uint64_t catch_ups = 0;     ///< vertices registered anew after moves in a region
   std::uint64_t contacts = 0;
   std::uint64_t stop_tries = 0;  ///< moves tried to find a position to stop at
   std::uint64_t held = 0;        ///< contacts after which the vertex stayed where it was
@@ -84,10 +85,7 @@ class Body {
   /// Registers what was moved without tests in a region free of walls.
   void catch_up(Body_counts& counts);
   /// Catches up and gives the region up. To be called before the environment is edited.
-  void leave_region(Body_counts& counts) {
-    catch_up(counts);
-    region_.reset();
-  }
+  void leave_region(Body_counts& counts);
   /// The particles and chains. \pre caught up
   std::span<const Particle<D>> particles() const { return particles_; }
   const Chain& chain(std::size_t edge) const { return chains_[edge]; }
@@ -116,7 +114,13 @@ class Body {
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
                                           const Body_options& options, Body_counts& counts, bool any = false);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
-  bool stays_in_region(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
+  bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
+  bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  void renew_region(std::span<const Point<D>> targets, Body_counts& counts);
+  void note_all_behind();
+  void catch_up_vertex(std::uint32_t vertex, Body_counts& counts);
+  void catch_up_edge(std::uint32_t edge, Body_counts& counts);
+  void place(std::uint32_t vertex, const Point<D>& position);
   bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
             const Body_options& options, Body_counts& counts);
   Chain seen_from(const Corner& corner) const;
@@ -134,9 +138,18 @@ class Body {
   std::vector<Face_corner> face_corners_;            ///< of vertex after vertex
   std::vector<std::uint32_t> face_corner_begin_;
   bool are_faces_swept_ = true;
+
+  // A region free of walls, and what was moved in it without registering it.
   std::optional<Clear_region<D>> region_;
-  bool is_behind_ = false;      ///< particles and chains have not been caught up
-  std::uint32_t patience_ = 0;  ///< steps until a region is looked for again
+  std::uint32_t outside_ = 0;        ///< vertices not in it
+  std::vector<char> is_outside_;     ///< of each vertex
+  bool are_all_behind_ = false;      ///< all of the following
+  std::vector<char> vertex_behind_;  ///< its particle is where it was; it is in the region
+  std::vector<char> edge_behind_;    ///< its chain is that of before; it meets no wall
+  std::uint32_t patience_ = 0;       ///< steps until a region is looked for again
+  std::uint32_t next_patience_ = 4;  ///< if that finds none
+  double steps_ahead_ = 16;          ///< that the next one is asked to hold
+  std::uint32_t anchor_vertex_ = 0;  ///< about which it is looked for
 
   // Scratch space of move_vertex.
   std::vector<Cell> visited_;
