@@ -119,14 +119,28 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     are_faces_swept_ = false;
   if (first) return first;
   for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
+  commit(vertex, to);
+  return {};
+}
+
+/// Takes the chains of a moved vertex over, and its place.
+template <int D>
+void Body<D>::commit(std::uint32_t vertex, const Particle<D>& particle) {
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
     const Corner& corner = corners_[i];
     const Chain& moved = moved_chains_[i - corner_begin_[vertex]].chain;
     chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
   }
-  particles_[vertex] = to;
-  place(vertex, target);
-  return {};
+  particles_[vertex] = particle;
+  place(vertex, particle.position);
+}
+
+template <int D>
+std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    result.push_back(corners_[i].other);
+  return result;
 }
 
 template <int D>
@@ -160,6 +174,8 @@ void Body<D>::validate() const {
 
 template Body<2>::Body(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
 template void Body<2>::link_edges();
+template void Body<2>::commit(std::uint32_t, const Particle<2>&);
+template std::vector<std::uint32_t> Body<2>::neighbours(std::uint32_t) const;
 template Chain Body<2>::seen_from(const Corner&) const;
 template std::optional<Body_contact<2>> Body<2>::move_vertex(std::uint32_t, const Point<2>&,
                                                              const Body_options&, Body_counts&);
@@ -168,6 +184,8 @@ template std::optional<Body_contact<2>> Body<2>::try_move(std::uint32_t, const P
 template void Body<2>::validate() const;
 template Body<3>::Body(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
 template void Body<3>::link_edges();
+template void Body<3>::commit(std::uint32_t, const Particle<3>&);
+template std::vector<std::uint32_t> Body<3>::neighbours(std::uint32_t) const;
 template Chain Body<3>::seen_from(const Corner&) const;
 template std::optional<Body_contact<3>> Body<3>::move_vertex(std::uint32_t, const Point<3>&,
                                                              const Body_options&, Body_counts&);

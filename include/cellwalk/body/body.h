@@ -27,6 +27,15 @@ struct Body_contact {
   std::uint32_t feature = 0;
 };
 
+/// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
+struct Blocked_move {
+  std::uint32_t vertex = 0;
+  bool is_vertex_blocked = false;   ///< a wall is in the way of the vertex: then nothing else is looked at
+  std::uint64_t edges = 0;          ///< where it would be, a wall is in the way of these edges
+  std::uint64_t swept_edges = 0;    ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
+  bool stays() const { return is_vertex_blocked || edges != 0; }
+};
+
 struct Body_options {
   Sweep_options sweep;
   bool clearance = true;  ///< keep a region that is free of walls, in which nothing needs a test
@@ -68,6 +77,8 @@ class Body {
   std::span<const Point<D>> positions() const { return positions_; }
   std::span<const std::array<std::uint32_t, 2>> edges() const { return edges_; }
   std::span<const std::array<std::uint32_t, 3>> faces() const { return faces_; }
+  /// The other ends of the edges of a vertex, ascending.
+  std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
   /// Moves the vertices one after the other to their targets, as far as walls allow: a vertex that meets one, or has an edge
   /// that does, stops at a verified position just before, and its remaining motion is projected on the wall and tried again.
@@ -75,6 +86,15 @@ class Body {
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge.
   void step(std::span<const Point<D>> targets, const Body_options& options,
             std::vector<Body_contact<D>>& contacts, Body_counts& counts);
+
+  /// Moves the vertices one after the other, by the rule of the paper: a vertex that meets a wall, or would have an edge that does
+  /// where it goes, stays where it is. Whatever the sweep, only the way of the vertex and the edges at its end decide; the
+  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. No contact is located. Appends what
+  /// blocks, vertex by vertex; a vertex without an entry moved, and nothing was met.
+  /// \pre one finite target a vertex; no vertex has more than 64 edges
+  /// Cost: that of step(), less that of locating contacts.
+  void step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
+                    std::vector<Blocked_move>& blocked, Body_counts& counts);
 
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact. Gives a region free of walls up.
   /// \pre the target is finite
@@ -113,6 +133,9 @@ class Body {
   /// As move_vertex, where there is no region. If `any` is set, any contact will do.
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
                                           const Body_options& options, Body_counts& counts, bool any = false);
+  Blocked_move move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
+                            Body_counts& counts);
+  void commit(std::uint32_t vertex, const Particle<D>& particle);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
   bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
   bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
