@@ -111,6 +111,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
     moved.chain = swept.chain;
     moved.is_free = !swept.contact;
+    moved.is_behind = false;
   }
   moved_rests_.clear();
   if (options.sweep.sweep == Sweep::faces)
@@ -128,8 +129,11 @@ template <int D>
 void Body<D>::commit(std::uint32_t vertex, const Particle<D>& particle) {
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
     const Corner& corner = corners_[i];
-    const Chain& moved = moved_chains_[i - corner_begin_[vertex]].chain;
-    chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
+    const Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
+    edge_behind_[corner.edge] = moved.is_behind;
+    if (moved.is_behind) continue;
+    chains_[corner.edge] =
+        corner.is_reversed && !moved.chain.empty() ? reversed(*snapshot_, moved.chain) : moved.chain;
   }
   particles_[vertex] = particle;
   place(vertex, particle.position);

@@ -55,6 +55,11 @@ constexpr double product_error = 0x1p-50;
 /// And by less than product_error of this where a term underflows.
 constexpr double least_magnitude = 1e-290;
 
+/// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
+constexpr double enough_steps = 4;
+/// How often a direction is turned to part two sets of points.
+constexpr int most_turns = 12;
+
 template <int D>
 class Region_search {
  public:
@@ -75,6 +80,7 @@ class Region_search {
       down[k] = kept_.low[k] - targets.low[k];
       step = std::max({step, std::abs(up[k]), std::abs(down[k])});
     }
+    enough_ = enough_steps * step;
     Point<D> low, high;
     for (std::size_t k = 0; k < D; ++k) {
       const double around = request.steps_around * step;
@@ -209,13 +215,11 @@ class Region_search {
         above = false;
       }
     }
-    if (auto plane = plane_of(cell, i)) {
-      double gap = gap_of(*plane, request_.positions);
-      if (&kept == &wanted_) gap = std::min(gap, gap_of(*plane, request_.targets));
-      if (gap > best) {
-        cut(*plane);
-        return true;
-      }
+    if (best < enough_ && planes_.size() < Clear_region<D>::most_planes) {
+      const bool with_targets = &kept == &wanted_;
+      if (cut_by_plane(cell, i, outward(cell, i), with_targets, best)) return true;
+      // To part the targets as well would be in vain where they lie behind a wall.
+      if (!(best > 0) && !with_targets && cut_by_plane(cell, i, apart(cell, i), false, 0)) return true;
     }
     if (!(best > 0)) return false;
     if (above)
@@ -248,7 +252,7 @@ class Region_search {
       consider(below);
       consider(above);
     }
-    if (const auto plane = plane_of(cell, i)) {
+    if (const auto plane = plane_of(cell, i, outward(cell, i))) {
       Clear_region<D> below = region_;
       below.cut(plane->normal, plane->offset);
       if (consider(below)) planes_.push_back(*plane);
@@ -269,17 +273,25 @@ class Region_search {
     }
   }
 
-  void cut(const Cut_plane<D>& plane) {
-    region_.cut(plane.normal, plane.offset);
-    planes_.push_back(plane);
+  /// Cuts in a direction, if the points to keep are further from there than `best`.
+  bool cut_by_plane(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal, bool with_targets,
+                    double best) {
+    const auto plane = plane_of(cell, i, normal);
+    if (!plane) return false;
+    const double gap = best * length(normal);
+    if (!is_before(*plane, gap, request_.positions)) return false;
+    if (with_targets && !is_before(*plane, gap, request_.targets)) return false;
+    region_.cut(plane->normal, plane->offset);
+    planes_.push_back(*plane);
+    return true;
   }
 
-  /// The half-space on the inner side of a facet, made smaller by what is rounded. None if nothing can be said, or there are as
+  /// The half-space before a facet in a direction, made smaller by what is rounded. None if nothing can be said, or there are as
   /// many as there may be.
-  std::optional<Cut_plane<D>> plane_of(const Cell_view<D>& cell, std::size_t i) const {
+  std::optional<Cut_plane<D>> plane_of(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal) const {
     if (planes_.size() == Clear_region<D>::most_planes) return {};
     const auto loop = cell.loop(i);
-    Cut_plane<D> plane{outward(cell, i), std::numeric_limits<double>::infinity(), 0};
+    Cut_plane<D> plane{normal, std::numeric_limits<double>::infinity(), 0};
     for (const std::uint16_t v : loop)
       plane.limit = std::min(plane.limit, least_product(plane.normal, cell.point(v)));
     const double error = product_error * (magnitude(plane.normal, sizes_) + least_magnitude);
@@ -298,12 +310,12 @@ class Region_search {
     });
   }
 
-  /// How far the points that the region holds are inside a half-space.
-  double gap_of(const Cut_plane<D>& plane, std::span<const Point<D>> points) const {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const Point<D>& x : points)
-      if (region_.holds(x)) most = std::max(most, dot(plane.normal, x));
-    return (plane.offset - most) / length(plane.normal);
+  /// True if the points that the region holds are inside a half-space, and further inside than a gap, in units of its normal.
+  bool is_before(const Cut_plane<D>& plane, double gap, std::span<const Point<D>> points) const {
+    const double most = plane.offset - gap;
+    return std::all_of(points.begin(), points.end(), [&](const Point<D>& x) {
+      return dot(plane.normal, x) < most || !region_.holds(x);
+    });
   }
 
   static Vector<D> outward(const Cell_view<D>& cell, std::size_t i) {
@@ -314,6 +326,35 @@ class Region_search {
       return {edge[1], -edge[0]};
     else
       return cross(edge, cell.point(loop[2]) - u);
+  }
+
+  /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is soon found: it is turned
+  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; plane_of() and
+  /// is_before() say what it is worth.
+  Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
+    const auto loop = cell.loop(i);
+    Vector<D> normal = outward(cell, i);
+    normal = (1 / length(normal)) * normal;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const Point<D>*last = nullptr, *first = nullptr;
+      double most = -std::numeric_limits<double>::infinity(), least = -most;
+      for (const Point<D>& x : request_.positions)
+        if (const double d = dot(normal, x); d > most && region_.holds(x)) {
+          most = d;
+          last = &x;
+        }
+      for (const std::uint16_t v : loop)
+        if (const double d = dot(normal, cell.point(v)); d < least) {
+          least = d;
+          first = &cell.point(v);
+        }
+      if (!last || !first || most < least) break;
+      const Vector<D> ahead = *first - *last;
+      const double distance = length(ahead);
+      if (!(distance > 0)) break;
+      normal = normal + (1 / distance) * ahead;
+    }
+    return normal;
   }
 
   /// The sum of the sizes of the terms of a product.
@@ -333,6 +374,7 @@ class Region_search {
   Region_effort& effort_;
   Box<D> kept_, wanted_;  ///< of positions, and with the targets
   Clear_region<D> region_;
+  double enough_ = 0;  ///< distance
   Point<D> sizes_;  ///< the largest size of each coordinate in it
   boost::container::small_vector<Cell, 64> found_;
   std::vector<Cell> table_;  ///< of those found, by hash

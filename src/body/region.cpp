@@ -7,9 +7,10 @@
 namespace cellwalk {
 namespace {
 
-/// Steps without a search after one that lost a position or target: bodies near walls stay there for a while. Twice as many
-/// after each in a row that found nothing.
-constexpr std::uint32_t least_patience = 4, most_patience = 64;
+/// Steps without a search after one that lost a target: a wall is in its way, and may be for a while.
+constexpr std::uint32_t patience_with_targets = 6;
+/// After one that lost positions; twice as many after each of those in a row.
+constexpr std::uint32_t least_patience = 1, most_patience = 64;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 /// How many steps ahead, where there are not too many cells.
@@ -54,8 +55,9 @@ bool Body<D>::moves_in_region(std::uint32_t vertex, const Point<D>& target, Body
 /// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered.
 template <int D>
 void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
-  if (patience_ > 0) {
-    --patience_;
+  std::uint32_t& patience = region_ && outside_ == 0 ? target_patience_ : patience_;
+  if (patience > 0) {
+    --patience;
     return;
   }
   note_all_behind();
@@ -78,11 +80,14 @@ void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& count
   }
   region_ = found;
   ++(found ? counts.regions : counts.no_region);
-  if (found) next_patience_ = least_patience;
-  if (found && outside_ == 0 && region_->holds_all(targets)) return;
+  if (found && outside_ == 0) {
+    next_patience_ = least_patience;
+    if (!region_->holds_all(targets)) target_patience_ = patience_with_targets;
+    return;
+  }
   patience_ = next_patience_;
   next_patience_ = std::min(2 * next_patience_, most_patience);
-  if (outside_ > 0) anchor_vertex_ = anchor_vertex_ + 1 == positions_.size() ? 0 : anchor_vertex_ + 1;
+  anchor_vertex_ = anchor_vertex_ + 1 == positions_.size() ? 0 : anchor_vertex_ + 1;
 }
 
 template <int D>

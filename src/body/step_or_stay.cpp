@@ -3,6 +3,24 @@
 #include <cellwalk/body/body.h>
 
 namespace cellwalk {
+namespace {
+
+/// Facet i of a cell leads to another, their union is convex, and it is the only one that they share: all between their insides
+/// passes it. Half_facet::none if there is no such facet.
+template <int D>
+Half_facet convex_passage(const Snapshot<D>& snapshot, Cell from, Cell to) {
+  Half_facet passage = Half_facet::none;
+  const std::size_t facets = snapshot.facet_count(from);
+  for (std::size_t i = 0; i < facets; ++i) {
+    const Half_facet f = Snapshot<D>::half_facet(from, i);
+    if (snapshot.neighbor(f) != to) continue;
+    if (passage != Half_facet::none || !snapshot.is_convex_pair(f)) return Half_facet::none;
+    passage = f;
+  }
+  return passage;
+}
+
+}  // namespace
 
 template <int D>
 void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
@@ -27,6 +45,8 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
                                    Body_counts& counts) {
   Blocked_move answer;
   answer.vertex = vertex;
+  // In the region, only edges that leave it can meet anything.
+  const bool is_inside = region_ && !is_outside_[vertex] && region_->holds(target);
   catch_up_vertex(vertex, counts);
   const Particle<D> from = particles_[vertex];
   Particle<D> to = from;
@@ -39,25 +59,12 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
     return answer;
   }
   const Way<D> way{from, to, visited_, crossed_, false};
-  Sweep_options at_end = options.sweep;
-  at_end.sweep = Sweep::three_segments;
   const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
   moved_chains_.resize(end - begin);
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Corner& corner = corners_[i];
-    const std::uint64_t bit = std::uint64_t{1} << (i - begin);
-    catch_up_edge(corner.edge, counts);
-    const Chain before = seen_from(corner);
-    const Particle<D>& q = particles_[corner.other];
-    std::optional<Chain> chain = free_chain(*snapshot_, way, q, before, options.sweep, counts.edges);
-    if (!chain && options.sweep.sweep != Sweep::three_segments) {
-      answer.swept_edges |= bit;
-      chain = free_chain(*snapshot_, way, q, before, at_end, counts.edges);
-    }
-    if (chain)
-      moved_chains_[i - begin].chain = *chain;
-    else
-      answer.edges |= bit;
+    Moved_chain& moved = moved_chains_[i - begin];
+    moved.is_behind = is_inside && !is_outside_[corners_[i].other];
+    if (!moved.is_behind) sweep_or_stay(way, i, options.sweep, moved.chain, answer, counts);
   }
   if (answer.stays()) return answer;
   are_faces_swept_ = false;
@@ -65,9 +72,59 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
   return answer;
 }
 
+/// Looks at the edge of a corner while its vertex goes its way.
+template <int D>
+void Body<D>::sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                            Chain& moved, Blocked_move& answer, Body_counts& counts) {
+  const Corner& corner = corners_[corner_number];
+  catch_up_vertex(corner.other, counts);
+  const Particle<D>& q = particles_[corner.other];
+  if (is_plainly_free(way.from, way.to, q, options, moved, counts.edges)) return;
+  const std::uint64_t bit = std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
+  catch_up_edge(corner.edge, counts);
+  const Chain before = seen_from(corner);
+  std::optional<Chain> chain = free_chain(*snapshot_, way, q, before, options, counts.edges);
+  if (!chain && options.sweep != Sweep::three_segments) {
+    answer.swept_edges |= bit;
+    Sweep_options at_end = options;
+    at_end.sweep = Sweep::three_segments;
+    chain = free_chain(*snapshot_, way, q, before, at_end, counts.edges);
+  }
+  if (chain)
+    moved = *chain;
+  else
+    answer.edges |= bit;
+}
+
+/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
+/// ends inside of them, so that there is but one chain from one to the other.
+template <int D>
+bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
+                              const Sweep_options& options, Chain& chain, Edge_counts& counts) const {
+  if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
+  if (q.cell == to.cell) {
+    if (!options.certificates.same_cell) return false;
+    ++counts.edges;
+    ++counts.same_cell;
+    chain.clear();
+    return true;
+  }
+  if (!options.certificates.convex_pair) return false;
+  const Half_facet passage = convex_passage(*snapshot_, to.cell, q.cell);
+  if (passage == Half_facet::none) return false;
+  ++counts.edges;
+  ++counts.convex_pair;
+  chain.assign(1, passage);
+  return true;
+}
+
 #define CELLWALK_INSTANTIATE(D)                                                                             \
   template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \
                                       std::vector<Blocked_move>&, Body_counts&);                            \
+  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
+                                         const Sweep_options&, Chain&, Edge_counts&) const;                 \
+  template void Body<D>::sweep_or_stay(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,          \
+                                       Blocked_move&, Body_counts&);                                        \
   template Blocked_move Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&, Body_counts&);
 
 CELLWALK_INSTANTIATE(2)

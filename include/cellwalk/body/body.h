@@ -135,6 +135,10 @@ class Body {
                                           const Body_options& options, Body_counts& counts, bool any = false);
   Blocked_move move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
                             Body_counts& counts);
+  void sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options, Chain& moved,
+                     Blocked_move& answer, Body_counts& counts);
+  bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
+                       const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
   bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
@@ -169,7 +173,8 @@ class Body {
   bool are_all_behind_ = false;      ///< all of the following
   std::vector<char> vertex_behind_;  ///< its particle is where it was; it is in the region
   std::vector<char> edge_behind_;    ///< its chain is that of before; it meets no wall
-  std::uint32_t patience_ = 0;       ///< steps until a region is looked for again
+  std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
+  std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
   std::uint32_t next_patience_ = 4;  ///< if that finds none
   double steps_ahead_ = 16;          ///< that the next one is asked to hold
   std::uint32_t anchor_vertex_ = 0;  ///< about which it is looked for
@@ -180,6 +185,7 @@ class Body {
   struct Moved_chain {
     Chain chain;
     bool is_free = false;
+    bool is_behind = false;  ///< it is not known, but the edge lies in the region
   };
   std::vector<Moved_chain> moved_chains_;  ///< of the edges of the vertex
   std::vector<std::pair<std::uint32_t, Face_rests>> moved_rests_;

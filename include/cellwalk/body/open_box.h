@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <span>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace cellwalk {
 
@@ -39,15 +42,17 @@ class Open_box {
   bool holds_all(std::span<const Point<D>> points) const {
     const double* x = points.empty() ? nullptr : points.front().data();
     std::size_t left = points.size();
+#if defined(__SSE2__)
     // Two points at a time: D pairs of coordinates.
-    std::array<Long2, D> outside{};
+    __m128d outside = _mm_setzero_pd();
     for (; left >= 2; left -= 2, x += lanes)
-      for (std::size_t k = 0; k < D; ++k) {
-        const Double2 pair = load(x + 2 * k);
-        outside[k] |= ~((load(low_.data() + 2 * k) < pair) & (pair < load(high_.data() + 2 * k)));
+      for (std::size_t k = 0; k < lanes; k += 2) {
+        const __m128d pair = _mm_loadu_pd(x + k);
+        outside = _mm_or_pd(outside, _mm_cmpnlt_pd(_mm_load_pd(low_.data() + k), pair));
+        outside = _mm_or_pd(outside, _mm_cmpnlt_pd(pair, _mm_load_pd(high_.data() + k)));
       }
-    for (std::size_t k = 1; k < D; ++k) outside[0] |= outside[k];
-    if ((outside[0][0] | outside[0][1]) != 0) return false;
+    if (_mm_movemask_pd(outside) != 0) return false;
+#endif
     bool is_inside = true;
     for (; left > 0; --left)
       for (std::size_t k = 0; k < D; ++k, ++x) is_inside &= (low_[k] < *x) & (*x < high_[k]);
@@ -55,16 +60,8 @@ class Open_box {
   }
 
  private:
-  /// Compiler vectors, for baseline x86-64 and NEON.
-  using Double2 = double __attribute__((vector_size(16)));
-  using Long2 = long long __attribute__((vector_size(16)));
   static constexpr std::size_t lanes = 2 * D;  ///< each bound twice, as the coordinates of two points lie
 
-  static Double2 load(const double* x) {
-    Double2 pair;
-    std::memcpy(&pair, x, sizeof pair);
-    return pair;
-  }
   static std::array<double, lanes> twice(const Point<D>& x) {
     std::array<double, lanes> result;
     for (std::size_t k = 0; k < lanes; ++k) result[k] = x[k % D];
