@@ -10,8 +10,10 @@ namespace cellwalk {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Beyond these, the quotient of two doubles may be far off.
-constexpr double smallest_quotient = 1e-290, largest_quotient = 1e+290;
+/// Beyond these, a number or a quotient as a double may be far off, or not a number.
+constexpr double smallest_double = 1e-290, largest_double = 1e+290;
+
+bool is_close(double x) { return std::abs(x) > smallest_double && std::abs(x) < largest_double; }
 
 template <class R>
 Rational exported(const R& x) {
@@ -26,8 +28,9 @@ Rational exported(const R& x) {
 
 /// A double near a positive fraction.
 double near(const Fraction& x) {
-  const double quotient = CGAL::to_double(x.numerator()) / CGAL::to_double(x.denominator());
-  if (quotient > smallest_quotient && quotient < largest_quotient) return quotient;
+  const double numerator = CGAL::to_double(x.numerator()), denominator = CGAL::to_double(x.denominator());
+  if (is_close(numerator) && is_close(denominator) && is_close(numerator / denominator))
+    return numerator / denominator;
   return CGAL::to_double(to_rational(x));
 }
 

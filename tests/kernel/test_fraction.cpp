@@ -63,6 +63,11 @@ TEST(Fraction, IsRoundedBeyondTheRangeOfItsParts) {
   const Fraction tenth(part, huge);
   EXPECT_LE(Judge(to_double(tenth)) * Judge(1e300), Judge(1e299));
   EXPECT_GT(Judge(std::nextafter(to_double(tenth), 1.0)) * Judge(1e300), Judge(1e299));
+  // Parts of which doubles know some bits only.
+  Ring tiny(1.1e-160), third(3.3e-160);
+  tiny = tiny * Ring(1.1e-160);
+  third = third * Ring(1.1e-160);
+  EXPECT_NEAR(to_double(Fraction(tiny, third)), 1.0 / 3, 1e-15);
   EXPECT_EQ(to_double(Fraction(0.0)), 0);
   EXPECT_EQ(to_double(Fraction(5e-324)), 5e-324);
 }
