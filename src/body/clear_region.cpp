@@ -5,6 +5,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -34,10 +35,25 @@ struct Box {
   }
 };
 
+/// Two points at a time, as their coordinates lie: one minimum and one maximum for each of them.
 template <int D>
 Box<D> box_of(std::span<const Point<D>> points) {
   Box<D> box;
-  for (const Point<D>& x : points) box.extend(x);
+  if (points.empty()) return box;
+  constexpr std::size_t lanes = 2 * D;
+  std::array<double, lanes> low, high;
+  for (std::size_t k = 0; k < lanes; ++k) low[k] = high[k] = points.front()[k % D];
+  const double* x = points.front().data();
+  for (std::size_t left = points.size() / 2; left > 0; --left, x += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) {
+      low[k] = x[k] < low[k] ? x[k] : low[k];
+      high[k] = x[k] > high[k] ? x[k] : high[k];
+    }
+  for (std::size_t k = 0; k < D; ++k) {
+    box.low[k] = std::min(low[k], low[k + D]);
+    box.high[k] = std::max(high[k], high[k + D]);
+  }
+  if (points.size() % 2 != 0) box.extend(points.back());
   return box;
 }
 
@@ -288,7 +304,8 @@ class Region_search {
 
   /// The half-space before a facet in a direction, made smaller by what is rounded. None if nothing can be said, or there are as
   /// many as there may be.
-  std::optional<Cut_plane<D>> plane_of(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal) const {
+  std::optional<Cut_plane<D>> plane_of(const Cell_view<D>& cell, std::size_t i,
+                                       const Vector<D>& normal) const {
     if (planes_.size() == Clear_region<D>::most_planes) return {};
     const auto loop = cell.loop(i);
     Cut_plane<D> plane{normal, std::numeric_limits<double>::infinity(), 0};
@@ -313,9 +330,8 @@ class Region_search {
   /// True if the points that the region holds are inside a half-space, and further inside than a gap, in units of its normal.
   bool is_before(const Cut_plane<D>& plane, double gap, std::span<const Point<D>> points) const {
     const double most = plane.offset - gap;
-    return std::all_of(points.begin(), points.end(), [&](const Point<D>& x) {
-      return dot(plane.normal, x) < most || !region_.holds(x);
-    });
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Point<D>& x) { return dot(plane.normal, x) < most || !region_.holds(x); });
   }
 
   static Vector<D> outward(const Cell_view<D>& cell, std::size_t i) {
@@ -375,7 +391,7 @@ class Region_search {
   Box<D> kept_, wanted_;  ///< of positions, and with the targets
   Clear_region<D> region_;
   double enough_ = 0;  ///< distance
-  Point<D> sizes_;  ///< the largest size of each coordinate in it
+  Point<D> sizes_;     ///< the largest size of each coordinate in it
   boost::container::small_vector<Cell, 64> found_;
   std::vector<Cell> table_;  ///< of those found, by hash
   boost::container::static_vector<Cut_plane<D>, Clear_region<D>::most_planes> planes_;

@@ -14,7 +14,7 @@ constexpr std::uint32_t least_patience = 1, most_patience = 64;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 /// How many steps ahead, where there are not too many cells.
-constexpr double furthest_ahead = 16;
+constexpr double furthest_ahead = 24;
 
 }  // namespace
 
@@ -116,7 +116,7 @@ void Body<D>::catch_up_edge(std::uint32_t edge, Body_counts& counts) {
   catch_up_vertex(v, counts);
   if (!edge_behind_[edge]) return;
   edge_behind_[edge] = false;
-  chains_[edge] = find_chain(*snapshot_, particles_[u], particles_[v], counts.edges.walk).chain;
+  chains_[edge] = find_any_chain(*snapshot_, particles_[u], particles_[v], counts.edges.walk).chain;
 }
 
 template <int D>

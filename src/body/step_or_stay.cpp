@@ -2,6 +2,8 @@
 // The step of a body by the rule of the paper: what meets a wall stays where it is.
 #include <cellwalk/body/body.h>
 
+#include <utility>
+
 namespace cellwalk {
 namespace {
 
@@ -52,9 +54,14 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
   Particle<D> to = from;
   visited_.clear();
   crossed_.clear();
-  const Walk_result<D> walked =
-      move(*snapshot_, to, target, counts.edges.walk, {Walk_strategy::certified, &visited_, &crossed_});
-  if (walked.contact) {
+  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
+  const bool needs_way = options.sweep.sweep != Sweep::three_segments;
+  Walk_options recorded;
+  if (needs_way) {
+    recorded.visited = &visited_;
+    recorded.crossed = &crossed_;
+  }
+  if (move(*snapshot_, to, target, counts.edges.walk, recorded).status != Walk_status::arrived) {
     answer.is_vertex_blocked = true;
     return answer;
   }
@@ -63,8 +70,11 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
   moved_chains_.resize(end - begin);
   for (std::uint32_t i = begin; i < end; ++i) {
     Moved_chain& moved = moved_chains_[i - begin];
-    moved.is_behind = is_inside && !is_outside_[corners_[i].other];
-    if (!moved.is_behind) sweep_or_stay(way, i, options.sweep, moved.chain, answer, counts);
+    moved.is_behind = !needs_way || (is_inside && !is_outside_[corners_[i].other]);
+    if (is_inside && !is_outside_[corners_[i].other]) continue;
+    const bool is_blocked = needs_way ? sweep_or_stay(way, i, options.sweep, moved.chain, answer, counts)
+                                      : !is_edge_free(way, i, options.sweep, counts);
+    if (is_blocked) answer.edges |= std::uint64_t{1} << (i - begin);
   }
   if (answer.stays()) return answer;
   are_faces_swept_ = false;
@@ -72,28 +82,51 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
   return answer;
 }
 
-/// Looks at the edge of a corner while its vertex goes its way.
+/// Whether the edge of a corner is free where its vertex goes.
 template <int D>
-void Body<D>::sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+bool Body<D>::is_edge_free(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                           Body_counts& counts) {
+  const Corner& corner = corners_[corner_number];
+  catch_up_vertex(corner.other, counts);
+  const Particle<D>& q = particles_[corner.other];
+  Edge_counts& edges = counts.edges;
+  ++edges.edges;
+  if (options.certificates.same_cell && q.cell == way.to.cell) {
+    ++edges.same_cell;
+    return true;
+  }
+  if (options.certificates.convex_pair &&
+      convex_passage(*snapshot_, way.to.cell, q.cell) != Half_facet::none) {
+    ++edges.convex_pair;
+    return true;
+  }
+  const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk);
+  if (walked.status == Walk_status::arrived && walked.cell == q.cell) return true;
+  // Where a wall is passed in its inside, no other way helps.
+  if (walked.contact && walked.contact->kind == Contact_kind::facet) return false;
+  return !find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+}
+
+/// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
+template <int D>
+bool Body<D>::sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
                             Chain& moved, Blocked_move& answer, Body_counts& counts) {
   const Corner& corner = corners_[corner_number];
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
-  if (is_plainly_free(way.from, way.to, q, options, moved, counts.edges)) return;
-  const std::uint64_t bit = std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
+  if (is_plainly_free(way.from, way.to, q, options, moved, counts.edges)) return false;
   catch_up_edge(corner.edge, counts);
-  const Chain before = seen_from(corner);
-  std::optional<Chain> chain = free_chain(*snapshot_, way, q, before, options, counts.edges);
-  if (!chain && options.sweep != Sweep::three_segments) {
-    answer.swept_edges |= bit;
-    Sweep_options at_end = options;
-    at_end.sweep = Sweep::three_segments;
-    chain = free_chain(*snapshot_, way, q, before, at_end, counts.edges);
+  std::optional<Chain> chain = free_chain(*snapshot_, way, q, seen_from(corner), options, counts.edges);
+  if (!chain) {
+    answer.swept_edges |= std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
+    Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk);
+    if (anew.contact && (anew.contact->kind != Contact_kind::facet || anew.contact->time == 1))
+      anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
+    if (anew.contact) return true;
+    chain = std::move(anew.chain);
   }
-  if (chain)
-    moved = *chain;
-  else
-    answer.edges |= bit;
+  moved = *chain;
+  return false;
 }
 
 /// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
@@ -118,14 +151,16 @@ bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, co
   return true;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \
-                                      std::vector<Blocked_move>&, Body_counts&);                            \
-  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
-                                         const Sweep_options&, Chain&, Edge_counts&) const;                 \
-  template void Body<D>::sweep_or_stay(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,          \
-                                       Blocked_move&, Body_counts&);                                        \
-  template Blocked_move Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&, Body_counts&);
+#define CELLWALK_INSTANTIATE(D)                                                                          \
+  template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                    \
+                                      std::vector<Blocked_move>&, Body_counts&);                         \
+  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,     \
+                                         const Sweep_options&, Chain&, Edge_counts&) const;              \
+  template bool Body<D>::is_edge_free(const Way<D>&, std::uint32_t, const Sweep_options&, Body_counts&); \
+  template bool Body<D>::sweep_or_stay(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,       \
+                                       Blocked_move&, Body_counts&);                                     \
+  template Blocked_move Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&,       \
+                                              Body_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -58,8 +58,8 @@ std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, 
     return result.chain;
   ++counts.changed;
   // Where a facet is passed in its inside, the edge is on both sides of it, wherever it came from.
-  const bool is_crossed = result.contact && result.contact->kind == Contact_kind::facet &&
-                          result.contact->time < 1;
+  const bool is_crossed =
+      result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
   if (is_crossed) return {};
   if (options.sweep == Sweep::three_segments)
     return result.contact ? chain_by_events(snapshot, way, q, before, counts) : result.chain;

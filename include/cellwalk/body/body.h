@@ -30,9 +30,10 @@ struct Body_contact {
 /// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
 struct Blocked_move {
   std::uint32_t vertex = 0;
-  bool is_vertex_blocked = false;   ///< a wall is in the way of the vertex: then nothing else is looked at
-  std::uint64_t edges = 0;          ///< where it would be, a wall is in the way of these edges
-  std::uint64_t swept_edges = 0;    ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
+  bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
+  std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
+  std::uint64_t swept_edges =
+      0;  ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
@@ -135,8 +136,10 @@ class Body {
                                           const Body_options& options, Body_counts& counts, bool any = false);
   Blocked_move move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
                             Body_counts& counts);
-  void sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options, Chain& moved,
-                     Blocked_move& answer, Body_counts& counts);
+  bool is_edge_free(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                    Body_counts& counts);
+  bool sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                     Chain& moved, Blocked_move& answer, Body_counts& counts);
   bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
                        const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);
@@ -168,16 +171,16 @@ class Body {
 
   // A region free of walls, and what was moved in it without registering it.
   std::optional<Clear_region<D>> region_;
-  std::uint32_t outside_ = 0;        ///< vertices not in it
-  std::vector<char> is_outside_;     ///< of each vertex
-  bool are_all_behind_ = false;      ///< all of the following
-  std::vector<char> vertex_behind_;  ///< its particle is where it was; it is in the region
-  std::vector<char> edge_behind_;    ///< its chain is that of before; it meets no wall
+  std::uint32_t outside_ = 0;          ///< vertices not in it
+  std::vector<char> is_outside_;       ///< of each vertex
+  bool are_all_behind_ = false;        ///< all of the following
+  std::vector<char> vertex_behind_;    ///< its particle is where it was; it is in the region
+  std::vector<char> edge_behind_;      ///< its chain is that of before; it meets no wall
   std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
   std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
-  std::uint32_t next_patience_ = 4;  ///< if that finds none
-  double steps_ahead_ = 16;          ///< that the next one is asked to hold
-  std::uint32_t anchor_vertex_ = 0;  ///< about which it is looked for
+  std::uint32_t next_patience_ = 4;    ///< if that finds none
+  double steps_ahead_ = 24;            ///< that the next one is asked to hold
+  std::uint32_t anchor_vertex_ = 0;    ///< about which it is looked for
 
   // Scratch space of move_vertex.
   std::vector<Cell> visited_;
@@ -185,7 +188,7 @@ class Body {
   struct Moved_chain {
     Chain chain;
     bool is_free = false;
-    bool is_behind = false;  ///< it is not known, but the edge lies in the region
+    bool is_behind = false;  ///< it is not known, but there is one
   };
   std::vector<Moved_chain> moved_chains_;  ///< of the edges of the vertex
   std::vector<std::pair<std::uint32_t, Face_rests>> moved_rests_;

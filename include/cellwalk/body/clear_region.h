@@ -6,7 +6,8 @@
 #include <cellwalk/body/open_box.h>
 #include <cellwalk/walk/walk.h>
 
-#include <array>
+#include <boost/container/static_vector.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,14 +28,14 @@ class Clear_region {
   /// A particle in it: the walk from there to any point held is free.
   const Particle<D>& anchor() const { return anchor_; }
   const Open_box<D>& box() const { return box_; }
-  std::size_t plane_count() const { return plane_count_; }
+  std::size_t plane_count() const { return planes_.size(); }
 
   /// False where rounding leaves doubt.
   bool holds(const Point<D>& x) const { return box_.holds(x) && is_below_planes(x); }
   /// True if it holds all of them. Cost: about 1 ns a point where no half-space cuts the box.
   bool holds_all(std::span<const Point<D>> points) const {
     if (!box_.holds_all(points)) return false;
-    if (plane_count_ == 0) return true;
+    if (planes_.empty()) return true;
     for (const Point<D>& x : points)
       if (!is_below_planes(x)) return false;
     return true;
@@ -44,7 +45,7 @@ class Clear_region {
   void cut_above(int axis, double value) { box_.cut_above(axis, value); }
   void cut_below(int axis, double value) { box_.cut_below(axis, value); }
   /// To the points whose product with the normal, as rounded, is less than the offset. \pre plane_count() < most_planes
-  void cut(const Vector<D>& normal, double offset) { planes_[plane_count_++] = {normal, offset}; }
+  void cut(const Vector<D>& normal, double offset) { planes_.push_back({normal, offset}); }
 
  private:
   struct Plane {
@@ -53,14 +54,13 @@ class Clear_region {
   };
 
   bool is_below_planes(const Point<D>& x) const {
-    for (std::size_t i = 0; i < plane_count_; ++i)
-      if (!(dot(planes_[i].normal, x) < planes_[i].offset)) return false;
+    for (const Plane& plane : planes_)
+      if (!(dot(plane.normal, x) < plane.offset)) return false;
     return true;
   }
 
   Open_box<D> box_;
-  std::size_t plane_count_ = 0;
-  std::array<Plane, most_planes> planes_;
+  boost::container::static_vector<Plane, most_planes> planes_;
   Particle<D> anchor_;
 };
 
@@ -69,8 +69,8 @@ template <int D>
 struct Region_request {
   std::span<const Point<D>> positions;  ///< as many of these as possible,
   std::span<const Point<D>> targets;    ///< and of these,
-  double steps_ahead = 16;              ///< and where so many more steps of that kind would lead
-  double steps_around = 2;              ///< and a margin of so many steps on all sides
+  double steps_ahead = 24;              ///< and where so many more steps of that kind would lead
+  double steps_around = 4;              ///< and a margin of so many steps on all sides
   std::size_t most_cells = 64;          ///< it may be looked for in
 };
 
