@@ -207,7 +207,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   if (sizes.bodies > 0) {
     line("of bodies", describe_contacts(files.body_contacts()));
     line("moves", describe_moves(world.body_counts()));
-    line("edges", describe_edges(world.body_counts()));
+    line("edges", describe_edges(world.body_counts().edges));
   }
   if (sizes.guided > 0)
     line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
