@@ -8,6 +8,8 @@
 
 #include <filesystem>
 
+#include "simulation/trace_oracle.h"
+
 namespace cellwalk {
 namespace {
 
@@ -50,6 +52,17 @@ void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
 }
 
 TEST_P(Public_traces, GiveTheRecordedAnswers) { expect_recorded_answers(GetParam(), {}); }
+
+TEST_P(Public_traces, HoldTheAnswersOfBruteForce) {
+  const Trace trace = io::read_trace(std::filesystem::path(CELLWALK_TEST_DATA) / "traces" / GetParam().file);
+  const test::Trace_walls walls(trace);
+  std::uint64_t vertex_hits = 0;
+  test::for_each_move(trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto& q) {
+    ASSERT_EQ(int{trace.answers[i]}, int{test::answer(walls, from, target, q)}) << "move " << i;
+    vertex_hits += trace.answers[i] & trace_segment_bit;
+  });
+  EXPECT_EQ(vertex_hits, GetParam().vertex_hits);
+}
 
 TEST_P(Public_traces, GiveTheRecordedAnswersSheared) { expect_recorded_answers(GetParam(), sheared<3>()); }
 
