@@ -51,6 +51,8 @@ TEST_F(Replay, GivesTheRecordedAnswers) {
   const std::string said = record("t.bin", "out");
   EXPECT_NE(said.find("recorded    t.bin"), std::string::npos) << said;
   const json run = json::parse(text("out/run.json"));
+  EXPECT_EQ(run["manifest"]["recorded"], true);
+  EXPECT_EQ(run["manifest"]["sweep"], "three_segments");
   for (const char* sweep : {"three_segments", "triangle"}) {
     SCOPED_TRACE(sweep);
     const json report = replay({"t.bin", "--sweep", sweep});
