@@ -9,6 +9,7 @@
 #include <map>
 
 #include "simulation/random_trace.h"
+#include "simulation/replay_checks.h"
 #include "simulation/trace_oracle.h"
 
 namespace cellwalk {
@@ -74,7 +75,12 @@ TEST(Replay, GivesTheRecordedAnswers) {
     Replay replay(environment.snapshot(), locator, trace, sweep);
     EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep),
               trace.moves() * (sweep == Sweep::triangle ? 7 : 4));
+    for (std::uint32_t step = 0; step < trace.steps / 2; ++step) {
+      replay.step();
+      test::expect_valid(environment.snapshot(), replay);
+    }
     replay.run();
+    test::expect_valid(environment.snapshot(), replay);
     EXPECT_EQ(replay.steps_done(), trace.steps);
     EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep), 0u);
     const Trace_counts& counts = replay.counts();

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+#include "simulation/replay_checks.h"
 #include "simulation/trace_oracle.h"
 
 namespace cellwalk {
@@ -38,16 +39,7 @@ void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
       EXPECT_EQ(counts.rounds, facts.rounds);
       EXPECT_EQ(counts.triangle_hits, facts.edge_hits + facts.rounds);
     }
-    // Each vertex lies in its cell, each edge has a chain.
-    Walk_counts walks;
-    for (const Trace_body& body : replay.bodies())
-      for (std::size_t v = 0; v < trace_vertices; ++v) {
-        EXPECT_TRUE(
-            in_closure(environment.snapshot(), body.particles()[v].cell, body.particles()[v].position));
-        for (std::size_t k = 0; k < trace_edges; ++k)
-          EXPECT_TRUE(is_chain(environment.snapshot(), body.particles()[v],
-                               body.particles()[trace_neighbour(v, k)], body.chain(v, k), walks));
-      }
+    test::expect_valid(environment.snapshot(), replay);
   }
 }
 
