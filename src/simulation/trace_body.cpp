@@ -29,25 +29,17 @@ Body_soup<3> trace_body_soup(Trace_body::Positions positions) {
 }
 
 Trace_body::Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions)
-    : snapshot_(&snapshot) {
+    : snapshot_(&snapshot), chains_(trace_edges * trace_vertices) {
   const Body<3> body(snapshot, locator, trace_body_soup(positions));
   std::ranges::copy(body.particles(), particles_.begin());
   std::size_t edge = 0;
   for (std::size_t v = 0; v < trace_vertices; ++v)
     for (std::size_t k = 0; k < trace_edges; ++k)
-      if (v < trace_neighbour(v, k)) chains_[k][v] = body.chain(edge++);
-}
-
-Chain& Trace_body::stored_chain(std::size_t vertex, std::size_t k) {
-  return chains_[k][std::min(vertex, trace_neighbour(vertex, k))];
-}
-
-const Chain& Trace_body::stored_chain(std::size_t vertex, std::size_t k) const {
-  return chains_[k][std::min(vertex, trace_neighbour(vertex, k))];
+      if (v < trace_neighbour(v, k)) chains_[place(v, k)] = body.chain(edge++);
 }
 
 Chain Trace_body::chain(std::size_t vertex, std::size_t k) const {
-  const Chain& stored = stored_chain(vertex, k);
+  const Chain& stored = chains_[place(vertex, k)];
   return stored.empty() || vertex < trace_neighbour(vertex, k) ? stored : reversed(*snapshot_, stored);
 }
 
@@ -99,9 +91,9 @@ Trace_body::Move Trace_body::move(std::size_t vertex, const Point<3>& target, Sw
   }
   particles_[vertex] = to;
   for (std::size_t k = 0; k < trace_edges; ++k)
-    stored_chain(vertex, k) = vertex < trace_neighbour(vertex, k) || chains[k].empty()
-                                  ? std::move(chains[k])
-                                  : reversed(*snapshot_, chains[k]);
+    chains_[place(vertex, k)] = vertex < trace_neighbour(vertex, k) || chains[k].empty()
+                                    ? std::move(chains[k])
+                                    : reversed(*snapshot_, chains[k]);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <cellwalk/records/trace.h>
 #include <cellwalk/walk/locate.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -39,7 +40,7 @@ class Trace_body {
   /// crosses a wall
   Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions);
 
-  /// The answer to the move of one vertex, and the first contact, if there is one: of the vertex or an edge at it.
+  /// The answer to the move of one vertex, and its contact: that of the vertex if it hits, else the first one of its edges.
   struct Move {
     std::uint8_t answer = 0;
     std::optional<Contact<3>> contact;
@@ -57,13 +58,15 @@ class Trace_body {
   Chain chain(std::size_t vertex, std::size_t k) const;
 
  private:
-  Chain& stored_chain(std::size_t vertex, std::size_t k);
-  const Chain& stored_chain(std::size_t vertex, std::size_t k) const;
+  /// The place of an edge among the chains, seen from either end.
+  static std::size_t place(std::size_t vertex, std::size_t k) {
+    return k * trace_vertices + std::min(vertex, trace_neighbour(vertex, k));
+  }
 
   const Snapshot<3>* snapshot_;
   std::array<Particle<3>, trace_vertices> particles_;
-  /// From a vertex without bit k to its neighbour k, at chains_[k][vertex]; the other places are not used.
-  std::array<std::array<Chain, trace_vertices>, trace_edges> chains_;
+  std::vector<Chain>
+      chains_;  ///< from the lower vertex of each edge, at its place; half of the places are used
   std::vector<Cell> visited_;        // scratch space of move()
   std::vector<Half_facet> crossed_;  // the same
 };
