@@ -26,7 +26,7 @@ Half_facet convex_passage(const Snapshot<D>& snapshot, Cell from, Cell to) {
 
 template <int D>
 void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                           std::vector<Blocked_move>& blocked, Body_counts& counts) {
+                           std::vector<Blocked_move<D>>& blocked, Body_counts& counts) {
   if (positions_.empty()) return;
   counts.moves += positions_.size();
   if (!options.clearance)
@@ -35,7 +35,7 @@ void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options
     return;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     if (moves_in_region(v, targets[v], counts)) continue;
-    const Blocked_move answer = move_or_stay(v, targets[v], options, counts);
+    const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts.contacts += answer.stays();
     blocked.push_back(answer);
@@ -43,9 +43,9 @@ void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options
 }
 
 template <int D>
-Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
-                                   Body_counts& counts) {
-  Blocked_move answer;
+Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
+                                      const Body_options& options, Body_counts& counts) {
+  Blocked_move<D> answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = region_ && !is_outside_[vertex] && region_->holds(target);
@@ -61,8 +61,10 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
     recorded.visited = &visited_;
     recorded.crossed = &crossed_;
   }
-  if (move(*snapshot_, to, target, counts.edges.walk, recorded).status != Walk_status::arrived) {
+  if (const Walk_result<D> walked = move(*snapshot_, to, target, counts.edges.walk, recorded);
+      walked.contact) {
     answer.is_vertex_blocked = true;
+    answer.contact = walked.contact;
     return answer;
   }
   const Way<D> way{from, to, visited_, crossed_, false};
@@ -72,9 +74,9 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
     Moved_chain& moved = moved_chains_[i - begin];
     moved.is_behind = !needs_way || (is_inside && !is_outside_[corners_[i].other]);
     if (is_inside && !is_outside_[corners_[i].other]) continue;
-    const bool is_blocked = needs_way ? sweep_or_stay(way, i, options.sweep, moved.chain, answer, counts)
-                                      : !is_edge_free(way, i, options.sweep, counts);
-    if (is_blocked) answer.edges |= std::uint64_t{1} << (i - begin);
+    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options.sweep, moved.chain, answer, counts)
+                                  : meets_at_end(way, i, options.sweep, answer, counts);
+    if (is_met) answer.edges |= std::uint64_t{1} << (i - begin);
   }
   if (answer.stays()) return answer;
   are_faces_swept_ = false;
@@ -82,10 +84,10 @@ Blocked_move Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
   return answer;
 }
 
-/// Whether the edge of a corner is free where its vertex goes.
+/// True if the edge of a corner meets a wall where its vertex goes.
 template <int D>
-bool Body<D>::is_edge_free(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                           Body_counts& counts) {
+bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                           Blocked_move<D>& answer, Body_counts& counts) {
   const Corner& corner = corners_[corner_number];
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
@@ -93,24 +95,27 @@ bool Body<D>::is_edge_free(const Way<D>& way, std::uint32_t corner_number, const
   ++edges.edges;
   if (options.certificates.same_cell && q.cell == way.to.cell) {
     ++edges.same_cell;
-    return true;
+    return false;
   }
   if (options.certificates.convex_pair &&
       convex_passage(*snapshot_, way.to.cell, q.cell) != Half_facet::none) {
     ++edges.convex_pair;
-    return true;
+    return false;
   }
   const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk);
-  if (walked.status == Walk_status::arrived && walked.cell == q.cell) return true;
+  if (walked.status == Walk_status::arrived && walked.cell == q.cell) return false;
   // Where a wall is passed in its inside, no other way helps.
-  if (walked.contact && walked.contact->kind == Contact_kind::facet) return false;
-  return !find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+  std::optional<Wall_contact<D>> contact = walked.contact;
+  if (!contact || contact->kind != Contact_kind::facet)
+    contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+  if (contact && !answer.contact) answer.contact = contact;
+  return contact.has_value();
 }
 
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
-bool Body<D>::sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                            Chain& moved, Blocked_move& answer, Body_counts& counts) {
+bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                                 Chain& moved, Blocked_move<D>& answer, Body_counts& counts) {
   const Corner& corner = corners_[corner_number];
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
@@ -122,7 +127,10 @@ bool Body<D>::sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, cons
     Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk);
     if (anew.contact && (anew.contact->kind != Contact_kind::facet || anew.contact->time == 1))
       anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
-    if (anew.contact) return true;
+    if (anew.contact) {
+      if (!answer.contact) answer.contact = anew.contact;
+      return true;
+    }
     chain = std::move(anew.chain);
   }
   moved = *chain;
@@ -151,16 +159,17 @@ bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, co
   return true;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                          \
-  template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                    \
-                                      std::vector<Blocked_move>&, Body_counts&);                         \
-  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,     \
-                                         const Sweep_options&, Chain&, Edge_counts&) const;              \
-  template bool Body<D>::is_edge_free(const Way<D>&, std::uint32_t, const Sweep_options&, Body_counts&); \
-  template bool Body<D>::sweep_or_stay(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,       \
-                                       Blocked_move&, Body_counts&);                                     \
-  template Blocked_move Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&,       \
-                                              Body_counts&);
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \
+                                      std::vector<Blocked_move<D>>&, Body_counts&);                         \
+  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
+                                         const Sweep_options&, Chain&, Edge_counts&) const;                 \
+  template bool Body<D>::meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&, Blocked_move<D>&, \
+                                      Body_counts&);                                                        \
+  template bool Body<D>::sweep_meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,     \
+                                            Blocked_move<D>&, Body_counts&);                                \
+  template Blocked_move<D> Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&,       \
+                                                 Body_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -37,8 +37,8 @@ struct Replay_options {
 /// What all rounds found: they differ in time only.
 struct Replayed {
   std::vector<double> ns_per_move;  ///< of each round
-  std::uint64_t mismatches = 0, contacts = 0;
-  Trace_counts counts;  ///< of one round
+  std::uint64_t mismatches = 0;
+  Replay_counts counts;  ///< of one round
 
   double median() const {
     std::vector<double> sorted = ns_per_move;
@@ -75,14 +75,14 @@ Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, co
   Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
   Replayed result;
   for (int round = 0; round < rounds; ++round) {
-    Replay replay =
-        naming(options.trace, [&] { return Replay(environment.snapshot(), locator, trace, options.sweep); });
+    Replay replay = naming(options.trace, [&] {
+      return Replay(environment.snapshot(), locator, trace, {options.sweep, true});
+    });
     const Clock::time_point begin = Clock::now();
     replay.run();
     const std::chrono::duration<double, std::nano> passed = Clock::now() - begin;
     progress.update(static_cast<std::uint64_t>(round) + 1);
     result.mismatches = std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
-    result.contacts = replay.contacts().size();
     result.counts = replay.counts();
     if (round >= options.warmup)
       result.ns_per_move.push_back(passed.count() / static_cast<double>(trace.moves()));
@@ -91,20 +91,19 @@ Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, co
 }
 
 ordered_json counts_json(const Replayed& replayed) {
-  const Trace_counts& c = replayed.counts;
-  ordered_json result{{"moves", c.moves},
-                      {"contacts", replayed.contacts},
-                      {"held", c.held},
+  const Replay_counts& c = replayed.counts;
+  const Edge_counts& edges = c.body.edges;
+  ordered_json result{{"moves", c.body.moves},
+                      {"in_region", c.body.in_region},
+                      {"held", c.body.contacts},
                       {"vertex_hits", c.vertex_hits},
                       {"edge_hits", c.edge_hits},
                       {"triangle_hits", c.triangle_hits},
                       {"rounds", c.rounds},
-                      {"walks", c.edges.walk.walks},
-                      {"crossings", c.edges.walk.crossings},
-                      {"exact_fallbacks", c.edges.walk.predicates.fallbacks}};
-  result["shares"] = shares_json(c.edges);
-  result["edges"] = to_json(c.edges);
-  result["walk"] = to_json(c.edges.walk);
+                      {"walks", edges.walk.walks},
+                      {"crossings", edges.walk.crossings},
+                      {"exact_fallbacks", edges.walk.predicates.fallbacks}};
+  result["body"] = to_json(c.body);
   return result;
 }
 
@@ -131,7 +130,7 @@ void print_summary(const Trace& trace, const Replay_options& options, const Repl
   const auto line = [](const char* name, const std::string& value) {
     fmt::print("  {:<12}{}\n", name, value);
   };
-  const Trace_counts& c = replayed.counts;
+  const Replay_counts& c = replayed.counts;
   const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
   fmt::print("{}: {} x {} x {} cells{}, {} of them solid, {} bodies, {} steps\n", options.trace, trace.nx,
              trace.ny, trace.nz, options.sheared ? ", sheared" : "", trace.obstacles.size(), trace.bodies,
@@ -141,9 +140,10 @@ void print_summary(const Trace& trace, const Replay_options& options, const Repl
                            replayed.median(), sweep_names[static_cast<std::size_t>(options.sweep)],
                            options.rounds, *least, *most));
   line("mismatches", fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
-  line("moves", fmt::format("{}, {} of them held by walls; {} contacts, {} edges went round an obstacle",
-                            c.moves, c.held, replayed.contacts, c.rounds));
-  line("edges", describe_edges(c.edges));
+  line("moves", describe_moves(c.body));
+  line("contacts", fmt::format("{} vertices were held by walls; {} edges went round an obstacle",
+                               c.body.contacts, c.rounds));
+  line("edges", describe_edges(c.body.edges));
 }
 
 void replay(const Replay_options& options) {

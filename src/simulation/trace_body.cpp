@@ -18,7 +18,7 @@ Trace_counts& Trace_counts::operator+=(const Trace_counts& other) {
   return *this;
 }
 
-Body_soup<3> trace_body_soup(Trace_body::Positions positions) {
+Body_soup<3> trace_body_soup(Trace_positions positions) {
   Body_soup<3> soup;
   soup.points.assign(positions.begin(), positions.end());
   for (std::uint32_t v = 0; v < trace_vertices; ++v)
@@ -28,7 +28,7 @@ Body_soup<3> trace_body_soup(Trace_body::Positions positions) {
   return soup;
 }
 
-Trace_body::Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions)
+Trace_body::Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace_positions positions)
     : snapshot_(&snapshot), chains_(trace_edges * trace_vertices) {
   const Body<3> body(snapshot, locator, trace_body_soup(positions));
   std::ranges::copy(body.particles(), particles_.begin());

@@ -15,7 +15,7 @@ Trace_recorder::Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& lo
   bodies_.reserve(trace_.bodies);
   for (std::uint32_t b = 0; b < trace_.bodies; ++b) {
     try {
-      bodies_.emplace_back(snapshot, locator, Trace_body::Positions(&trace_.start(b, 0), trace_vertices));
+      bodies_.emplace_back(snapshot, locator, Trace_positions(&trace_.start(b, 0), trace_vertices));
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("body {}: {}", b, error.what()));
     }

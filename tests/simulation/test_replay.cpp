@@ -9,7 +9,6 @@
 #include <map>
 
 #include "simulation/random_trace.h"
-#include "simulation/replay_checks.h"
 #include "simulation/trace_oracle.h"
 
 namespace cellwalk {
@@ -75,34 +74,33 @@ TEST(Replay, GivesTheRecordedAnswers) {
   const Environment<3> environment = trace_environment(trace);
   const Locator<3> locator(environment.snapshot());
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
-    Replay replay(environment.snapshot(), locator, trace, sweep);
+    Replay replay(environment.snapshot(), locator, trace, {sweep, true});
     EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep),
               trace.moves() * (sweep == Sweep::triangle ? 7 : 4));
     for (std::uint32_t step = 0; step < trace.steps / 2; ++step) {
       replay.step();
-      test::expect_valid(environment.snapshot(), replay);
+      EXPECT_NO_THROW(replay.validate());
     }
     replay.run();
-    test::expect_valid(environment.snapshot(), replay);
+    EXPECT_NO_THROW(replay.validate());
     EXPECT_EQ(replay.steps_done(), trace.steps);
     EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep), 0u);
-    const Trace_counts& counts = replay.counts();
-    EXPECT_EQ(counts.moves, trace.moves());
+    const Replay_counts& counts = replay.counts();
+    EXPECT_EQ(counts.body.moves, trace.moves());
+    EXPECT_GT(counts.body.in_region, trace.moves() / 2);
     EXPECT_EQ(counts.vertex_hits, static_cast<std::uint64_t>(facts.segments));
     EXPECT_EQ(counts.edge_hits, static_cast<std::uint64_t>(facts.edges));
     EXPECT_EQ(counts.rounds, sweep == Sweep::triangle ? static_cast<std::uint64_t>(facts.rounds) : 0u);
     EXPECT_EQ(counts.triangle_hits,
               sweep == Sweep::triangle ? static_cast<std::uint64_t>(facts.triangles) : 0u);
-    Trace_counts twice = counts;
-    twice += counts;
-    EXPECT_EQ(twice.held, 2 * counts.held);
-    EXPECT_EQ(twice.edges.edges, 2 * counts.edges.edges);
+    EXPECT_EQ(replay.contacts().size(), counts.body.contacts);
     if (sweep == Sweep::triangle) continue;
     for (const std::uint8_t a : replay.answers()) ASSERT_EQ(a & trace_triangle_bits, 0);
   }
 }
 
-/// Cells that are no cubes cost the same: the same walks, crossings and certificates.
+/// Cells that are no cubes cost the same: without regions, the same walks, crossings and certificates. Regions have oblique sides
+/// there, and hold nearly as much.
 TEST(Replay, ShearedCellsAreLikeCubes) {
   const Trace& trace = crowded();
   const Environment<3> cubes = trace_environment(trace), leaning = trace_environment(trace, sheared<3>());
@@ -110,12 +108,15 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
   EXPECT_NE(moved.start(0, 0), trace.start(0, 0));
   EXPECT_EQ(mapped(trace, {}).targets, trace.targets);
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
-    Replay here(cubes.snapshot(), Locator<3>(cubes.snapshot()), trace, sweep);
-    Replay there(leaning.snapshot(), Locator<3>(leaning.snapshot()), moved, sweep);
-    here.run();
-    there.run();
-    EXPECT_EQ(count_mismatches(moved, there.answers(), sweep), 0u);
-    const Edge_counts &a = here.counts().edges, &b = there.counts().edges;
+    const auto replayed = [sweep](const Environment<3>& environment, const Trace& replayed_trace,
+                                  bool clearance) {
+      Replay replay(environment.snapshot(), Locator<3>(environment.snapshot()), replayed_trace,
+                    {sweep, clearance});
+      replay.run();
+      EXPECT_EQ(count_mismatches(replayed_trace, replay.answers(), sweep), 0u);
+      return replay.counts().body;
+    };
+    const Edge_counts a = replayed(cubes, trace, false).edges, b = replayed(leaning, moved, false).edges;
     EXPECT_EQ(a.edges, b.edges);
     EXPECT_EQ(a.same_cell, b.same_cell);
     EXPECT_EQ(a.convex_pair, b.convex_pair);
@@ -123,24 +124,34 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
     EXPECT_EQ(a.event_sweeps, b.event_sweeps);
     EXPECT_EQ(a.walk.walks, b.walk.walks);
     EXPECT_EQ(a.walk.crossings, b.walk.crossings);
+    EXPECT_GT(static_cast<double>(replayed(leaning, moved, true).in_region),
+              0.9 * static_cast<double>(replayed(cubes, trace, true).in_region));
   }
 }
 
-/// A contact for each move with a hit, at the time at which brute force finds the first edge, or the vertex, at a wall.
-TEST(Replay, ReportsContacts) {
+/// Bodies that locate them report a contact for each move with a hit, at the time at which brute force finds the first edge, or the vertex, at a wall.
+TEST(Trace_body, ReportsContacts) {
   const Trace& trace = crowded();
   const Environment<3> environment = trace_environment(trace);
-  Replay replay(environment.snapshot(), Locator<3>(environment.snapshot()), trace, Sweep::triangle);
-  replay.run();
-  std::map<std::size_t, const Contact<3>*> contacts;
-  for (const Replay_contact& c : replay.contacts())
-    EXPECT_TRUE(contacts.emplace(trace.index(c.step, c.body, c.vertex), &c.contact).second);
+  const Locator<3> locator(environment.snapshot());
+  std::map<std::size_t, Contact<3>> contacts;
+  Trace_counts counts;
+  for (std::uint32_t b = 0; b < trace.bodies; ++b) {
+    Trace_body body(environment.snapshot(), locator, Trace_positions(&trace.start(b, 0), trace_vertices));
+    for (std::uint32_t step = 0; step < trace.steps; ++step)
+      for (std::uint32_t v = 0; v < trace_vertices; ++v) {
+        const Trace_body::Move move = body.move(v, trace.target(step, b, v), Sweep::triangle, counts);
+        const std::size_t i = trace.index(step, b, v);
+        EXPECT_EQ(move.answer, trace.answers[i]);
+        if (move.contact) contacts.emplace(i, *move.contact);
+      }
+  }
   const test::Trace_walls walls(trace);
   int of_vertices = 0, of_edges = 0;
   test::for_each_move(trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto& q) {
     ASSERT_EQ(contacts.count(i), trace.answers[i] != 0 ? 1u : 0u);
     if (trace.answers[i] == 0) return;
-    const Contact<3>& contact = *contacts.at(i);
+    const Contact<3>& contact = contacts.at(i);
     std::optional<double> first;
     const bool is_vertex = (trace.answers[i] & trace_segment_bit) != 0;
     if (is_vertex) {
@@ -160,6 +171,42 @@ TEST(Replay, ReportsContacts) {
   EXPECT_GT(of_edges, 300);
 }
 
+/// A replay names the wall that is in the way of a vertex, or of an edge at its end.
+TEST(Replay, NamesWalls) {
+  const Trace& trace = crowded();
+  const Environment<3> environment = trace_environment(trace);
+  const Snapshot<3>& snapshot = environment.snapshot();
+  const Locator<3> locator(snapshot);
+  for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
+    Replay replay(snapshot, locator, trace, {sweep, true});
+    replay.run();
+    std::map<std::size_t, const Replay_contact*> contacts;
+    for (const Replay_contact& c : replay.contacts())
+      EXPECT_TRUE(contacts.emplace(trace.index(c.step, c.body, c.vertex), &c).second);
+    int of_vertices = 0, of_edges = 0;
+    test::for_each_move(
+        trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto& q) {
+          const bool is_vertex = trace.answers[i] & trace_segment_bit;
+          ASSERT_EQ(contacts.count(i), is_vertex || trace.answers[i] & trace_edge_bits ? 1u : 0u);
+          if (contacts.count(i) == 0) return;
+          const Replay_contact& c = *contacts.at(i);
+          EXPECT_EQ(c.feature, is_vertex ? Body_feature::vertex : Body_feature::edge);
+          EXPECT_TRUE(snapshot.is_impassable(c.contact.facet));
+          EXPECT_NEAR(length(c.contact.normal), 1, 0x1p-40);
+          // The point lies on the way of the vertex, or on the edge from its target.
+          double off = 1;
+          for (const Point<3>& end : q) {
+            const Point<3>&a = is_vertex ? from : target, &b = is_vertex ? target : end;
+            off = std::min(off, length(c.contact.point - (a + c.contact.time * (b - a))));
+          }
+          EXPECT_LT(off, 1e-12);
+          ++(is_vertex ? of_vertices : of_edges);
+        });
+    EXPECT_GT(of_vertices, 2000);
+    EXPECT_GT(of_edges, 200);
+  }
+}
+
 /// A body of the library that holds its vertices at walls goes where the trace says.
 TEST(Replay, BodiesThatHoldFollowTheSameRule) {
   const Trace& trace = crowded();
@@ -168,11 +215,11 @@ TEST(Replay, BodiesThatHoldFollowTheSameRule) {
   Body_options options;
   options.sweep.sweep = Sweep::three_segments;
   options.hold = true;
-  Replay replay(environment.snapshot(), locator, trace, Sweep::three_segments);
+  Replay replay(environment.snapshot(), locator, trace, {Sweep::three_segments, true});
   std::vector<Body<3>> bodies;
   for (std::uint32_t b = 0; b < trace.bodies; ++b)
     bodies.emplace_back(environment.snapshot(), locator,
-                        trace_body_soup(Trace_body::Positions(&trace.start(b, 0), trace_vertices)));
+                        trace_body_soup(Trace_positions(&trace.start(b, 0), trace_vertices)));
   std::vector<Body_contact<3>> contacts;
   Body_counts counts;
   for (std::uint32_t step = 0; step < trace.steps; ++step) {
@@ -180,11 +227,11 @@ TEST(Replay, BodiesThatHoldFollowTheSameRule) {
     for (std::uint32_t b = 0; b < trace.bodies; ++b) {
       bodies[b].step({&trace.target(step, b, 0), trace_vertices}, options, contacts, counts);
       for (std::size_t v = 0; v < trace_vertices; ++v)
-        ASSERT_EQ(bodies[b].positions()[v], replay.bodies()[b].particles()[v].position);
+        ASSERT_EQ(bodies[b].positions()[v], replay.bodies()[b].positions()[v]);
     }
   }
   EXPECT_EQ(contacts.size(), replay.contacts().size());
-  EXPECT_EQ(counts.held, replay.counts().held);
+  EXPECT_EQ(counts.held, replay.counts().body.contacts);
   EXPECT_GT(counts.held, 2000u);
   EXPECT_EQ(counts.stop_tries, 0u);
 }
@@ -196,7 +243,7 @@ TEST(Replay, FalsifiedBitsAreMismatches) {
   trace.answers[7] ^= trace_segment_bit;
   trace.answers[100] ^= 0x20;
   const auto mismatches = [&](Sweep sweep) {
-    Replay replay(environment.snapshot(), locator, trace, sweep);
+    Replay replay(environment.snapshot(), locator, trace, {sweep, true});
     replay.run();
     return count_mismatches(trace, replay.answers(), sweep);
   };
@@ -210,7 +257,7 @@ TEST(Replay, RefusesWhatItCannotReplay) {
   const Locator<3> locator(environment.snapshot());
   const auto refusal = [&](Error_code code, Sweep sweep) {
     try {
-      const Replay replay(environment.snapshot(), locator, trace, sweep);
+      const Replay replay(environment.snapshot(), locator, trace, {sweep, true});
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), code);
       return std::string(error.what());

@@ -28,12 +28,16 @@ struct Body_contact {
 };
 
 /// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
+template <int D>
 struct Blocked_move {
   std::uint32_t vertex = 0;
   bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
   std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
   std::uint64_t swept_edges =
       0;  ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
+  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
+  /// (time and point are along the edge then).
+  std::optional<Wall_contact<D>> contact;
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
@@ -97,7 +101,7 @@ class Body {
   /// \pre one finite target a vertex; no vertex has more than 64 edges
   /// Cost: that of step(), less that of locating contacts.
   void step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                    std::vector<Blocked_move>& blocked, Body_counts& counts);
+                    std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
 
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact. Gives a region free of walls up.
   /// \pre the target is finite
@@ -136,12 +140,12 @@ class Body {
   /// As move_vertex, where there is no region. If `any` is set, any contact will do.
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
                                           const Body_options& options, Body_counts& counts, bool any = false);
-  Blocked_move move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
-                            Body_counts& counts);
-  bool is_edge_free(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                    Body_counts& counts);
-  bool sweep_or_stay(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                     Chain& moved, Blocked_move& answer, Body_counts& counts);
+  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
+                               Body_counts& counts);
+  bool meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                    Blocked_move<D>& answer, Body_counts& counts);
+  bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                          Chain& moved, Blocked_move<D>& answer, Body_counts& counts);
   bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
                        const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);

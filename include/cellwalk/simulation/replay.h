@@ -3,29 +3,47 @@
 #ifndef CELLWALK_SIMULATION_REPLAY_H
 #define CELLWALK_SIMULATION_REPLAY_H
 
-#include <cellwalk/simulation/trace_body.h>
+#include <cellwalk/body/body.h>
+#include <cellwalk/records/trace.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cellwalk {
 
-/// A move that met a wall. With Sweep::triangle it may be one after which the vertex moved all the same, since its edges went
-/// round an obstacle.
+/// A move that a wall did not let happen.
 struct Replay_contact {
   std::uint32_t step = 0, body = 0, vertex = 0;
-  Contact<3> contact;
+  Body_feature feature =
+      Body_feature::vertex;  ///< or the first of its edges that the wall is in the way of, where it would be
+  Wall_contact<3> contact;
+};
+
+/// What a replay did. All counts are machine-independent.
+struct Replay_counts {
+  std::uint64_t vertex_hits = 0;    ///< moves in which the vertex hits: bit 0
+  std::uint64_t edge_hits = 0;      ///< edges that hit at the target: bits 1 to 3
+  std::uint64_t triangle_hits = 0;  ///< triangles of them that hit, if triangles are swept: bits 4 to 6
+  std::uint64_t rounds = 0;  ///< edges that went round an obstacle: their triangle hits, and they do not
+  Body_counts body;          ///< contacts: moves after which the vertex stays where it was
+};
+
+struct Replay_options {
+  Sweep sweep = Sweep::triangle;  ///< three_segments or triangle
+  bool clearance = true;          ///< see Body_options
 };
 
 /// The bodies of a trace on their way. Refers to the snapshot and the trace, which must outlive it.
 class Replay {
  public:
   /// Registers the bodies where they start.
-  /// \pre sweep is three_segments or triangle; the trace is one that io::read_trace accepts
+  /// \pre the trace is one that io::read_trace accepts
   /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces: the bodies of a trace have
   ///        no faces
-  Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace, Sweep sweep);
+  Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
+         const Replay_options& options);
 
   /// Moves all vertices of all bodies, in order, to the targets of the next step. \pre there is one
   void step();
@@ -37,17 +55,25 @@ class Replay {
   std::span<const std::uint8_t> answers() const { return answers_; }
   /// In the order met.
   std::span<const Replay_contact> contacts() const { return contacts_; }
-  std::span<const Trace_body> bodies() const { return bodies_; }
-  const Trace_counts& counts() const { return counts_; }
+  std::span<const Body<3>> bodies() const { return bodies_; }
+  const Replay_counts& counts() const { return counts_; }
+
+  /// Checks I1 and I2 of all bodies, which are caught up first. \throw Error(other) naming the first that violates them
+  void validate();
 
  private:
+  void note(std::uint32_t body, const Blocked_move<3>& blocked);
+
   const Trace* trace_;
-  Sweep sweep_;
-  std::vector<Trace_body> bodies_;
+  Body_options options_;
+  std::vector<Body<3>> bodies_;
+  /// Of each vertex, which of its three edges leads to its i-th neighbour.
+  std::array<std::array<std::uint8_t, trace_edges>, trace_vertices> edge_of_{};
+  std::vector<Blocked_move<3>> blocked_;  ///< in one step of one body
   std::vector<std::uint8_t> answers_;
   std::vector<Replay_contact> contacts_;
   std::uint32_t steps_done_ = 0;
-  Trace_counts counts_;
+  Replay_counts counts_;
 };
 
 /// Bits of answers that differ from those of the trace, among the bits that the sweep decides. A step that is not done counts

@@ -31,14 +31,15 @@ struct Trace_counts {
   Trace_counts& operator+=(const Trace_counts& other);
 };
 
+/// The vertices of a body of a trace.
+using Trace_positions = std::span<const Point<3>, trace_vertices>;
+
 /// One body. Refers to the snapshot, which must outlive it. Copies are bodies of their own.
 class Trace_body {
  public:
-  using Positions = std::span<const Point<3>, trace_vertices>;
-
   /// Registers a body where it stands. \throw Error(outside) naming the vertex that is not in free space, or the edge that
   /// crosses a wall
-  Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions);
+  Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace_positions positions);
 
   /// The answer to the move of one vertex, and its contact: that of the vertex if it hits, else the first one of its edges.
   struct Move {
@@ -72,7 +73,7 @@ class Trace_body {
 };
 
 /// The vertices and edges of a body of a trace.
-Body_soup<3> trace_body_soup(Trace_body::Positions positions);
+Body_soup<3> trace_body_soup(Trace_positions positions);
 
 }  // namespace cellwalk
 
