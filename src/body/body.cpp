@@ -16,6 +16,7 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
   in_region += other.in_region;
   regions += other.regions;
   no_region += other.no_region;
+  region_cells += other.region_cells;
   catch_ups += other.catch_ups;
   contacts += other.contacts;
   stop_tries += other.stop_tries;
@@ -27,7 +28,13 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : snapshot_(&snapshot), positions_(soup.points), edges_(soup.edges), faces_(soup.faces) {
+    : snapshot_(&snapshot),
+      positions_(soup.points),
+      edges_(soup.edges),
+      faces_(soup.faces),
+      is_outside_(soup.points.size()),
+      vertex_behind_(soup.points.size()),
+      edge_behind_(soup.edges.size()) {
   detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);
   particles_ = std::move(registered.particles);
   chains_ = std::move(registered.chains);
@@ -72,6 +79,9 @@ template <int D>
 std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
                                                  const Body_options& options, Body_counts& counts, bool any) {
   if (target == positions_[vertex] && are_faces_swept_) return {};
+  catch_up_vertex(vertex, counts);
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    catch_up_edge(corners_[i].edge, counts);
   const Particle<D> from = particles_[vertex];
   Particle<D> to = from;
   visited_.clear();
@@ -101,6 +111,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
     moved.chain = swept.chain;
     moved.is_free = !swept.contact;
+    moved.is_behind = false;
   }
   moved_rests_.clear();
   if (options.sweep.sweep == Sweep::faces)
@@ -109,14 +120,31 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     are_faces_swept_ = false;
   if (first) return first;
   for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
+  commit(vertex, to);
+  return {};
+}
+
+/// Takes the chains of a moved vertex over, and its place.
+template <int D>
+void Body<D>::commit(std::uint32_t vertex, const Particle<D>& particle) {
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
     const Corner& corner = corners_[i];
-    const Chain& moved = moved_chains_[i - corner_begin_[vertex]].chain;
-    chains_[corner.edge] = corner.is_reversed && !moved.empty() ? reversed(*snapshot_, moved) : moved;
+    const Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
+    edge_behind_[corner.edge] = moved.is_behind;
+    if (moved.is_behind) continue;
+    chains_[corner.edge] =
+        corner.is_reversed && !moved.chain.empty() ? reversed(*snapshot_, moved.chain) : moved.chain;
   }
-  particles_[vertex] = to;
-  positions_[vertex] = target;
-  return {};
+  particles_[vertex] = particle;
+  place(vertex, particle.position);
+}
+
+template <int D>
+std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    result.push_back(corners_[i].other);
+  return result;
 }
 
 template <int D>
@@ -150,6 +178,8 @@ void Body<D>::validate() const {
 
 template Body<2>::Body(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
 template void Body<2>::link_edges();
+template void Body<2>::commit(std::uint32_t, const Particle<2>&);
+template std::vector<std::uint32_t> Body<2>::neighbours(std::uint32_t) const;
 template Chain Body<2>::seen_from(const Corner&) const;
 template std::optional<Body_contact<2>> Body<2>::move_vertex(std::uint32_t, const Point<2>&,
                                                              const Body_options&, Body_counts&);
@@ -158,6 +188,8 @@ template std::optional<Body_contact<2>> Body<2>::try_move(std::uint32_t, const P
 template void Body<2>::validate() const;
 template Body<3>::Body(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
 template void Body<3>::link_edges();
+template void Body<3>::commit(std::uint32_t, const Particle<3>&);
+template std::vector<std::uint32_t> Body<3>::neighbours(std::uint32_t) const;
 template Chain Body<3>::seen_from(const Corner&) const;
 template std::optional<Body_contact<3>> Body<3>::move_vertex(std::uint32_t, const Point<3>&,
                                                              const Body_options&, Body_counts&);

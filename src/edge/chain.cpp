@@ -41,6 +41,7 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   floods += other.floods;
   flooded_cells += other.flooded_cells;
   clear += other.clear;
+  pierced += other.pierced;
   searches += other.searches;
   search_sweeps += other.search_sweeps;
   search_walls += other.search_walls;

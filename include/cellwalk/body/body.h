@@ -3,7 +3,7 @@
 #ifndef CELLWALK_BODY_BODY_H
 #define CELLWALK_BODY_BODY_H
 
-#include <cellwalk/body/clearance.h>
+#include <cellwalk/body/clear_region.h>
 #include <cellwalk/edge/face.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/kernel/error.h>
@@ -27,20 +27,37 @@ struct Body_contact {
   std::uint32_t feature = 0;
 };
 
+/// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
+template <int D>
+struct Blocked_move {
+  std::uint32_t vertex = 0;
+  bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
+  std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
+  std::uint64_t swept_edges =
+      0;  ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
+  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
+  /// (time and point are along the edge then).
+  std::optional<Wall_contact<D>> contact;
+  bool stays() const { return is_vertex_blocked || edges != 0; }
+};
+
 struct Body_options {
   Sweep_options sweep;
   bool clearance = true;  ///< keep a region that is free of walls, in which nothing needs a test
   /// A vertex that meets a wall goes on along it, at most so often in a step.
   int most_contacts = 4;
+  /// A vertex that meets a wall stays where it is, and does not go on: the rule of traces.
+  bool hold = false;
 };
 
 /// What the moves of bodies did. All counts are machine-independent.
 struct Body_counts {
-  std::uint64_t moves = 0;      ///< moves of vertices asked for
-  std::uint64_t in_region = 0;  ///< made without a test, all positions being in a region free of walls
-  std::uint64_t regions = 0;    ///< such regions found
-  std::uint64_t no_region = 0;  ///< searches that found none
-  std::uint64_t catch_ups = 0;  ///< vertices located anew when a body left its region
+  std::uint64_t moves = 0;         ///< moves of vertices asked for
+  std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
+  std::uint64_t regions = 0;       ///< such regions found
+  std::uint64_t no_region = 0;     ///< searches that found none
+  std::uint64_t region_cells = 0;  ///< cells looked at by these searches
+  std::uint64_t catch_ups = 0;     ///< vertices registered anew after moves in a region
   std::uint64_t contacts = 0;
   std::uint64_t stop_tries = 0;  ///< moves tried to find a position to stop at
   std::uint64_t held = 0;        ///< contacts after which the vertex stayed where it was
@@ -67,6 +84,8 @@ class Body {
   std::span<const Point<D>> positions() const { return positions_; }
   std::span<const std::array<std::uint32_t, 2>> edges() const { return edges_; }
   std::span<const std::array<std::uint32_t, 3>> faces() const { return faces_; }
+  /// The other ends of the edges of a vertex, ascending.
+  std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
   /// Moves the vertices one after the other to their targets, as far as walls allow: a vertex that meets one, or has an edge
   /// that does, stops at a verified position just before, and its remaining motion is projected on the wall and tried again.
@@ -74,6 +93,15 @@ class Body {
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge.
   void step(std::span<const Point<D>> targets, const Body_options& options,
             std::vector<Body_contact<D>>& contacts, Body_counts& counts);
+
+  /// Moves the vertices one after the other, by the rule of the paper: a vertex that meets a wall, or would have an edge that does
+  /// where it goes, stays where it is. Whatever the sweep, only the way of the vertex and the edges at its end decide; the
+  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. No contact is located. Appends what
+  /// blocks, vertex by vertex; a vertex without an entry moved, and nothing was met.
+  /// \pre one finite target a vertex; no vertex has more than 64 edges
+  /// Cost: that of step(), less that of locating contacts.
+  void step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
+                    std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
 
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact. Gives a region free of walls up.
   /// \pre the target is finite
@@ -84,10 +112,7 @@ class Body {
   /// Registers what was moved without tests in a region free of walls.
   void catch_up(Body_counts& counts);
   /// Catches up and gives the region up. To be called before the environment is edited.
-  void leave_region(Body_counts& counts) {
-    catch_up(counts);
-    region_.reset();
-  }
+  void leave_region(Body_counts& counts);
   /// The particles and chains. \pre caught up
   std::span<const Particle<D>> particles() const { return particles_; }
   const Chain& chain(std::size_t edge) const { return chains_[edge]; }
@@ -115,8 +140,23 @@ class Body {
   /// As move_vertex, where there is no region. If `any` is set, any contact will do.
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
                                           const Body_options& options, Body_counts& counts, bool any = false);
+  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
+                               Body_counts& counts);
+  bool meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                    Blocked_move<D>& answer, Body_counts& counts);
+  bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
+                          Chain& moved, Blocked_move<D>& answer, Body_counts& counts);
+  bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
+                       const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
+  void commit(std::uint32_t vertex, const Particle<D>& particle);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
-  bool stays_in_region(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
+  bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
+  bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  void renew_region(std::span<const Point<D>> targets, Body_counts& counts);
+  void note_all_behind();
+  void catch_up_vertex(std::uint32_t vertex, Body_counts& counts);
+  void catch_up_edge(std::uint32_t edge, Body_counts& counts);
+  void place(std::uint32_t vertex, const Point<D>& position);
   bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
             const Body_options& options, Body_counts& counts);
   Chain seen_from(const Corner& corner) const;
@@ -134,9 +174,19 @@ class Body {
   std::vector<Face_corner> face_corners_;            ///< of vertex after vertex
   std::vector<std::uint32_t> face_corner_begin_;
   bool are_faces_swept_ = true;
+
+  // A region free of walls, and what was moved in it without registering it.
   std::optional<Clear_region<D>> region_;
-  bool is_behind_ = false;      ///< particles and chains have not been caught up
-  std::uint32_t patience_ = 0;  ///< steps until a region is looked for again
+  std::uint32_t outside_ = 0;          ///< vertices not in it
+  std::vector<char> is_outside_;       ///< of each vertex
+  bool are_all_behind_ = false;        ///< all of the following
+  std::vector<char> vertex_behind_;    ///< its particle is where it was; it is in the region
+  std::vector<char> edge_behind_;      ///< its chain is that of before; it meets no wall
+  std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
+  std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
+  std::uint32_t next_patience_ = 4;    ///< if that finds none
+  double steps_ahead_ = 24;            ///< that the next one is asked to hold
+  std::uint32_t anchor_vertex_ = 0;    ///< about which it is looked for
 
   // Scratch space of move_vertex.
   std::vector<Cell> visited_;
@@ -144,6 +194,7 @@ class Body {
   struct Moved_chain {
     Chain chain;
     bool is_free = false;
+    bool is_behind = false;  ///< it is not known, but there is one
   };
   std::vector<Moved_chain> moved_chains_;  ///< of the edges of the vertex
   std::vector<std::pair<std::uint32_t, Face_rests>> moved_rests_;

@@ -30,6 +30,7 @@ struct Edge_counts {
   std::uint64_t floods = 0;         ///< swept triangles flooded
   std::uint64_t flooded_cells = 0;  ///< cells met by them
   std::uint64_t clear = 0;          ///< proved to meet no wall
+  std::uint64_t pierced = 0;        ///< proved to be pierced by one
   std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
   std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic ones
   std::uint64_t search_walls = 0;   ///< walls looked at by exhaustive ones, and for touches

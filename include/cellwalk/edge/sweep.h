@@ -69,6 +69,14 @@ template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts);
 
+/// Only whether the edge is free while p goes a way on which nothing blocks it: its chain then, or none. Decides as
+/// sweep_edge_along() does, Touch::pass, but locates no contact, which costs more than all else.
+/// \pre !way.blocked
+/// Cost: that of the sweep; where a wall pierces the swept triangle, some twenty signs to see that.
+template <int D>
+std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                const Chain& before, const Sweep_options& options, Edge_counts& counts);
+
 /// The contact of a vertex that its own walk reported.
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,

@@ -91,13 +91,18 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 
 namespace detail {
 
-/// True if x is certainly strictly inside a cell of at most four facets.
+/// True if x is certainly strictly inside a cell of at most eight facets.
 template <int D>
 inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point<D>& x, Walk_counts& counts) {
+  const std::size_t blocks = snapshot.block_count(cell);
   Float_point<D> y;
-  if (snapshot.block_count(cell) != 1 || !snapshot.frame().map(x, y)) return false;
-  ++counts.plane_blocks;
-  return lane_mask(evaluate(*snapshot.blocks(cell), y) < -plane_error) == 0xf;
+  if (blocks > 2 || !snapshot.frame().map(x, y)) return false;
+  counts.plane_blocks += blocks;
+  const Plane_block<D>* planes = snapshot.blocks(cell);
+  if (blocks == 1) return lane_mask(evaluate(planes[0], y) < -plane_error) == 0xf;
+  const Spread_point<D> lanes = spread<D>(y);
+  return lane_mask((evaluate(planes[0], lanes) < -plane_error) &
+                   (evaluate(planes[1], lanes) < -plane_error)) == 0xf;
 }
 
 template <class Kernel, int D>

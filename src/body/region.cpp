@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A body in a region free of walls: its vertices move without tests, and are registered when that is needed.
+#include <cellwalk/body/body.h>
+
+#include <algorithm>
+
+namespace cellwalk {
+namespace {
+
+/// Steps without a search after one that lost a target: a wall is in its way, and may be for a while.
+constexpr std::uint32_t patience_with_targets = 6;
+/// After one that lost positions; twice as many after each of those in a row.
+constexpr std::uint32_t least_patience = 1, most_patience = 64;
+/// A search may look at so many cells: it must not cost more than the tests it saves.
+constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
+/// How many steps ahead, where there are not too many cells.
+constexpr double furthest_ahead = 24;
+
+}  // namespace
+
+/// Moves all vertices, if the region allows it.
+template <int D>
+bool Body<D>::moves_in_region(std::span<const Point<D>> targets, Body_counts& counts) {
+  const auto holds_all = [&] { return region_ && outside_ == 0 && region_->holds_all(targets); };
+  if (!holds_all()) {
+    renew_region(targets, counts);
+    if (!holds_all()) {
+      note_all_behind();
+      return false;
+    }
+  }
+  std::copy(targets.begin(), targets.end(), positions_.begin());
+  are_all_behind_ = true;
+  counts.in_region += positions_.size();
+  return true;
+}
+
+/// Moves one vertex, if the region allows it.
+template <int D>
+bool Body<D>::moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
+  if (!region_ || is_outside_[vertex] || !region_->holds(target)) return false;
+  const auto begin = corners_.begin() + corner_begin_[vertex],
+             end = corners_.begin() + corner_begin_[vertex + 1];
+  if (std::any_of(begin, end, [this](const Corner& c) { return is_outside_[c.other]; })) return false;
+  positions_[vertex] = target;
+  vertex_behind_[vertex] = true;
+  std::for_each(begin, end, [this](const Corner& c) { edge_behind_[c.edge] = true; });
+  if (!faces_.empty())
+    for (std::uint32_t i = face_corner_begin_[vertex]; i < face_corner_begin_[vertex + 1]; ++i)
+      rests_[face_corners_[i].face].clear();
+  ++counts.in_region;
+  return true;
+}
+
+/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered.
+template <int D>
+void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
+  std::uint32_t& patience = region_ && outside_ == 0 ? target_patience_ : patience_;
+  if (patience > 0) {
+    --patience;
+    return;
+  }
+  note_all_behind();
+  catch_up_vertex(anchor_vertex_, counts);
+  Region_request<D> request;
+  request.positions = positions_;
+  request.targets = targets;
+  request.most_cells = std::clamp(cells_per_vertex * positions_.size(), least_cells, most_cells);
+  request.steps_ahead = steps_ahead_;
+  Region_effort effort;
+  const auto found = find_clear_region(*snapshot_, particles_[anchor_vertex_], request, effort);
+  counts.region_cells += effort.cells;
+  steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_ : std::min(2 * steps_ahead_ + 1, furthest_ahead);
+  outside_ = 0;
+  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+    is_outside_[v] = !found || !found->holds(positions_[v]);
+    if (!is_outside_[v]) continue;
+    ++outside_;
+    catch_up_vertex(v, counts);
+  }
+  region_ = found;
+  ++(found ? counts.regions : counts.no_region);
+  if (found && outside_ == 0) {
+    next_patience_ = least_patience;
+    if (!region_->holds_all(targets)) target_patience_ = patience_with_targets;
+    return;
+  }
+  patience_ = next_patience_;
+  next_patience_ = std::min(2 * next_patience_, most_patience);
+  anchor_vertex_ = anchor_vertex_ + 1 == positions_.size() ? 0 : anchor_vertex_ + 1;
+}
+
+template <int D>
+void Body<D>::note_all_behind() {
+  if (!are_all_behind_) return;
+  are_all_behind_ = false;
+  std::fill(vertex_behind_.begin(), vertex_behind_.end(), true);
+  std::fill(edge_behind_.begin(), edge_behind_.end(), true);
+  for (Face_rests& rests : rests_) rests.clear();
+}
+
+template <int D>
+void Body<D>::catch_up_vertex(std::uint32_t vertex, Body_counts& counts) {
+  if (!vertex_behind_[vertex]) return;
+  // Between two points of the region is no wall.
+  vertex_behind_[vertex] = false;
+  particles_[vertex] = region_->anchor();
+  move(*snapshot_, particles_[vertex], positions_[vertex], counts.edges.walk);
+  ++counts.catch_ups;
+}
+
+template <int D>
+void Body<D>::catch_up_edge(std::uint32_t edge, Body_counts& counts) {
+  const auto [u, v] = edges_[edge];
+  catch_up_vertex(u, counts);
+  catch_up_vertex(v, counts);
+  if (!edge_behind_[edge]) return;
+  edge_behind_[edge] = false;
+  chains_[edge] = find_any_chain(*snapshot_, particles_[u], particles_[v], counts.edges.walk).chain;
+}
+
+template <int D>
+void Body<D>::catch_up(Body_counts& counts) {
+  note_all_behind();
+  for (std::uint32_t v = 0; v < positions_.size(); ++v) catch_up_vertex(v, counts);
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) catch_up_edge(e, counts);
+}
+
+template <int D>
+void Body<D>::leave_region(Body_counts& counts) {
+  catch_up(counts);
+  region_.reset();
+}
+
+template <int D>
+void Body<D>::place(std::uint32_t vertex, const Point<D>& position) {
+  positions_[vertex] = position;
+  if (!region_) return;
+  outside_ -= is_outside_[vertex];
+  is_outside_[vertex] = !region_->holds(position);
+  outside_ += is_outside_[vertex];
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                         \
+  template bool Body<D>::moves_in_region(std::span<const Point<D>>, Body_counts&);      \
+  template bool Body<D>::moves_in_region(std::uint32_t, const Point<D>&, Body_counts&); \
+  template void Body<D>::renew_region(std::span<const Point<D>>, Body_counts&);         \
+  template void Body<D>::note_all_behind();                                             \
+  template void Body<D>::catch_up_vertex(std::uint32_t, Body_counts&);                  \
+  template void Body<D>::catch_up_edge(std::uint32_t, Body_counts&);                    \
+  template void Body<D>::catch_up(Body_counts&);                                        \
+  template void Body<D>::leave_region(Body_counts&);                                    \
+  template void Body<D>::place(std::uint32_t, const Point<D>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk
