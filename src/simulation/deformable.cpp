@@ -30,7 +30,7 @@ Deformable<D>::Deformable(Body<D> body, const Shape_material& material, const Ve
   const detail::Rigid_frame<D> frame(body_.positions());
   const detail::Rigid_motion<D> motion{velocity, spin};
   for (const Point<D>& x : body_.positions()) velocities_.push_back(motion.at(frame.arm(x)));
-  predicted_.resize(targets_.size());
+  moved_.resize(targets_.size());
 }
 
 template <int D>
@@ -78,31 +78,51 @@ void Deformable<D>::limit(double most) {
     for (Vector<D>& v : velocities_) v = (std::sqrt(most / left) * (1 - 0x1p-50)) * v;
 }
 
+/// Where the body would be without walls, and the velocities that take it there. False if that is not finite.
+///
+/// The motion of the whole keeps its momenta, and is followed along its arc. The rest y of the shape and its velocity u, seen
+/// from the goals and from the whole, become y' = (1 - a) y + (1 - a^2) h u and u' = (y' - y) / h, a being the stiffness: stable
+/// for all a and h; with a = 1 there is no deformation after a step, as a tends to 0 nothing is lost.
+template <int D>
+bool Deformable<D>::predict(double dt) {
+  const double stiffness = matching_.material().stiffness, kept = 1 - stiffness * stiffness;
+  const auto positions = body_.positions();
+  const detail::Rigid_frame<D> here(positions);
+  const detail::Rigid_motion<D> motion = here.motion_of(positions, velocities_);
+  const Spin<D> momentum = here.momentum_of(positions, velocities_);
+  const detail::Turn<D> turn(dt * motion.spin);
+  const Point<D> center = here.center() + dt * motion.velocity;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    const Vector<D> arm = here.arm(positions[i]);
+    velocities_[i] = turn(velocities_[i] - motion.at(arm));
+    moved_[i] = center + turn(arm);
+  }
+  if (!std::ranges::all_of(moved_, is_finite<D>)) return false;
+  matching_.goals(moved_, targets_);
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    velocities_[i] = kept * velocities_[i] + (stiffness / dt) * (targets_[i] - moved_[i]);
+    targets_[i] = moved_[i] + dt * velocities_[i];
+  }
+  if (!std::ranges::all_of(targets_, is_finite<D>)) return false;
+  const detail::Rigid_frame<D> there(targets_);
+  const detail::Rigid_motion<D> whole{motion.velocity, there.spin_of(momentum)};
+  for (std::size_t i = 0; i < targets_.size(); ++i)
+    velocities_[i] = velocities_[i] + whole.at(there.arm(targets_[i]));
+  return std::ranges::all_of(velocities_, is_finite<D>);
+}
+
 template <int D>
 void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
                          Body_counts& counts) {
   const double dt = conditions.time_step, stiffness = matching_.material().stiffness;
-  const auto positions = body_.positions();
   const double before = kinetic_energy(), height_before = height_energy(conditions.gravity);
-  for (std::size_t i = 0; i < velocities_.size(); ++i) {
-    velocities_[i] = velocities_[i] + dt * conditions.gravity;
-    predicted_[i] = positions[i] + dt * velocities_[i];
-  }
-  const bool is_predicted = std::ranges::all_of(predicted_, is_finite<D>);
-  if (is_predicted) {
-    matching_.goals(predicted_, targets_);
-    for (std::size_t i = 0; i < targets_.size(); ++i)
-      targets_[i] = predicted_[i] + stiffness * (targets_[i] - predicted_[i]);
-  }
-  if (!is_predicted || !std::ranges::all_of(targets_, is_finite<D>)) {
+  for (Vector<D>& v : velocities_) v = v + dt * conditions.gravity;
+  const double gained = std::max(0.0, kinetic_energy() - before);  // from gravity
+  if (!predict(dt)) {
     std::ranges::fill(velocities_, Vector<D>{});
     stored_ = 0;
     return;
   }
-  const double gained = std::max(0.0, kinetic_energy() - before);  // from gravity
-  for (std::size_t i = 0; i < targets_.size(); ++i)
-    velocities_[i] = (1 / dt) * (targets_[i] - positions[i]);
-
   const std::size_t first = contacts.size();
   body_.step(targets_, conditions.body, contacts, counts);
 
@@ -118,7 +138,7 @@ void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Bod
   }
   level += height_before - height_energy(conditions.gravity);
   limit(level);
-  stored_ = (1 - stiffness) * std::max(0.0, level - kinetic_energy());
+  stored_ = (1 - stiffness * stiffness) * std::max(0.0, level - kinetic_energy());
 }
 
 template class Deformable<2>;

@@ -1,7 +1,30 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "rigid_motion.h"
 
+#include <cmath>
+
 namespace cellwalk::detail {
+
+template <>
+Turn<2>::Turn(const Spin<2>& angle) {
+  const double c = std::cos(angle[0]), s = std::sin(angle[0]);
+  matrix_ = {{{c, -s}, {s, c}}};
+}
+
+/// Rodrigues' formula.
+template <>
+Turn<3>::Turn(const Spin<3>& angle) : matrix_(identity<3>()) {
+  const double degree = length(angle);
+  if (!(degree > 0)) return;
+  const Vector<3> axis = (1 / degree) * angle;
+  const double c = std::cos(degree), s = std::sin(degree);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vector<3> unit{};
+    unit[i] = 1;
+    const Vector<3> column = c * unit + s * cross(axis, unit) + ((1 - c) * axis[i]) * axis;
+    for (std::size_t j = 0; j < 3; ++j) matrix_[j][i] = column[j];
+  }
+}
 
 template <int D>
 Rigid_frame<D>::Rigid_frame(std::span<const Point<D>> positions) : mass_(static_cast<double>(positions.size())) {
@@ -31,15 +54,20 @@ Spin<D> Rigid_frame<D>::spin_of(const Spin<D>& momentum) const {
 }
 
 template <int D>
+Spin<D> Rigid_frame<D>::momentum_of(std::span<const Point<D>> positions,
+                                    std::span<const Vector<D>> velocities) const {
+  Spin<D> momentum{};
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    momentum = momentum + moment(arm(positions[i]), velocities[i]);
+  return momentum;
+}
+
+template <int D>
 Rigid_motion<D> Rigid_frame<D>::motion_of(std::span<const Point<D>> positions,
                                           std::span<const Vector<D>> velocities) const {
   Vector<D> sum{};
-  Spin<D> momentum{};
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    sum = sum + velocities[i];
-    momentum = momentum + moment(arm(positions[i]), velocities[i]);
-  }
-  return {(1 / mass_) * sum, spin_of(momentum)};
+  for (const Vector<D>& v : velocities) sum = sum + v;
+  return {(1 / mass_) * sum, spin_of(momentum_of(positions, velocities))};
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/scene.h>
 
+#include <cstddef>
 #include <span>
 
 #include "small_matrix.h"
@@ -27,6 +28,26 @@ struct Rigid_motion {
   Vector<D> at(const Vector<D>& arm) const { return velocity + turning(spin, arm); }
 };
 
+/// The rotation by an angle about an axis: the length and direction of a vector.
+template <int D>
+class Turn {
+ public:
+  explicit Turn(const Spin<D>& angle);
+  Vector<D> operator()(const Vector<D>& v) const {
+    Vector<D> result;
+    for (std::size_t i = 0; i < D; ++i) result[i] = dot(matrix_[i], v);
+    return result;
+  }
+
+ private:
+  Matrix<D> matrix_;
+};
+
+template <>
+Turn<2>::Turn(const Spin<2>& angle);
+template <>
+Turn<3>::Turn(const Spin<3>& angle);
+
 /// Centre and inertia of vertices where they stand. Where these are flat, straight or one point, turns that move none of them
 /// have no inertia, and nothing turns that way.
 template <int D>
@@ -34,15 +55,18 @@ class Rigid_frame {
  public:
   explicit Rigid_frame(std::span<const Point<D>> positions);
 
+  const Point<D>& center() const { return center_; }
   Vector<D> arm(const Point<D>& x) const { return x - center_; }
+  /// The angular momentum about the centre.
+  Spin<D> momentum_of(std::span<const Point<D>> positions, std::span<const Vector<D>> velocities) const;
+  /// What turns with this angular momentum.
+  Spin<D> spin_of(const Spin<D>& momentum) const;
   /// The rigid motion nearest to these velocities, in the sense of energy: it has their momenta.
   Rigid_motion<D> motion_of(std::span<const Point<D>> positions, std::span<const Vector<D>> velocities) const;
   /// How the body starts to move when it is hit at a place.
   Rigid_motion<D> answer(const Vector<D>& arm, const Vector<D>& impulse) const;
 
  private:
-  Spin<D> spin_of(const Spin<D>& momentum) const;
-
   Point<D> center_{};
   double mass_ = 0;
   Matrix<D == 2 ? 1 : 3> inverse_inertia_{};

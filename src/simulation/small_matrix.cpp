@@ -6,6 +6,7 @@
 #include "small_matrix.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 namespace cellwalk::detail {

@@ -50,12 +50,13 @@ class Deformable {
 
  private:
   double height_energy(const Vector<D>& gravity) const;
+  bool predict(double dt);
   void limit(double most);
 
   Body<D> body_;
   Shape_matching<D> matching_;
   std::vector<Vector<D>> velocities_;
-  std::vector<Point<D>> predicted_, targets_;
+  std::vector<Point<D>> moved_, targets_;
   /// Kinetic energy may come back up to here: from what is stored in the deformation.
   double stored_ = 0;
 };
