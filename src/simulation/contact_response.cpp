@@ -9,8 +9,10 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Contacts of one step disturb each other: so often they are gone through.
-constexpr int passes = 4;
+/// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds change by more
+/// than this share of the fastest.
+constexpr int passes = 32;
+constexpr double settled = 1e-9;
 
 /// A place of the body where it met a wall: the mean of some vertices with these weights.
 template <int D>
@@ -18,13 +20,13 @@ struct Place {
   std::array<std::uint32_t, 3> vertices{};
   std::array<double, 3> weights{};
   std::size_t count = 0;
-  Vector<D> arm{}, normal{};
-  double squares = 0;  ///< of the weights, added up
-  bool has_rubbed = false;
+  Vector<D> arm{}, normal{}, velocity{};  ///< velocity: before any impulse
+  double squares = 0;                     ///< of the weights, added up
+  double impulse = 0;                     ///< along the normal
 
-  Vector<D> velocity(std::span<const Vector<D>> velocities) const {
+  Vector<D> mean(std::span<const Vector<D>> of_vertices) const {
     Vector<D> sum{};
-    for (std::size_t k = 0; k < count; ++k) sum = sum + weights[k] * velocities[vertices[k]];
+    for (std::size_t k = 0; k < count; ++k) sum = sum + weights[k] * of_vertices[vertices[k]];
     return sum;
   }
 };
@@ -74,65 +76,109 @@ Place<D> place_of(const Body<D>& body, const Body_contact<D>& met, const Rigid_f
   return place;
 }
 
-/// Changes the speed of a place in a direction by `change`.
+/// Impulses so far, and what they changed.
 template <int D>
-void push(const Place<D>& place, const Vector<D>& direction, double change, double stiffness,
-          const Rigid_frame<D>& frame, std::span<const Point<D>> positions, std::span<Vector<D>> velocities) {
-  const Rigid_motion<D> whole = frame.answer(place.arm, direction);
-  const double mobility = stiffness * dot(direction, whole.at(place.arm)) + (1 - stiffness) * place.squares;
-  if (!(mobility > 0)) return;
-  const double impulse = change / mobility;
-  if (stiffness > 0)
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      velocities[i] = velocities[i] + (impulse * stiffness) * whole.at(frame.arm(positions[i]));
-  for (std::size_t k = 0; k < place.count; ++k) {
-    Vector<D>& v = velocities[place.vertices[k]];
-    v = v + (impulse * (1 - stiffness) * place.weights[k]) * direction;
+class Impulses {
+ public:
+  Impulses(const Rigid_frame<D>& frame, double stiffness, std::size_t vertices)
+      : frame_(&frame), stiffness_(stiffness), own_(vertices) {}
+
+  Vector<D> velocity(const Place<D>& place) const {
+    return place.velocity + stiffness_ * whole_.at(place.arm) + (1 - stiffness_) * place.mean(own_);
   }
+  /// How fast a place gets in a direction by an impulse of 1.
+  double mobility(const Place<D>& place, const Vector<D>& direction) const {
+    const double whole = dot(direction, frame_->answer(place.arm, direction).at(place.arm));
+    return stiffness_ * whole + (1 - stiffness_) * place.squares;
+  }
+  void add(const Place<D>& place, const Vector<D>& impulse) {
+    const Rigid_motion<D> answer = frame_->answer(place.arm, impulse);
+    whole_.velocity = whole_.velocity + answer.velocity;
+    whole_.spin = whole_.spin + answer.spin;
+    for (std::size_t k = 0; k < place.count; ++k) {
+      Vector<D>& own = own_[place.vertices[k]];
+      own = own + place.weights[k] * impulse;
+    }
+  }
+  void apply(std::span<const Point<D>> positions, std::span<Vector<D>> velocities) const {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      velocities[i] = velocities[i] + stiffness_ * whole_.at(frame_->arm(positions[i])) + (1 - stiffness_) * own_[i];
+  }
+
+ private:
+  const Rigid_frame<D>* frame_;
+  double stiffness_;
+  Rigid_motion<D> whole_;
+  std::vector<Vector<D>> own_;
+};
+
+/// Finds impulses along the normals, none of them negative, so that no place goes into its wall.
+template <int D>
+void stop_at_walls(std::vector<Place<D>>& places, Impulses<D>& impulses) {
+  double fastest = 0;
+  for (const Place<D>& place : places) fastest = std::max(fastest, -dot(place.velocity, place.normal));
+  for (int pass = 0; pass < passes; ++pass) {
+    double change = 0;
+    for (Place<D>& place : places) {
+      const double mobility = impulses.mobility(place, place.normal);
+      if (!(mobility > 0)) continue;
+      const double into = -dot(impulses.velocity(place), place.normal);
+      const double impulse = std::max(0.0, place.impulse + into / mobility) - place.impulse;
+      place.impulse += impulse;
+      impulses.add(place, impulse * place.normal);
+      change = std::max(change, std::abs(impulse) * mobility);
+    }
+    if (!(change > settled * fastest)) break;
+  }
+}
+
+/// Takes a share of the speed along the wall.
+template <int D>
+void rub(const Place<D>& place, double friction, Impulses<D>& impulses) {
+  const Vector<D> now = impulses.velocity(place);
+  const Vector<D> along = now - dot(now, place.normal) * place.normal;
+  const double speed = length(along);
+  if (!(speed > 0)) return;
+  const Vector<D> direction = (1 / speed) * along;
+  const double mobility = impulses.mobility(place, direction);
+  if (mobility > 0) impulses.add(place, (-friction * speed / mobility) * direction);
 }
 
 }  // namespace
 
 template <int D>
 void answer_contacts(const Body<D>& body, std::span<const Body_contact<D>> contacts, const Answer& answer,
-                     std::span<Vector<D>> velocities) {
+                     std::span<const Vector<D>> reached, std::span<Vector<D>> velocities) {
   if (contacts.empty()) return;
   const auto positions = body.positions();
   const Rigid_frame<D> frame(positions);
   std::vector<Place<D>> places;
   places.reserve(contacts.size());
-  for (const Body_contact<D>& met : contacts) places.push_back(place_of(body, met, frame));
-  bool goes_on = true;
-  for (int pass = 0; goes_on && pass < passes; ++pass) {
-    goes_on = false;
-    for (Place<D>& place : places) {
-      const Vector<D> before = place.velocity(velocities);
-      const double into = -dot(before, place.normal);
-      if (!(into > 0)) continue;
-      goes_on = true;
-      const bool bounces = pass == 0 && into > answer.resting;
-      push(place, place.normal, into * (1 + (bounces ? answer.restitution : 0)), answer.stiffness, frame,
-           positions, velocities);
-      if (place.has_rubbed || !(answer.friction > 0)) continue;
-      place.has_rubbed = true;
-      const Vector<D> now = place.velocity(velocities);
-      const Vector<D> along = now - dot(now, place.normal) * place.normal;
-      const double speed = length(along);
-      if (speed > 0)
-        push(place, (1 / speed) * along, -answer.friction * speed, answer.stiffness, frame, positions,
-             velocities);
-    }
+  for (const Body_contact<D>& met : contacts) places.push_back(place_of<D>(body, met, frame));
+  const auto see = [&](std::span<const Vector<D>> seen) {
+    for (Place<D>& place : places) place.velocity = place.mean(seen);
+  };
+  see(velocities);
+  Impulses<D> impulses(frame, answer.stiffness, positions.size());
+  stop_at_walls(places, impulses);
+  double sum = 0;
+  for (const Place<D>& place : places) sum += place.impulse;
+  const bool bounces = sum > answer.resting;
+  if (!bounces) {
+    std::ranges::copy(reached, velocities.begin());
+    see(velocities);
+    impulses = Impulses<D>(frame, answer.stiffness, positions.size());
   }
-  // Between walls that answer each other for ever, the vertices that met them stop.
-  for (const Place<D>& place : places) {
-    const double into = -dot(place.velocity(velocities), place.normal);
-    if (into > 0) push(place, place.normal, into, 0, frame, positions, velocities);
-  }
+  for (const Place<D>& place : places)
+    if (place.impulse > 0 && answer.friction > 0) rub(place, answer.friction, impulses);
+  for (const Place<D>& place : places)
+    if (bounces) impulses.add(place, (answer.restitution * place.impulse) * place.normal);
+  impulses.apply(positions, velocities);
 }
 
 template void answer_contacts<2>(const Body<2>&, std::span<const Body_contact<2>>, const Answer&,
-                                 std::span<Vector<2>>);
+                                 std::span<const Vector<2>>, std::span<Vector<2>>);
 template void answer_contacts<3>(const Body<3>&, std::span<const Body_contact<3>>, const Answer&,
-                                 std::span<Vector<3>>);
+                                 std::span<const Vector<3>>, std::span<Vector<3>>);
 
 }  // namespace cellwalk::detail

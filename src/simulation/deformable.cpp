@@ -11,7 +11,7 @@
 namespace cellwalk {
 namespace {
 
-/// A vertex that falls for so many steps, and not longer, does not bounce.
+/// A body that walls give no more momentum than it gains by falling for so many steps does not bounce.
 constexpr double resting_steps = 2;
 
 template <int D>
@@ -124,15 +124,18 @@ void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Bod
     return;
   }
   const std::size_t first = contacts.size();
+  std::ranges::copy(body_.positions(), moved_.begin());
   body_.step(targets_, conditions.body, contacts, counts);
 
   double level = before + stored_;  // of kinetic energy, at the height before
   limit(level + gained);
   if (contacts.size() > first) {
     const double free = kinetic_energy();
-    const double resting = resting_steps * dt * length(conditions.gravity);
+    const double resting = resting_steps * dt * length(conditions.gravity) * static_cast<double>(moved_.size());
+    for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = (1 / dt) * (body_.positions()[i] - moved_[i]);
     detail::answer_contacts<D>(body_, std::span(contacts).subspan(first),
-                               {conditions.restitution, conditions.friction, resting, stiffness}, velocities_);
+                               {conditions.restitution, conditions.friction, resting, stiffness}, moved_,
+                               velocities_);
     // Walls take away first what gravity has just added: it moved nothing.
     level -= std::max(0.0, free - kinetic_energy() - gained);
   }

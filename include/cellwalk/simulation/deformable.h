@@ -18,8 +18,8 @@ namespace cellwalk {
 ///
 /// A step predicts where each vertex would be, draws it towards its goal (Shape_matching) as far as the material is stiff,
 /// and moves it there as far as walls allow (Body::step). Velocities come from the positions so found; contacts turn the part
-/// against the wall round (restitution) and take from the part along it (friction), of the whole body as far as it is stiff. Slower
-/// than gravity makes a vertex in two steps, it does not bounce, so that bodies come to rest.
+/// against the wall round (restitution) and take from the part along it (friction), of the whole body as far as it is stiff.
+/// A body that meets a wall no faster than it falls in two steps does not bounce, so that bodies come to rest.
 ///
 /// Energy is bounded. energy() never rises above what it was at the start, but for rounding, as long as walls do not lift the
 /// body while it finds back to its shape; kinetic_energy() without gravity never does. What a contact takes away is gone; what
