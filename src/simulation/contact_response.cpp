@@ -51,8 +51,7 @@ Place<D> place_of(const Body<D>& body, const Body_contact<D>& met, const Rigid_f
     const auto [u, v] = body.edges()[met.feature];
     const Vector<D> edge = x[v] - x[u];
     const double square = dot(edge, edge);
-    const double t =
-        square > 0 ? std::clamp(dot(met.contact.point - x[u], edge) / square, 0.0, 1.0) : 0.5;
+    const double t = square > 0 ? std::clamp(dot(met.contact.point - x[u], edge) / square, 0.0, 1.0) : 0.5;
     place.vertices = {u, v};
     place.weights = {1 - t, t};
     place.count = 2;
@@ -102,7 +101,8 @@ class Impulses {
   }
   void apply(std::span<const Point<D>> positions, std::span<Vector<D>> velocities) const {
     for (std::size_t i = 0; i < positions.size(); ++i)
-      velocities[i] = velocities[i] + stiffness_ * whole_.at(frame_->arm(positions[i])) + (1 - stiffness_) * own_[i];
+      velocities[i] =
+          velocities[i] + stiffness_ * whole_.at(frame_->arm(positions[i])) + (1 - stiffness_) * own_[i];
   }
 
  private:

@@ -131,7 +131,8 @@ void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Bod
   limit(level + gained);
   if (contacts.size() > first) {
     const double free = kinetic_energy();
-    const double resting = resting_steps * dt * length(conditions.gravity) * static_cast<double>(moved_.size());
+    const double resting =
+        resting_steps * dt * length(conditions.gravity) * static_cast<double>(moved_.size());
     for (std::size_t i = 0; i < moved_.size(); ++i) moved_[i] = (1 / dt) * (body_.positions()[i] - moved_[i]);
     detail::answer_contacts<D>(body_, std::span(contacts).subspan(first),
                                {conditions.restitution, conditions.friction, resting, stiffness}, moved_,

@@ -27,7 +27,8 @@ Turn<3>::Turn(const Spin<3>& angle) : matrix_(identity<3>()) {
 }
 
 template <int D>
-Rigid_frame<D>::Rigid_frame(std::span<const Point<D>> positions) : mass_(static_cast<double>(positions.size())) {
+Rigid_frame<D>::Rigid_frame(std::span<const Point<D>> positions)
+    : mass_(static_cast<double>(positions.size())) {
   Vector<D> sum{};
   for (const Point<D>& x : positions) sum = sum + (x - positions[0]);
   center_ = positions[0] + (1 / mass_) * sum;

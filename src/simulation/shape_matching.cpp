@@ -30,8 +30,9 @@ double root(double x) {
 
 /// a * b, the rows of a being as long as b has rows.
 template <std::size_t Rows, std::size_t Inner, std::size_t Columns>
-std::array<std::array<double, Columns>, Rows> product(const std::array<std::array<double, Inner>, Rows>& a,
-                                                      const std::array<std::array<double, Columns>, Inner>& b) {
+std::array<std::array<double, Columns>, Rows> product(
+    const std::array<std::array<double, Inner>, Rows>& a,
+    const std::array<std::array<double, Columns>, Inner>& b) {
   std::array<std::array<double, Columns>, Rows> result{};
   for (std::size_t i = 0; i < Rows; ++i)
     for (std::size_t k = 0; k < Inner; ++k)
@@ -41,8 +42,8 @@ std::array<std::array<double, Columns>, Rows> product(const std::array<std::arra
 
 /// sum += mass * p q^T
 template <std::size_t Rows, std::size_t Columns>
-void add_moment(std::array<std::array<double, Columns>, Rows>& sum, double mass, const std::array<double, Rows>& p,
-                const std::array<double, Columns>& q) {
+void add_moment(std::array<std::array<double, Columns>, Rows>& sum, double mass,
+                const std::array<double, Rows>& p, const std::array<double, Columns>& q) {
   for (std::size_t i = 0; i < Rows; ++i)
     for (std::size_t j = 0; j < Columns; ++j) sum[i][j] += mass * p[i] * q[j];
 }

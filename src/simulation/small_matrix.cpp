@@ -34,7 +34,8 @@ Pseudo_inverse<N> pseudo_inverse(const Matrix<N>& moments) {
   for (int k = 0; k < N && values[k] > least_share * values[0]; ++k) {
     ++result.rank;
     for (int i = 0; i < N; ++i)
-      for (int j = 0; j < N; ++j) result.matrix[i][j] += svd.matrixV()(i, k) * svd.matrixU()(j, k) / values[k];
+      for (int j = 0; j < N; ++j)
+        result.matrix[i][j] += svd.matrixV()(i, k) * svd.matrixU()(j, k) / values[k];
   }
   return result;
 }

@@ -30,7 +30,8 @@ template <int D>
 class Deformable {
  public:
   /// A body thrown from where it stands; it turns about its middle. \pre it has a vertex; velocity and spin are finite
-  Deformable(Body<D> body, const Shape_material& material, const Vector<D>& velocity, const Spin<D>& spin = {});
+  Deformable(Body<D> body, const Shape_material& material, const Vector<D>& velocity,
+             const Spin<D>& spin = {});
 
   /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays where it is, and loses its
   /// velocity. Cost: that of Shape_matching::goals and of Body::step.

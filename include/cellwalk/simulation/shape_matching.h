@@ -45,11 +45,11 @@ class Shape_matching {
   double radius_ = 1;  ///< of the rest shape; what follows is in units of it
   double total_mass_ = 0;
   std::vector<double> masses_;
-  std::vector<Vector<D>> rest_;                       ///< from the centre of mass
-  std::vector<Monomials> monomials_;                  ///< quadratic mode
-  std::array<Vector<D>, D> linear_inverse_{};         ///< of the moments of the rest shape, or their pseudo-inverse
-  std::array<Monomials, most_monomials> inverse_{};   ///< the same of the monomials
-  bool is_full_ = false;                              ///< the rest shape has a volume
+  std::vector<Vector<D>> rest_;                ///< from the centre of mass
+  std::vector<Monomials> monomials_;           ///< quadratic mode
+  std::array<Vector<D>, D> linear_inverse_{};  ///< of the moments of the rest shape, or their pseudo-inverse
+  std::array<Monomials, most_monomials> inverse_{};  ///< the same of the monomials
+  bool is_full_ = false;                             ///< the rest shape has a volume
 };
 
 /// The rotation nearest to a matrix (rows first), in the sense of the sum of squares: its polar factor, made a rotation where
