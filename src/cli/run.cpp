@@ -142,11 +142,10 @@ void Run<D>::operator()() const {
 template <int D>
 std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const {
   const std::string title = scene.title.empty() ? "" : scene.title + ": ";
-  const std::size_t catheter = world.particles().size() - world.free_count();
   std::string text = title;
-  if (catheter > 0) text += fmt::format("catheter of {} particles, ", catheter);
-  if (world.free_count() > 0) text += fmt::format("{} free particles, ", world.free_count());
-  if (const std::size_t count = world.bodies().size(); count > 0)
+  if (const Rod<D>* rod = world.catheter()) text += fmt::format("catheter of {} vertices, ", rod->body().vertex_count());
+  if (!world.particles().empty()) text += fmt::format("{} free particles, ", world.particles().size());
+  if (const std::size_t count = world.bodies().size() - scene.catheter.has_value(); count > 0)
     text += fmt::format("{} {}, ", count, count == 1 ? "body" : "bodies");
   return text + fmt::format("{} steps, {} contacts", steps(), contacts);
 }
@@ -163,25 +162,20 @@ template <int D>
 ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
-  result["particles"] = {{"free", world.free_count()},
-                         {"catheter", world.particles().size() - world.free_count()}};
+  result["particles"] = world.particles().size();
   ordered_json kinds;
   for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
   result["contacts"] = kinds;
-  if (!scene.bodies.empty())
+  if (!world.bodies().empty())
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
-  if (scene.catheter)
-    result["catheter"] = {{"arrived", world.next_way_point() == world.path().size()},
-                          {"way_point", world.next_way_point()},
-                          {"path", world.path()},
-                          {"steps_waited", world.steps_waited()}};
+  if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
   result["frames"] = files.frame_count();
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
-  if (!scene.bodies.empty()) result["body_counts"] = to_json(world.body_counts());
+  if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());
   // Everything needed to repeat the run, and nothing that differs between machines or days.
   result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
-  if (!scene.bodies.empty())
+  if (!world.bodies().empty())
     result["manifest"]["sweep"] = sweep_names[static_cast<std::size_t>(options.body.sweep.sweep)];
   return result;
 }
@@ -192,11 +186,10 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
     fmt::print("  {:<12}{}\n", name, value);
   };
   const auto& contacts = files.contacts();
-  const std::size_t catheter = world.particles().size() - world.free_count();
   fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
   if (!world.particles().empty())
-    line("particles", fmt::format("{} free, {} of the catheter", world.free_count(), catheter));
+    line("particles", fmt::format("{}", world.particles().size()));
   const Body_sizes sizes = sizes_of(world, scene);
   if (sizes.bodies > 0)
     line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
@@ -211,11 +204,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   }
   if (sizes.guided > 0)
     line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
-  if (scene.catheter)
-    line("catheter", world.next_way_point() == world.path().size()
-                         ? fmt::format("arrived at the last of {} way points", world.path().size())
-                         : fmt::format("on its way to way point {} of {}", world.next_way_point() + 1,
-                                       world.path().size()));
+  if (const Rod<D>* rod = world.catheter()) line("catheter", describe_catheter(*rod));
   line("validated",
        sizes.bodies > 0
            ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
@@ -247,7 +236,7 @@ void run(const Run_options& options) {
 
 void add_run(CLI::App& app, Action& chosen) {
   CLI::App* command =
-      app.add_subcommand("run", "Simulate a scene: bodies, particles and a catheter tip among walls");
+      app.add_subcommand("run", "Simulate a scene: bodies, particles and a catheter among walls");
   const auto options = std::make_shared<Run_options>();
   command->add_option("scene", options->scene, "The scene, see docs/scenes.md")
       ->required()

@@ -43,6 +43,8 @@ class Deformable {
   /// Of the middle of the vertices.
   Vector<D> velocity() const;
   std::span<const Vector<D>> velocities() const { return velocities_; }
+  /// It has no path.
+  bool has_arrived() const { return false; }
 
   /// Of vertices of mass 1.
   double kinetic_energy() const;
