@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk run SCENE.json -o DIR: simulates a scene and writes what happened.
+// cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/json_file.h>
-#include <cellwalk/io/scene.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
@@ -23,6 +23,7 @@
 #include "cli/run_bodies.h"
 #include "cli/run_files.h"
 #include "cli/run_picture.h"
+#include "cli/scene_source.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -31,6 +32,8 @@ using nlohmann::ordered_json;
 
 struct Run_options {
   std::string scene, folder;
+  std::vector<std::string> changes;
+  std::string scene_text;  ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
   bool force = false;
   Body_options body;
@@ -150,12 +153,11 @@ std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const
   return text + fmt::format("{} steps, {} contacts", steps(), contacts);
 }
 
-/// The scene as it was given, for the manifest.
+/// The scene as it was run, for the manifest.
 template <int D>
 ordered_json Run<D>::scene_text() const {
-  std::ifstream file(options.scene, std::ios::binary);
   constexpr bool throws = true, skips_comments = true;
-  return ordered_json::parse(file, nullptr, throws, skips_comments);
+  return ordered_json::parse(options.scene_text, nullptr, throws, skips_comments);
 }
 
 template <int D>
@@ -227,9 +229,12 @@ void run_scene(const Run_options& options, const Scene<D>& scene) {
   Run<D>{scene, options, *environment, prepared.certificate, bodies}();
 }
 
-void run(const Run_options& options) {
+void run(Run_options options) {
   Output_folder::check(options.folder, options.force);
-  std::visit([&](const auto& scene) { run_scene(options, scene); }, io::read_scene(options.scene));
+  Scene_source source = load_scene(options.scene, options.changes);
+  options.scene = source.name;
+  options.scene_text = std::move(source.text);
+  std::visit([&](const auto& scene) { run_scene(options, scene); }, source.scene);
 }
 
 }  // namespace
@@ -238,12 +243,18 @@ void add_run(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Simulate a scene: bodies, particles and a catheter among walls");
   const auto options = std::make_shared<Run_options>();
-  command->add_option("scene", options->scene, "The scene, see docs/scenes.md")
-      ->required()
+  command
+      ->add_option("scene", options->scene,
+                   "The scene, see docs/scenes.md; without one 225 hexahedra bounce among 1000 cells (data/hexahedra.json)")
       ->type_name("SCENE.json");
   command->add_option("-o,--output", options->folder, "Folder for the results; must not exist yet")
       ->required()
       ->type_name("DIR");
+  command
+      ->add_option("--set", options->changes,
+                   "Replace a value of the scene: environment.cells=[46,46,47], bodies[0].count=50")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(CLI::Range(1u, 100000000u));

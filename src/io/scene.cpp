@@ -144,12 +144,25 @@ Scene<D> scene(const Json_node& node) {
 
 }  // namespace
 
-Any_scene parse_scene(const std::string& name, std::string_view text) {
+Any_scene parse_scene(const std::string& name, std::string_view text, const std::filesystem::path& folder) {
   const auto document = detail::parse_json(name, text);
   const Json_node root(*document, name);
   const auto dimension = root.find("dimension");
-  if (dimension && dimension->integer_in(2, 3) == 2) return scene<2>(root);
-  return scene<3>(root);
+  Any_scene result;
+  if (dimension && dimension->integer_in(2, 3) == 2)
+    result = scene<2>(root);
+  else
+    result = scene<3>(root);
+  std::visit(
+      [&](auto& s) {
+        const auto resolve = [&](auto& source) {
+          if (auto* file = std::get_if<std::string>(&source)) *file = (folder / *file).string();
+        };
+        resolve(s.environment);
+        for (auto& body : s.bodies) resolve(body.source);
+      },
+      result);
+  return result;
 }
 
 Any_scene read_scene(const std::filesystem::path& path) {
@@ -157,17 +170,7 @@ Any_scene read_scene(const std::filesystem::path& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file)
     throw Error(Error_code::input, path.string() + ": cannot be read; check the name and its permissions");
-  Any_scene result = parse_scene(path.string(), text);
-  std::visit(
-      [&](auto& s) {
-        const auto resolve = [&](auto& source) {
-          if (auto* name = std::get_if<std::string>(&source)) *name = (path.parent_path() / *name).string();
-        };
-        resolve(s.environment);
-        for (auto& body : s.bodies) resolve(body.source);
-      },
-      result);
-  return result;
+  return parse_scene(path.string(), text, path.parent_path());
 }
 
 }  // namespace cellwalk::io

@@ -18,7 +18,7 @@ constexpr double most_stretched = 0.5, most_compressed = 1;
 constexpr double fastest = 2;
 constexpr double radians = std::numbers::pi / 180;
 
-/// The angle from one vector to another about an axis; in the plane a curve is turned over instead, by half a turn.
+/// The angle from one vector to another about an axis.
 double angle_about(const Vector<3>& axis, const Vector<3>& from, const Vector<3>& to) {
   return std::atan2(dot(axis, cross(from, to)), dot(from, to) - dot(from, axis) * dot(to, axis));
 }
@@ -40,6 +40,11 @@ Rod<D>::Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& cathet
   first[0] = 1;
   direction_ = detail::unit(way_[1] - way_[0], first);
   heading_ = direction_;
+}
+
+template <int D>
+detail::Chain_state<D> Rod<D>::state() const {
+  return {way_.front(), direction_, catheter_.spacing, inside_};
 }
 
 /// How much of the rod lies between the entry and a vertex, as it is bent now.
@@ -66,18 +71,28 @@ bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   return walk<Exact>(*snapshot_, body_.particles()[0], x, counts.edges.walk).status == Walk_status::arrived;
 }
 
-/// Walls may keep the tip off a way point. It counts as passed where the tip is as near to it as it goes in a step, or nearer to
-/// the next one than it is, with that one in sight. The last one is passed where the tip is as near as that.
+/// Where the end of the rod points.
+template <int D>
+Vector<D> Rod<D>::tangent() const {
+  const auto x = body_.positions();
+  const Point<D>& behind = x.size() > 1 && state().count(x.size()) > 1 ? x[1] : way_.front();
+  return detail::unit(tip() - behind, direction_);
+}
+
+/// Walls may keep the tip off a way point. It counts as passed where it is no further than a spacing, or in sight where the tip is
+/// nearer to the next one than it is. Where nothing bends the tip towards the last one, it may also be beside or behind it.
 template <int D>
 void Rod<D>::pass_way_points(Body_counts& counts) {
   while (next_ < way_.size()) {
     const Point<D>& aim = way_[next_];
-    const bool is_there = length(aim - tip()) <= catheter_.advance;
-    if (!is_there) {
-      if (next_ + 1 == way_.size()) return;
-      const Point<D>& after = way_[next_ + 1];
-      if (!(length(after - tip()) < length(after - aim)) || !sees(after, counts)) return;
-    }
+    const auto is_past = [&] {
+      if (next_ + 1 < way_.size()) {
+        const Point<D>& after = way_[next_ + 1];
+        return length(after - tip()) < length(after - aim) && sees(after, counts);
+      }
+      return catheter_.steering != Steering::tip && dot(aim - tip(), tangent()) <= 0 && sees(aim, counts);
+    };
+    if (length(aim - tip()) > catheter_.spacing && !is_past()) return;
     ++next_;
   }
 }
@@ -85,12 +100,8 @@ void Rod<D>::pass_way_points(Body_counts& counts) {
 /// Chooses where the tip goes, and turns the base.
 template <int D>
 void Rod<D>::aim() {
-  const auto x = body_.positions();
-  const detail::Chain_state<D> state{way_.front(), direction_, catheter_.spacing, inside_};
-  const std::size_t count = state.count(x.size());
-  const Point<D>& behind = count > 1 ? x[1] : way_.front();
-  const Vector<D> tangent = count > 0 ? detail::unit(tip() - behind, direction_) : direction_;
-  heading_ = tangent;
+  const Vector<D> end = tangent();
+  heading_ = end;
   if (catheter_.steering == Steering::none) {
     twist_ += catheter_.twist;
     return;
@@ -98,16 +109,17 @@ void Rod<D>::aim() {
   if (next_ == way_.size()) return;
   const Vector<D> wanted = way_[next_] - tip();
   if (catheter_.steering == Steering::tip) {
-    heading_ = detail::unit(wanted, tangent);
+    heading_ = detail::unit(wanted, end);
     return;
   }
-  const auto across = detail::curve_directions<D>(state, twist_ * radians, x);
+  const auto across = detail::curve_directions<D>(state(), twist_ * radians, body_.positions());
   if (across.empty()) return;
   double turn = 0;
   if constexpr (D == 3) {
-    turn = angle_about(tangent, across[0], wanted) / radians;
+    turn = angle_about(end, across[0], wanted) / radians;
   } else {
-    const Vector<2> left{-tangent[1], tangent[0]};
+    // In the plane a curve is turned over, by half a turn.
+    const Vector<2> left{-end[1], end[0]};
     turn = (dot(left, wanted) >= 0 ? 0 : 180) - twist_;
   }
   twist_ += std::clamp(turn, -catheter_.twist, catheter_.twist);
@@ -124,15 +136,14 @@ void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_conta
   else if (!has_arrived() || catheter_.steering == Steering::none)
     inside_ = std::min(longest, inside_ + catheter_.advance);
   targets_.assign(body_.positions().begin(), body_.positions().end());
-  const detail::Chain_state<D> state{way_.front(), direction_, catheter_.spacing, inside_};
-  detail::push_along<D>(state, heading_, fastest * catheter_.advance, targets_);
+  detail::push_along<D>(state(), heading_, fastest * catheter_.advance, targets_);
   detail::Natural_bend<D> bend;
   bend.stiffness = catheter_.stiffness;
   bend.length = catheter_.tip_length;
   bend.curvature = bend.length > 0 ? catheter_.tip_angle * radians / bend.length : 0;
   bend.twist = twist_ * radians;
   bend.holds_tip = catheter_.steering == Steering::tip;
-  detail::relax<D>(state, bend, targets_);
+  detail::relax<D>(state(), bend, targets_);
   if (!std::ranges::all_of(targets_, is_finite<D>)) return;
   body_.step(targets_, conditions.body, contacts, counts);
 }

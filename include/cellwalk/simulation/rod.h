@@ -13,6 +13,10 @@
 #include <vector>
 
 namespace cellwalk {
+namespace detail {
+template <int D>
+struct Chain_state;
+}
 
 /// A rod as a chain of vertices, the tip first. All of them start at the entry; they leave it one after the other as the rod
 /// is pushed, so that edges wait there with length 0. A guide in front of the entry holds the base: the rod enters along the first
@@ -61,6 +65,8 @@ class Rod {
   void pass_way_points(Body_counts& counts);
   void aim();
   double along(std::size_t vertex) const;
+  Vector<D> tangent() const;
+  detail::Chain_state<D> state() const;
 
   const Snapshot<D>* snapshot_;
   Body<D> body_;
