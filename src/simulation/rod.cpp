@@ -71,79 +71,84 @@ bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   return walk<Exact>(*snapshot_, body_.particles()[0], x, counts.edges.walk).status == Walk_status::arrived;
 }
 
-/// Where the end of the rod points.
-template <int D>
-Vector<D> Rod<D>::tangent() const {
-  const auto x = body_.positions();
-  const Point<D>& behind = x.size() > 1 && state().count(x.size()) > 1 ? x[1] : way_.front();
-  return detail::unit(tip() - behind, direction_);
-}
-
-/// Walls may keep the tip off a way point. It counts as passed where it is no further than a spacing, or in sight where the tip is
-/// nearer to the next one than it is. Where nothing bends the tip towards the last one, it may also be beside or behind it.
+/// Walls may keep the tip off a way point. It counts as passed where the tip is no further than a spacing from it, or nearer to the
+/// next one than it is with that in sight. A tip that is not bent towards way points goes past them: there it counts when the tip is
+/// beside it, the last one only if it is in sight.
 template <int D>
 void Rod<D>::pass_way_points(Body_counts& counts) {
-  while (next_ < way_.size()) {
+  for (; next_ < way_.size(); ++next_) {
     const Point<D>& aim = way_[next_];
-    const auto is_past = [&] {
-      if (next_ + 1 < way_.size()) {
-        const Point<D>& after = way_[next_ + 1];
-        return length(after - tip()) < length(after - aim) && sees(after, counts);
-      }
-      return catheter_.steering != Steering::tip && dot(aim - tip(), tangent()) <= 0 && sees(aim, counts);
-    };
-    if (length(aim - tip()) > catheter_.spacing && !is_past()) return;
-    ++next_;
+    if (length(aim - tip()) <= catheter_.spacing) continue;
+    const bool is_last = next_ + 1 == way_.size();
+    const Point<D>& after = is_last ? aim : way_[next_ + 1];
+    if (catheter_.steering != Steering::tip) {
+      const bool is_past = dot(tip() - aim, after - way_[next_ - 1]) >= 0;
+      if (!is_past || (is_last && !sees(aim, counts))) return;
+    } else if (is_last || !(length(after - tip()) < length(after - aim)) || !sees(after, counts)) {
+      return;
+    }
   }
 }
 
 /// Chooses where the tip goes, and turns the base.
 template <int D>
 void Rod<D>::aim() {
-  const Vector<D> end = tangent();
+  const Vector<D> end = state().tangent(body_.positions(), 0);
   heading_ = end;
   if (catheter_.steering == Steering::none) {
     twist_ += catheter_.twist;
     return;
   }
   if (next_ == way_.size()) return;
-  const Vector<D> wanted = way_[next_] - tip();
   if (catheter_.steering == Steering::tip) {
-    heading_ = detail::unit(wanted, end);
+    heading_ = detail::unit(way_[next_] - tip(), end);
     return;
   }
-  const auto across = detail::curve_directions<D>(state(), twist_ * radians, body_.positions());
-  if (across.empty()) return;
+  // The curve as it is seen from where it begins.
+  const auto x = body_.positions();
+  const auto across = detail::curve_directions<D>(state(), twist_ * radians, x);
+  const auto bends = static_cast<std::size_t>(catheter_.tip_length / catheter_.spacing);
+  const std::size_t begin = std::min({bends, across.size() - 1, x.size() - 1});
+  const Vector<D> axis = state().tangent(x, begin), towards = way_[next_] - x[begin];
   double turn = 0;
   if constexpr (D == 3) {
-    turn = angle_about(end, across[0], wanted) / radians;
+    turn = angle_about(axis, across[begin], towards) / radians;
   } else {
     // In the plane a curve is turned over, by half a turn.
-    const Vector<2> left{-end[1], end[0]};
-    turn = (dot(left, wanted) >= 0 ? 0 : 180) - twist_;
+    const Vector<2> left{-axis[1], axis[0]};
+    turn = (dot(left, towards) >= 0 ? 0 : 180) - twist_;
   }
   twist_ += std::clamp(turn, -catheter_.twist, catheter_.twist);
+}
+
+template <int D>
+detail::Natural_bend<D> Rod<D>::bend() const {
+  detail::Natural_bend<D> bend;
+  bend.stiffness = catheter_.stiffness;
+  bend.length = catheter_.tip_length;
+  bend.angle_of_tip = catheter_.tip_angle * radians;
+  bend.twist = twist_ * radians;
+  bend.holds_tip = catheter_.steering == Steering::tip;
+  return bend;
 }
 
 template <int D>
 void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
                   Body_counts& counts) {
   pass_way_points(counts);
+  const detail::Chain_state<D> before = state();
+  const double twist_before = twist_ * radians;
   aim();
   const double longest = catheter_.spacing * static_cast<double>(body_.vertex_count() - 1);
   if (is_held())
     ++waited_;
   else if (!has_arrived() || catheter_.steering == Steering::none)
     inside_ = std::min(longest, inside_ + catheter_.advance);
-  targets_.assign(body_.positions().begin(), body_.positions().end());
+  const auto x = body_.positions();
+  targets_.assign(x.begin(), x.end());
   detail::push_along<D>(state(), heading_, fastest * catheter_.advance, targets_);
-  detail::Natural_bend<D> bend;
-  bend.stiffness = catheter_.stiffness;
-  bend.length = catheter_.tip_length;
-  bend.curvature = bend.length > 0 ? catheter_.tip_angle * radians / bend.length : 0;
-  bend.twist = twist_ * radians;
-  bend.holds_tip = catheter_.steering == Steering::tip;
-  detail::relax<D>(state(), bend, targets_);
+  if (catheter_.steering != Steering::tip) detail::bend_tip<D>(before, twist_before, x, state(), bend(), targets_);
+  detail::relax<D>(state(), bend(), targets_);
   if (!std::ranges::all_of(targets_, is_finite<D>)) return;
   body_.step(targets_, conditions.body, contacts, counts);
 }

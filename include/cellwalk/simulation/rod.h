@@ -16,7 +16,9 @@ namespace cellwalk {
 namespace detail {
 template <int D>
 struct Chain_state;
-}
+template <int D>
+struct Natural_bend;
+}  // namespace detail
 
 /// A rod as a chain of vertices, the tip first. All of them start at the entry; they leave it one after the other as the rod
 /// is pushed, so that edges wait there with length 0. A guide in front of the entry holds the base: the rod enters along the first
@@ -65,8 +67,8 @@ class Rod {
   void pass_way_points(Body_counts& counts);
   void aim();
   double along(std::size_t vertex) const;
-  Vector<D> tangent() const;
   detail::Chain_state<D> state() const;
+  detail::Natural_bend<D> bend() const;
 
   const Snapshot<D>* snapshot_;
   Body<D> body_;
