@@ -164,7 +164,7 @@ template <int D>
 ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
-  result["particles"] = world.particles().size();
+  result["particles"] = {{"free", world.particles().size()}};
   ordered_json kinds;
   for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
   result["contacts"] = kinds;
@@ -191,7 +191,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
   if (!world.particles().empty())
-    line("particles", fmt::format("{}", world.particles().size()));
+    line("particles", fmt::format("{} free", world.particles().size()));
   const Body_sizes sizes = sizes_of(world, scene);
   if (sizes.bodies > 0)
     line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
