@@ -33,7 +33,7 @@ using nlohmann::ordered_json;
 struct Run_options {
   std::string scene, folder;
   std::vector<std::string> changes;
-  std::string scene_text;  ///< with the changes
+  std::string scene_text;   ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
   bool force = false;
   Body_options body;
@@ -146,7 +146,8 @@ template <int D>
 std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const {
   const std::string title = scene.title.empty() ? "" : scene.title + ": ";
   std::string text = title;
-  if (const Rod<D>* rod = world.catheter()) text += fmt::format("catheter of {} vertices, ", rod->body().vertex_count());
+  if (const Rod<D>* rod = world.catheter())
+    text += fmt::format("catheter of {} vertices, ", rod->body().vertex_count());
   if (!world.particles().empty()) text += fmt::format("{} free particles, ", world.particles().size());
   if (const std::size_t count = world.bodies().size() - scene.catheter.has_value(); count > 0)
     text += fmt::format("{} {}, ", count, count == 1 ? "body" : "bodies");
@@ -190,8 +191,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   const auto& contacts = files.contacts();
   fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
-  if (!world.particles().empty())
-    line("particles", fmt::format("{} free", world.particles().size()));
+  if (!world.particles().empty()) line("particles", fmt::format("{} free", world.particles().size()));
   const Body_sizes sizes = sizes_of(world, scene);
   if (sizes.bodies > 0)
     line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
@@ -245,7 +245,8 @@ void add_run(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<Run_options>();
   command
       ->add_option("scene", options->scene,
-                   "The scene, see docs/scenes.md; without one 225 hexahedra bounce among 1000 cells (data/hexahedra.json)")
+                   "The scene, see docs/scenes.md; without one 225 hexahedra bounce among 1000 cells "
+                   "(data/hexahedra.json)")
       ->type_name("SCENE.json");
   command->add_option("-o,--output", options->folder, "Folder for the results; must not exist yet")
       ->required()

@@ -73,7 +73,8 @@ void curve(const Json_node& node, Catheter<D>& result) {
 
 template <int D>
 Catheter<D> catheter(const Json_node& node) {
-  node.expect_keys({"particles", "spacing", "advance", "stiffness", "path", "find_route", "steering", "tip", "twist"});
+  node.expect_keys(
+      {"particles", "spacing", "advance", "stiffness", "path", "find_route", "steering", "tip", "twist"});
   Catheter<D> result;
   result.spacing = node.at("spacing").positive();
   result.advance = result.spacing / 2;

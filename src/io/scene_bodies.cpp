@@ -180,7 +180,8 @@ Shape_material material(const Json_node& node) {
   node.expect_keys(keys);
   if (const auto stiffness = node.find("stiffness")) {
     result.stiffness = stiffness->number_in(0, 1);
-    if (result.stiffness == 0) stiffness->fail("expected a number greater than 0: without stiffness there is no body");
+    if (result.stiffness == 0)
+      stiffness->fail("expected a number greater than 0: without stiffness there is no body");
   }
   if (const auto deformation = node.find("deformation")) result.deformation = deformation->number_in(0, 1);
   if (const auto volume = node.find("volume")) result.keeps_volume = volume->boolean();

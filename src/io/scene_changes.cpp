@@ -17,7 +17,8 @@ namespace {
 using nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& change, const std::string& why) {
-  throw Error(Error_code::usage, fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", change, why));
+  throw Error(Error_code::usage,
+              fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", change, why));
 }
 
 /// The value that a key such as `bodies[0].count` stands for.
@@ -30,7 +31,8 @@ json& at_key(json& document, std::string_view key, const std::string& change) {
       if (end == key.npos) refuse(change, "] is missing");
       const auto read = std::from_chars(key.data() + 1, key.data() + end, index);
       if (read.ec != std::errc() || read.ptr != key.data() + end) refuse(change, "expected an index in []");
-      if (!here->is_array() || index >= here->size()) refuse(change, fmt::format("there is no element {}", index));
+      if (!here->is_array() || index >= here->size())
+        refuse(change, fmt::format("there is no element {}", index));
       here = &(*here)[index];
       key.remove_prefix(end + 1);
       if (!key.empty() && key.front() == '.') key.remove_prefix(1);
@@ -48,7 +50,8 @@ json& at_key(json& document, std::string_view key, const std::string& change) {
 
 }  // namespace
 
-std::string change_scene(const std::string& name, std::string_view text, std::span<const std::string> changes) {
+std::string change_scene(const std::string& name, std::string_view text,
+                         std::span<const std::string> changes) {
   const auto document = detail::parse_json(name, text);
   for (const std::string& change : changes) {
     const std::size_t equals = change.find('=');

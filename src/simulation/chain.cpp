@@ -24,7 +24,8 @@ Vector<3> transported(const Vector<3>& v, const Vector<3>& from, const Vector<3>
 
 /// A direction turned by an angle towards another one across it.
 template <std::size_t D>
-std::array<double, D> bent(const std::array<double, D>& v, const std::array<double, D>& across, double angle) {
+std::array<double, D> bent(const std::array<double, D>& v, const std::array<double, D>& across,
+                           double angle) {
   return std::cos(angle) * v + std::sin(angle) * across;
 }
 
@@ -63,7 +64,8 @@ double Chain_state<D>::rest_before(std::size_t vertices, std::size_t i) const {
 
 template <int D>
 Vector<D> Chain_state<D>::tangent(std::span<const Point<D>> vertices, std::size_t i) const {
-  return i < vertices.size() && has_entered(i) ? unit(vertices[i] - before(vertices, i), direction) : direction;
+  return i < vertices.size() && has_entered(i) ? unit(vertices[i] - before(vertices, i), direction)
+                                               : direction;
 }
 
 template <int D>
@@ -127,7 +129,8 @@ void bend_tip(const Chain_state<D>& before, double twist_before, std::span<const
     const Vector<D> next = unit(bent(tangent, side, natural(i, count)) + from_walls, tangent);
     side = transported(side, tangent, next);
     tangent = next;
-    vertices[i - 1] = state.before(vertices, i - 1) + (state.rest(i - 1) - state.rest_before(vertices.size(), i - 1)) * tangent;
+    vertices[i - 1] = state.before(vertices, i - 1) +
+                      (state.rest(i - 1) - state.rest_before(vertices.size(), i - 1)) * tangent;
   }
 }
 
@@ -178,9 +181,10 @@ void relax(const Chain_state<D>& state, const Natural_bend<D>& bend, std::span<P
 #define CELLWALK_INSTANTIATE(D)                                                                           \
   template struct Chain_state<D>;                                                                         \
   template void push_along(const Chain_state<D>&, const Vector<D>&, double, std::span<Point<D>>);         \
-  template std::vector<Vector<D>> curve_directions(const Chain_state<D>&, double, std::span<const Point<D>>); \
-  template void bend_tip(const Chain_state<D>&, double, std::span<const Point<D>>,         \
-                         const Chain_state<D>&, const Natural_bend<D>&, std::span<Point<D>>);             \
+  template std::vector<Vector<D>> curve_directions(const Chain_state<D>&, double,                         \
+                                                   std::span<const Point<D>>);                            \
+  template void bend_tip(const Chain_state<D>&, double, std::span<const Point<D>>, const Chain_state<D>&, \
+                         const Natural_bend<D>&, std::span<Point<D>>);                                    \
   template void relax(const Chain_state<D>&, const Natural_bend<D>&, std::span<Point<D>>);
 
 CELLWALK_INSTANTIATE(2)

@@ -42,11 +42,11 @@ void push_along(const Chain_state<D>& state, const Vector<D>& heading, double mo
 /// How a rod is bent when nothing holds it.
 template <int D>
 struct Natural_bend {
-  double stiffness = 0;  ///< share of a bend that goes back in one pass, [0,1]
-  double length = 0;     ///< of the curved part at the tip
+  double stiffness = 0;     ///< share of a bend that goes back in one pass, [0,1]
+  double length = 0;        ///< of the curved part at the tip
   double angle_of_tip = 0;  ///< by which that is bent from end to end, in radians
-  double twist = 0;      ///< of the base, in radians
-  bool holds_tip = false;  ///< the tip is not moved
+  double twist = 0;         ///< of the base, in radians
+  bool holds_tip = false;   ///< the tip is not moved
 
   /// The natural angle at a vertex. At the tip itself there is none.
   double angle(std::size_t i, double spacing) const {
@@ -69,7 +69,8 @@ void relax(const Chain_state<D>& state, const Natural_bend<D>& bend, std::span<P
 /// rod, taken along it from the guide without a twist (in the plane: to the left, longer or shorter as the turned curve is seen
 /// from above).
 template <int D>
-std::vector<Vector<D>> curve_directions(const Chain_state<D>& state, double twist, std::span<const Point<D>> vertices);
+std::vector<Vector<D>> curve_directions(const Chain_state<D>& state, double twist,
+                                        std::span<const Point<D>> vertices);
 
 /// A unit vector, or the one given instead where the length is 0.
 template <std::size_t D>

@@ -147,7 +147,8 @@ void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_conta
   const auto x = body_.positions();
   targets_.assign(x.begin(), x.end());
   detail::push_along<D>(state(), heading_, fastest * catheter_.advance, targets_);
-  if (catheter_.steering != Steering::tip) detail::bend_tip<D>(before, twist_before, x, state(), bend(), targets_);
+  if (catheter_.steering != Steering::tip)
+    detail::bend_tip<D>(before, twist_before, x, state(), bend(), targets_);
   detail::relax<D>(state(), bend(), targets_);
   if (!std::ranges::all_of(targets_, is_finite<D>)) return;
   body_.step(targets_, conditions.body, contacts, counts);

@@ -41,8 +41,9 @@ double number(const std::string& text) {
 TEST_F(Run, WritesWhatHappened) {
   write("room.json", room);
   const std::string said = succeed({"run", "room.json", "-o", "out"});
-  for (const char* part : {"3D, 40 steps", "21 free", "8 vertices, 2.1 long inside, on its way to way point 2 of 2",
-                           "36 cells", "run.pvd (4 frames)", "picture.png"})
+  for (const char* part :
+       {"3D, 40 steps", "21 free", "8 vertices, 2.1 long inside, on its way to way point 2 of 2", "36 cells",
+        "run.pvd (4 frames)", "picture.png"})
     EXPECT_NE(said.find(part), std::string::npos) << said;
 
   const json run = report("out");
@@ -131,7 +132,7 @@ TEST_F(Run, CathetersOfTheShippedScenesArrive) {
 }
 
 TEST_F(Run, WithoutASceneHexahedraBounce) {
-  const std::vector<std::string> smaller{"--set", "bodies[0].count=20", "--set", "environment.cells=5",
+  const std::vector<std::string> smaller{"--set", "bodies[0].count=20",   "--set",   "environment.cells=5",
                                          "--set", "output.picture=false", "--steps", "50"};
   std::vector<std::string> arguments{"run", "-o", "out"};
   arguments.insert(arguments.end(), smaller.begin(), smaller.end());
@@ -144,9 +145,11 @@ TEST_F(Run, WithoutASceneHexahedraBounce) {
   arguments = {"run", CELLWALK_SHIPPED_DATA "/hexahedra.json", "-o", "of_file"};
   arguments.insert(arguments.end(), smaller.begin(), smaller.end());
   succeed(arguments);
-  for (const char* file : {"run.json", "contacts.csv"}) EXPECT_EQ(text(std::string("out/") + file), text(std::string("of_file/") + file));
+  for (const char* file : {"run.json", "contacts.csv"})
+    EXPECT_EQ(text(std::string("out/") + file), text(std::string("of_file/") + file));
   expect_failure(2, {"run", "-o", "other", "--set", "bodies[9].count=1"}, {"there is no element 9"});
-  expect_failure(3, {"run", "-o", "other", "--set", "bodies[0].cout=1"}, {"hexahedra.json (built in): bodies[0].cout: unknown key"});
+  expect_failure(3, {"run", "-o", "other", "--set", "bodies[0].cout=1"},
+                 {"hexahedra.json (built in): bodies[0].cout: unknown key"});
 }
 
 TEST_F(Run, LeavesThirdCoordinatesEmptyInThePlane) {

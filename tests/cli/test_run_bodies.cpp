@@ -159,7 +159,8 @@ TEST_F(Run_bodies, TheShippedScenesRun) {
   const std::pair<const char*, const char*> scenes[] = {
       {"bodies.json", "400"}, {"bodies_2d.json", "300"}, {"hexahedra.json", "150"}, {"soft.json", "100"}};
   for (const auto& [scene, steps] : scenes) {
-    succeed({"run", std::string(CELLWALK_SHIPPED_DATA "/").append(scene), "-o", "out", "--force", "--steps", steps});
+    succeed({"run", std::string(CELLWALK_SHIPPED_DATA "/").append(scene), "-o", "out", "--force", "--steps",
+             steps});
     const json run = report("out");
     EXPECT_EQ(run["validated"], true) << scene;
     std::size_t edges = 0, vertices = 0;

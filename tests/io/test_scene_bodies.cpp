@@ -158,7 +158,8 @@ const Refusal of_space[] = {
      "seed, shape, side, "
      "speed, spin, velocity"},
     {R"({"file": "a", "side": 1})",
-     "bodies[0].side: unknown key; known here: count, file, material, motion, position, rotation, scale, seed, "
+     "bodies[0].side: unknown key; known here: count, file, material, motion, position, rotation, scale, "
+     "seed, "
      "shape, speed, "
      "spin, velocity"},
     {R"({"shape": "hexahedron", "side": 0})", "bodies[0].side: expected a number greater than 0, not 0"},
@@ -207,7 +208,8 @@ const Refusal of_space[] = {
     {R"({"file": "a", "count": 3, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
      "bodies[0].count: not for a body on a path, which starts at the first way point"},
     {R"({"file": "a", "material": "rubber"})", "bodies[0].material: expected an object {...}"},
-    {R"({"file": "a", "material": {"model": "fem"}})", "bodies[0].material.model: expected \"shape_matching\""},
+    {R"({"file": "a", "material": {"model": "fem"}})",
+     "bodies[0].material.model: expected \"shape_matching\""},
     {R"({"file": "a", "material": {"mode": "cubic"}})",
      "bodies[0].material.mode: expected \"rigid\", \"linear\" or \"quadratic\""},
     {R"({"file": "a", "material": {"mode": 1}})", "bodies[0].material.mode: expected a text"},

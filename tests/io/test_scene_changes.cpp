@@ -15,7 +15,9 @@ constexpr const char* scene = R"({ // a comment
   "environment": {"generate": "hexes", "cells": [10, 10, 10]}, "steps": 5,
   "bodies": [{"shape": "box", "count": 3}, {"shape": "hexahedron", "count": 4}]})";
 
-json changed(const std::vector<std::string>& changes) { return json::parse(change_scene("s.json", scene, changes)); }
+json changed(const std::vector<std::string>& changes) {
+  return json::parse(change_scene("s.json", scene, changes));
+}
 
 TEST(SceneChanges, ReplaceValues) {
   json expected = json::parse(scene, nullptr, true, true);
