@@ -10,6 +10,7 @@ namespace {
 
 /// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the steps that follow.
 constexpr int passes = 12;
+
 /// Takes a vector across one direction to one across another, by the least rotation.
 Vector<2> transported(const Vector<2>& v, const Vector<2>& from, const Vector<2>& to) {
   const double c = dot(from, to), s = from[0] * to[1] - from[1] * to[0];

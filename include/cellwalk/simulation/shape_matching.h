@@ -33,7 +33,7 @@ class Shape_matching {
 
   /// The goals of vertices that are at these positions. The centre of mass stays where it is.
   /// \pre as many positions and goals as the rest shape has vertices, finite
-  /// Cost: some us, and 10 to 60 ns a vertex.
+  /// Cost: about 1 us, and 10 to 60 ns a vertex.
   void goals(std::span<const Point<D>> positions, std::span<Point<D>> result) const;
 
  private:
