@@ -80,7 +80,7 @@ void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shap
           Error_code::outside,
           fmt::format("no room for copy {} of {}: it meets walls at each of {} random places; make the body "
                       "smaller, or the free space larger",
-                      copy, start.cloud->count, most_tries));
+                      copy, start.cloud->count, int{most_tries}));
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                     \

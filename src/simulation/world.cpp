@@ -74,6 +74,13 @@ void World<D>::validate() {
   }
 }
 
+template <int D>
+const Rod<D>* World<D>::catheter() const {
+  return scene_.catheter ? bodies_.back().template as<Rod<D>>() : nullptr;
+}
+
+template const Rod<2>* World<2>::catheter() const;
+template const Rod<3>* World<3>::catheter() const;
 template void World<2>::step();
 template void World<2>::step_free();
 template void World<2>::step_bodies();

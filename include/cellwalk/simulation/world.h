@@ -53,7 +53,7 @@ class World {
   /// The scene's entry that a body is of. \pre it is not the catheter
   std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
   /// Nothing if the scene has none.
-  const Rod<D>* catheter() const { return scene_.catheter ? bodies_.back().template as<Rod<D>>() : nullptr; }
+  const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
   /// What particles walked.
