@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Installs what is missing, builds the program and pushes a catheter tip into a branching vessel that the program
+# Installs what is missing, builds the program and pushes a catheter into a branching vessel that the program
 # generates; ends with a summary and a picture. Safe to repeat: a new run replaces the last one.
 #
 #   scripts/demo.sh [--short]      --short: a few steps only

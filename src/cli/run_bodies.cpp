@@ -56,14 +56,35 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
   Body_sizes sizes;
   sizes.bodies = world.bodies().size();
   for (std::size_t i = 0; i < sizes.bodies; ++i) {
-    const Flight<D>& flight = world.bodies()[i];
-    sizes.vertices += flight.body().vertex_count();
-    sizes.edges += flight.body().edges().size();
-    sizes.faces += world.bodies()[i].body().faces().size();
+    const Moving_body<D>& moving = world.bodies()[i];
+    sizes.vertices += moving.body().vertex_count();
+    sizes.edges += moving.body().edges().size();
+    sizes.faces += moving.body().faces().size();
+    if (moving.template as<Rod<D>>()) continue;
     sizes.guided += scene.bodies[world.entry_of(i)].guided.has_value();
-    sizes.arrived += flight.has_arrived();
+    sizes.arrived += moving.has_arrived();
   }
   return sizes;
+}
+
+template <int D>
+ordered_json catheter_json(const Rod<D>& rod) {
+  return {{"arrived", rod.has_arrived()},
+          {"way_point", rod.next_way_point()},
+          {"path", rod.way()},
+          {"length_inside", rod.length_inside()},
+          {"twist", rod.twist()},
+          {"steps_waited", rod.steps_waited()}};
+}
+
+template <int D>
+std::string describe_catheter(const Rod<D>& rod) {
+  const std::string where =
+      rod.has_arrived()
+          ? fmt::format("arrived at the last of {} way points", rod.way().size())
+          : fmt::format("on its way to way point {} of {}", rod.next_way_point() + 1, rod.way().size());
+  return fmt::format("{} vertices, {:.4g} long inside, {}", rod.body().vertex_count(), rod.length_inside(),
+                     where);
 }
 
 ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
@@ -142,5 +163,9 @@ template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);
 template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);
 template Body_sizes sizes_of(const World<2>&, const Scene<2>&);
 template Body_sizes sizes_of(const World<3>&, const Scene<3>&);
+template ordered_json catheter_json(const Rod<2>&);
+template ordered_json catheter_json(const Rod<3>&);
+template std::string describe_catheter(const Rod<2>&);
+template std::string describe_catheter(const Rod<3>&);
 
 }  // namespace cellwalk::cli

@@ -27,7 +27,7 @@ struct Scene_bodies {
 template <int D>
 Scene_bodies<D> load_bodies(const Scene<D>& scene, const std::string& scene_name);
 
-/// How many there are of what.
+/// How many there are of what, the catheter included.
 struct Body_sizes {
   std::size_t bodies = 0, vertices = 0, edges = 0, faces = 0, guided = 0, arrived = 0;
 };
@@ -41,10 +41,15 @@ nlohmann::ordered_json to_json(const Walk_counts& counts);
 nlohmann::ordered_json to_json(const Edge_counts& counts);
 /// The share of edge checks that each certificate decided.
 nlohmann::ordered_json shares_json(const Edge_counts& counts);
+/// Where the catheter is.
+template <int D>
+nlohmann::ordered_json catheter_json(const Rod<D>& rod);
 /// Counts, and the share of vertex moves and edge checks that each certificate decided.
 nlohmann::ordered_json to_json(const Body_counts& counts);
 
 /// For people: contacts by feature, and what decided the moves of vertices and the checks of edges.
+template <int D>
+std::string describe_catheter(const Rod<D>& rod);
 std::string describe_contacts(const Body_contacts& contacts);
 std::string describe_moves(const Body_counts& counts);
 std::string describe_edges(const Edge_counts& counts);
@@ -53,6 +58,10 @@ extern template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&)
 extern template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);
 extern template Body_sizes sizes_of(const World<2>&, const Scene<2>&);
 extern template Body_sizes sizes_of(const World<3>&, const Scene<3>&);
+extern template nlohmann::ordered_json catheter_json(const Rod<2>&);
+extern template nlohmann::ordered_json catheter_json(const Rod<3>&);
+extern template std::string describe_catheter(const Rod<2>&);
+extern template std::string describe_catheter(const Rod<3>&);
 
 }  // namespace cellwalk::cli
 

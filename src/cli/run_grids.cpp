@@ -23,23 +23,17 @@ io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_rec
   io::Vtu_grid grid;
   const auto particles = world.particles();
   std::vector<double> velocity;
-  Integers number(particles.size()), met(particles.size(), 0), catheter(particles.size(), 0);
+  Integers number(particles.size()), met(particles.size(), 0);
   std::iota(number.begin(), number.end(), 0);
   for (const Contact_record<D>& c : contacts)
     if (!c.body) ++met[c.particle];
-  std::vector<std::uint32_t> line;
   for (std::uint32_t i = 0; i < particles.size(); ++i) {
     grid.points.push_back(in_space(particles[i].position));
     append_vector<D>(velocity, world.velocities()[i]);
     const std::uint32_t vertex[] = {i};
     grid.add_cell(io::Vtu_cell::vertex, vertex);
-    if (i < world.free_count()) continue;
-    catheter[i] = 1;
-    line.push_back(i);
   }
-  if (line.size() > 1) grid.add_cell(io::Vtu_cell::polyline, line);
   grid.point_data.push_back({"particle", 1, std::move(number)});
-  grid.point_data.push_back({"catheter", 1, std::move(catheter)});
   grid.point_data.push_back({"contacts", 1, std::move(met)});
   grid.point_data.push_back({"velocity", 3, std::move(velocity)});
   return grid;
@@ -53,7 +47,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
   std::vector<double> velocity;
   std::vector<std::array<std::size_t, 3>> begin;  // cells of each body: its vertices, edges, faces
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
-    const Flight<D>& flight = world.bodies()[b];
+    const Moving_body<D>& moving = world.bodies()[b];
     const auto first = static_cast<std::uint32_t>(grid.points.size());
     const auto add = [&, i = static_cast<std::int64_t>(b)](io::Vtu_cell type, Body_feature of, std::size_t at,
                                                            auto vertices) {
@@ -63,16 +57,16 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
       feature.push_back(static_cast<std::int64_t>(of));
       number.push_back(static_cast<std::int64_t>(at));
     };
-    for (const Point<D>& x : flight.body().positions()) {
+    for (const Point<D>& x : moving.body().positions()) {
       const std::size_t point = grid.points.size();
       grid.points.push_back(in_space(x));
       body_of_point.push_back(static_cast<std::int64_t>(b));
       vertex_of_point.push_back(static_cast<std::int64_t>(point - first));
-      append_vector<D>(velocity, before.empty() ? flight.velocity() : (1 / time_step) * (x - before[point]));
+      append_vector<D>(velocity, before.empty() ? moving.velocity() : (1 / time_step) * (x - before[point]));
     }
-    const auto edges = flight.body().edges();
-    const auto faces = world.bodies()[b].body().faces();
-    const std::size_t vertices = flight.body().vertex_count(), cells = grid.cell_count();
+    const auto edges = moving.body().edges();
+    const auto faces = moving.body().faces();
+    const std::size_t vertices = moving.body().vertex_count(), cells = grid.cell_count();
     begin.push_back({cells, cells + vertices, cells + vertices + edges.size()});
     for (std::uint32_t v = 0; v < vertices; ++v)
       add(io::Vtu_cell::vertex, Body_feature::vertex, v, std::array{v});
@@ -126,8 +120,8 @@ io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>& contacts) {
 template <int D>
 std::vector<Point<D>> body_positions(const World<D>& world) {
   std::vector<Point<D>> positions;
-  for (const Flight<D>& flight : world.bodies()) {
-    const auto of_body = flight.body().positions();
+  for (const Moving_body<D>& moving : world.bodies()) {
+    const auto of_body = moving.body().positions();
     positions.insert(positions.end(), of_body.begin(), of_body.end());
   }
   return positions;

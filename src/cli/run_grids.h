@@ -10,7 +10,7 @@
 
 namespace cellwalk::cli {
 
-/// Particles as vertices, and the catheter as a line through its particles. `contacts` are those since the frame before.
+/// Particles as vertices. `contacts` are those since the frame before.
 template <int D>
 io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts);
 

@@ -71,7 +71,7 @@ std::vector<Contact_record<D>> thinned(const std::vector<Contact_record<D>>& con
   return result;
 }
 
-/// The catheter's particles joined by a smooth line (a Catmull-Rom spline).
+/// The catheter's vertices joined by a smooth line (a Catmull-Rom spline).
 template <int D>
 std::vector<Point<D>> smooth(const std::vector<Point<D>>& points) {
   constexpr int pieces = 5;
@@ -151,10 +151,11 @@ void draw_arrow(Drawing& drawing, const Point<2>& p, const Vector<2>& n, double 
 template <int D>
 void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, double unit, double height) {
   std::size_t all_edges = 0;
-  for (const Flight<D>& flight : world.bodies()) all_edges += flight.body().edges().size();
-  for (std::size_t b = 0; b < world.bodies().size(); ++b) {
-    const Body<D>& body = world.bodies()[b].body();
-    const auto faces = world.bodies()[b].body().faces();
+  for (const Moving_body<D>& moving : world.bodies()) all_edges += moving.body().edges().size();
+  for (const Moving_body<D>& moving : world.bodies()) {
+    if (moving.template as<Rod<D>>()) continue;
+    const Body<D>& body = moving.body();
+    const auto faces = body.faces();
     if (!faces.empty()) {
       std::vector<Point<3>> points;
       for (const Point<D>& x : body.positions()) points.push_back(io::in_space(x));
@@ -181,24 +182,23 @@ void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, do
 }  // namespace
 
 template <int D>
-Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.free_count()) {
+Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.particles().size()) {
   record(world);
 }
 
 template <int D>
 void Run_picture<D>::record(const World<D>& world) {
   for (const Contact_record<D>& c : world.contacts())
-    if (!c.body && c.particle < trails_.size()) trails_[c.particle].push_back(c.point);
+    if (!c.body) trails_[c.particle].push_back(c.point);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     auto& trail = trails_[i];
     trail.push_back(world.particles()[i].position);
     if (trail.size() > trail_steps) trail.erase(trail.begin(), trail.end() - trail_steps);
   }
-  for (const Contact_record<D>& c : world.contacts())
-    (c.body                            ? body_contacts_
-     : c.particle < world.free_count() ? free_contacts_
-                                       : catheter_contacts_)
-        .push_back(c);
+  for (const Contact_record<D>& c : world.contacts()) {
+    const bool is_catheter = c.body && world.bodies()[c.body->body].template as<Rod<D>>();
+    (!c.body ? free_contacts_ : is_catheter ? catheter_contacts_ : body_contacts_).push_back(c);
+  }
   const auto old = [&](const Contact_record<D>& c) { return c.step + trail_steps <= world.steps_done(); };
   for (auto* latest : {&body_contacts_, &free_contacts_})
     latest->erase(latest->begin(), std::find_if_not(latest->begin(), latest->end(), old));
@@ -225,10 +225,10 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
     draw_dot(drawing, world.particles()[i].position, particle_size * unit, layer(6), m.particle);
   }
   draw_bodies(drawing, world, m, unit, layer(4));
-  std::vector<Point<D>> chain;
-  for (std::size_t i = world.free_count(); i < world.particles().size(); ++i)
-    chain.push_back(world.particles()[i].position);
-  if (!chain.empty()) {
+  if (const Rod<D>* rod = world.catheter()) {
+    std::vector<Point<D>> chain;  // without the vertices that wait at the entry
+    for (const Point<D>& x : rod->body().positions())
+      if (chain.empty() || x != chain.back()) chain.push_back(x);
     const double size = std::min(catheter_size * unit, 0.3 * scene.catheter->spacing);
     draw_line(drawing, smooth<D>(chain), size, layer(4), m.catheter);
     draw_dot(drawing, chain.front(), 1.6 * size, layer(5), m.catheter);

@@ -25,7 +25,7 @@ class Run_picture {
                    const std::string& caption) const;
 
  private:
-  std::vector<std::vector<Point<D>>> trails_;  ///< of the free particles and the tip, the latest steps only
+  std::vector<std::vector<Point<D>>> trails_;  ///< of the particles, the latest steps only
   std::vector<Contact_record<D>> catheter_contacts_;
   std::vector<Contact_record<D>> body_contacts_, free_contacts_;  ///< of the latest steps
 };

@@ -16,6 +16,7 @@ namespace {
 using detail::Json_node;
 
 constexpr std::uint64_t max_steps = 100'000'000;
+constexpr double default_twist = 10;  // degrees a step
 
 Environment_source environment_source(const Json_node& node) {
   if (node.is_string()) {
@@ -46,17 +47,43 @@ std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node&
   return start;
 }
 
+/// The curved part of the tip, and how its base is turned.
+template <int D>
+void curve(const Json_node& node, Catheter<D>& result) {
+  if (const auto steering = node.find("steering")) {
+    const std::string word = steering->string();
+    if (word != "tip" && word != "twist" && word != "none")
+      steering->fail("expected \"tip\", \"twist\" or \"none\"");
+    result.steering = word == "tip" ? Steering::tip : word == "twist" ? Steering::twist : Steering::none;
+  }
+  if (const auto tip = node.find("tip")) {
+    tip->expect_keys({"length", "degrees"});
+    result.tip_length = tip->at("length").positive();
+    result.tip_angle = tip->at("degrees").number_in(0, 360);
+  }
+  if (result.steering == Steering::twist) {
+    if (!node.has("tip")) node.fail("steering by \"twist\" needs a curved \"tip\"");
+    result.twist = default_twist;
+  }
+  if (const auto twist = node.find("twist")) {
+    if (result.steering == Steering::tip) twist->fail("only for \"steering\" by \"twist\" or \"none\"");
+    result.twist = twist->number_in(result.steering == Steering::none ? -180 : 0, 180);
+  }
+}
+
 template <int D>
 Catheter<D> catheter(const Json_node& node) {
-  node.expect_keys({"particles", "spacing", "advance", "stiffness", "path", "find_route"});
+  node.expect_keys(
+      {"particles", "spacing", "advance", "stiffness", "path", "find_route", "steering", "tip", "twist"});
   Catheter<D> result;
   result.spacing = node.at("spacing").positive();
   result.advance = result.spacing / 2;
   if (const auto n = node.find("particles"))
-    result.particles = static_cast<std::uint32_t>(n->integer_in(1, detail::max_particles));
+    result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::max_particles));
   if (const auto advance = node.find("advance")) result.advance = advance->positive();
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
+  curve(node, result);
   result.path = detail::way_points<D>(node.at("path"));
   return result;
 }
@@ -118,12 +145,25 @@ Scene<D> scene(const Json_node& node) {
 
 }  // namespace
 
-Any_scene parse_scene(const std::string& name, std::string_view text) {
+Any_scene parse_scene(const std::string& name, std::string_view text, const std::filesystem::path& folder) {
   const auto document = detail::parse_json(name, text);
   const Json_node root(*document, name);
   const auto dimension = root.find("dimension");
-  if (dimension && dimension->integer_in(2, 3) == 2) return scene<2>(root);
-  return scene<3>(root);
+  Any_scene result;
+  if (dimension && dimension->integer_in(2, 3) == 2)
+    result = scene<2>(root);
+  else
+    result = scene<3>(root);
+  std::visit(
+      [&](auto& s) {
+        const auto resolve = [&](auto& source) {
+          if (auto* file = std::get_if<std::string>(&source)) *file = (folder / *file).string();
+        };
+        resolve(s.environment);
+        for (auto& body : s.bodies) resolve(body.source);
+      },
+      result);
+  return result;
 }
 
 Any_scene read_scene(const std::filesystem::path& path) {
@@ -131,17 +171,7 @@ Any_scene read_scene(const std::filesystem::path& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file)
     throw Error(Error_code::input, path.string() + ": cannot be read; check the name and its permissions");
-  Any_scene result = parse_scene(path.string(), text);
-  std::visit(
-      [&](auto& s) {
-        const auto resolve = [&](auto& source) {
-          if (auto* name = std::get_if<std::string>(&source)) *name = (path.parent_path() / *name).string();
-        };
-        resolve(s.environment);
-        for (auto& body : s.bodies) resolve(body.source);
-      },
-      result);
-  return result;
+  return parse_scene(path.string(), text, path.parent_path());
 }
 
 }  // namespace cellwalk::io

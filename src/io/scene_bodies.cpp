@@ -122,7 +122,7 @@ const std::vector<Known_shape<3>>& known_shapes<3>() {
 template <int D>
 Body_source<D> source(const Json_node& node) {
   std::vector<std::string_view> keys{"file", "shape", "position", "scale", "rotation", "velocity",
-                                     "spin", "count", "seed",     "speed", "motion"};
+                                     "spin", "count", "seed",     "speed", "motion",   "material"};
   if (node.has("file") == node.has("shape")) node.fail("expected either \"file\" or \"shape\"");
   if (const auto file = node.find("file")) {
     node.expect_keys(keys);
@@ -163,6 +163,29 @@ template <int D>
 Guided_motion<D> guided_motion(const Json_node& node) {
   node.expect_keys({"path", "speed"});
   return {way_points<D>(node.at("path")), node.at("speed").positive()};
+}
+
+Shape_material material(const Json_node& node) {
+  Shape_material result;
+  if (const auto model = node.find("model"); model && model->string() != "shape_matching")
+    model->fail("expected \"shape_matching\"");
+  const std::string mode = node.has("mode") ? node.at("mode").string() : "rigid";
+  const std::string_view modes[] = {"rigid", "linear", "quadratic"};
+  const auto* found = std::ranges::find(modes, mode);
+  if (found == std::end(modes)) node.at("mode").fail("expected \"rigid\", \"linear\" or \"quadratic\"");
+  result.mode = static_cast<Shape_mode>(found - modes);
+  std::vector<std::string_view> keys{"model", "mode", "stiffness"};
+  if (result.mode != Shape_mode::rigid) keys.push_back("deformation");
+  if (result.mode == Shape_mode::linear) keys.push_back("volume");
+  node.expect_keys(keys);
+  if (const auto stiffness = node.find("stiffness")) {
+    result.stiffness = stiffness->number_in(0, 1);
+    if (result.stiffness == 0)
+      stiffness->fail("expected a number greater than 0: without stiffness there is no body");
+  }
+  if (const auto deformation = node.find("deformation")) result.deformation = deformation->number_in(0, 1);
+  if (const auto volume = node.find("volume")) result.keeps_volume = volume->boolean();
+  return result;
 }
 
 /// Refuses keys that contradict another one.
@@ -213,7 +236,9 @@ Body_start<D> body_start(const Json_node& node) {
     else if (!motion->is_string() || motion->string() != "thrown")
       motion->fail("expected \"thrown\" or {\"path\": ..., \"speed\": ...}");
   }
+  if (const auto m = node.find("material")) start.material = material(*m);
   if (start.guided) {
+    refuse_beside(node, {"material"}, "not for a body on a path, which is rigid");
     refuse_beside(node, {"position", "velocity", "count", "seed", "speed"},
                   "not for a body on a path, which starts at the first way point");
     start.placement.position = start.guided->path[0];

@@ -12,6 +12,15 @@
 #include "random_start.h"
 
 namespace cellwalk {
+namespace {
+
+template <int D>
+Moving_body<D> throw_body(Body<D> body, const Body_start<D>& start, const Vector<D>& velocity) {
+  if (start.material) return Deformable<D>(std::move(body), *start.material, velocity, start.spin);
+  return Flight<D>(std::move(body), velocity, start.spin);
+}
+
+}  // namespace
 
 template <int D>
 void World<D>::place_bodies(const Locator<D>& locator) {
@@ -38,9 +47,9 @@ void World<D>::place_body(const Body_start<D>& start, const Body_soup<D>& shape,
   if (start.guided) placement.position = start.guided->path.front();
   Body<D> body(snapshot_, locator, transformed(shape, placement));
   if (start.guided)
-    bodies_.emplace_back(std::move(body), *start.guided, start.spin);
+    bodies_.emplace_back(Flight<D>(std::move(body), *start.guided, start.spin));
   else
-    bodies_.emplace_back(std::move(body), start.velocity, start.spin);
+    bodies_.push_back(throw_body(std::move(body), start, start.velocity));
 }
 
 template <int D>
@@ -57,7 +66,7 @@ void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shap
       try {
         Body<D> body(snapshot_, locator, placed);
         const Vector<D> velocity = start.cloud->speed * detail::random_direction<D>(random);
-        bodies_.emplace_back(std::move(body), velocity, start.spin);
+        bodies_.push_back(throw_body(std::move(body), start, velocity));
         return true;
       } catch (const Error& error) {
         if (error.code() != Error_code::outside) throw;
@@ -71,7 +80,7 @@ void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shap
           Error_code::outside,
           fmt::format("no room for copy {} of {}: it meets walls at each of {} random places; make the body "
                       "smaller, or the free space larger",
-                      copy, start.cloud->count, most_tries));
+                      copy, start.cloud->count, int{most_tries}));
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                     \

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "random_start.h"
 
@@ -41,9 +42,8 @@ World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<
       place_cloud(std::get<Particle_cloud>(scene.particles[i]), key);
     }
   }
-  free_count_ = particles_.size();
-  if (scene.catheter) place_catheter(*scene.catheter, locator);
   place_bodies(locator);
+  if (scene.catheter) place_catheter(*scene.catheter, locator);
   conditions_ = {scene.time_step, scene.gravity, scene.restitution, scene.friction, options};
 }
 
@@ -63,13 +63,11 @@ void World<D>::place_cloud(const Particle_cloud& cloud, const std::string& key) 
 
 template <int D>
 void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& locator) {
-  entry_ = place(locator, catheter.path[0], "catheter.path[0]");
-  enter();
-  path_ = {entry_.position};
-  Particle<D> here = entry_;
+  Particle<D> here = place(locator, catheter.path[0], "catheter.path[0]");
+  std::vector<Point<D>> way{here.position};
   for (std::size_t i = 1; i < catheter.path.size(); ++i) {
     if (!catheter.find_route) {
-      path_.push_back(catheter.path[i]);
+      way.push_back(catheter.path[i]);
       continue;
     }
     const std::string key = fmt::format("catheter.path[{}]", i);
@@ -78,9 +76,11 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
     if (route.empty())
       throw Error(Error_code::outside,
                   fmt::format("{}: walls cut it off from the way point before; move it or open a wall", key));
-    path_.insert(path_.end(), route.begin() + 1, route.end());
+    way.insert(way.end(), route.begin() + 1, route.end());
     here = next;
   }
+  Body<D> body(snapshot_, locator, Rod<D>::at_entry(catheter));
+  bodies_.emplace_back(Rod<D>(snapshot_, std::move(body), catheter, std::move(way)));
 }
 
 template World<2>::World(const Snapshot<2>&, const Scene<2>&, std::vector<Body_soup<2>>, const Body_options&);

@@ -10,7 +10,6 @@ void World<D>::step() {
   ++steps_done_;
   contacts_.clear();
   step_free();
-  if (scene_.catheter) step_catheter(*scene_.catheter);
   step_bodies();
 }
 
@@ -34,7 +33,7 @@ template <int D>
 void World<D>::step_free() {
   const double dt = scene_.time_step;
   const Wall_response response{scene_.restitution, scene_.friction};
-  for (std::size_t i = 0; i < free_count_; ++i) {
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
     velocities_[i] = (1 / dt) * advance(snapshot_, particles_[i], displacement, response, met_, counts_);
     report(i);
@@ -75,6 +74,13 @@ void World<D>::validate() {
   }
 }
 
+template <int D>
+const Rod<D>* World<D>::catheter() const {
+  return scene_.catheter ? bodies_.back().template as<Rod<D>>() : nullptr;
+}
+
+template const Rod<2>* World<2>::catheter() const;
+template const Rod<3>* World<3>::catheter() const;
 template void World<2>::step();
 template void World<2>::step_free();
 template void World<2>::step_bodies();

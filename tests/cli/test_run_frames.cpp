@@ -37,7 +37,6 @@ TEST_F(Run_frames, AreReadByVtk) {
   write("room.json", R"({
     "environment": {"generate": "hexes", "cells": [4, 3, 3]},
     "particles": [{"count": 20, "seed": 3, "speed": 12}],
-    "catheter": {"path": [[0.2, 1.5, 1.4], [9, 1.5, 1.6]], "spacing": 0.3, "particles": 8},
     "time_step": 0.125, "steps": 30, "output": {"frame_every": 15}})");
   succeed({"run", "room.json", "-o", "out"});
   const auto table = read_table(path("out/contacts.csv"));
@@ -49,13 +48,8 @@ TEST_F(Run_frames, AreReadByVtk) {
   for (std::size_t frame = 0; frame < 3; ++frame) {
     const std::string number = "_0000" + std::to_string(frame) + ".vtu";
     with_grid("out/frames/particles" + number, [&](vtkUnstructuredGrid& grid) {
-      const vtkIdType catheter = frame == 0 ? 1 : 8;
-      ASSERT_EQ(grid.GetNumberOfPoints(), 20 + catheter);
-      ASSERT_EQ(grid.GetNumberOfCells(), 20 + catheter + (frame == 0 ? 0 : 1));
-      if (frame > 0) {
-        EXPECT_EQ(grid.GetCell(28)->GetCellType(), VTK_POLY_LINE);
-        EXPECT_EQ(grid.GetCell(28)->GetNumberOfPoints(), 8);
-      }
+      ASSERT_EQ(grid.GetNumberOfPoints(), 20);
+      ASSERT_EQ(grid.GetNumberOfCells(), 20);
       vtkDataArray* met = grid.GetPointData()->GetArray("contacts");
       vtkDataArray* velocity = grid.GetPointData()->GetArray("velocity");
       ASSERT_TRUE(met && velocity);
@@ -66,9 +60,7 @@ TEST_F(Run_frames, AreReadByVtk) {
         const double* p = grid.GetPoint(i);
         EXPECT_TRUE(p[0] >= 0 && p[0] <= 4 && p[1] >= 0 && p[1] <= 3 && p[2] >= 0 && p[2] <= 3);
         const double* v = velocity->GetTuple3(i);
-        if (i < 20) {
-          EXPECT_NEAR(std::hypot(v[0], v[1], v[2]), 12, 1e-9);
-        }
+        EXPECT_NEAR(std::hypot(v[0], v[1], v[2]), 12, 1e-9);
       }
       EXPECT_EQ(sum, static_cast<double>(contacts_of_frame[frame]));
     });

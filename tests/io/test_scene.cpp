@@ -15,6 +15,7 @@ constexpr const char* complete = R"({  // everything
   "particles": [{"position": [1, 2, 3], "velocity": [0.5, 0, -1e-3]}, {"position": [0, 0, 0]},
                 {"count": 7, "speed": 2, "seed": 9007199254740992}],
   "catheter": {"particles": 9, "spacing": 0.5, "advance": 0.125, "stiffness": 0.75, "find_route": true,
+               "steering": "twist", "tip": {"length": 2, "degrees": 45}, "twist": 5,
                "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0]]},
   "gravity": [0, 0, -9.81], "restitution": 0.5, "friction": 0.25, "time_step": 0.5, "steps": 12,
   "output": {"frame_every": 3, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
@@ -43,6 +44,10 @@ TEST(Scene, ReadsEveryKey) {
   EXPECT_EQ(scene.catheter->stiffness, 0.75);
   EXPECT_TRUE(scene.catheter->find_route);
   EXPECT_EQ(scene.catheter->path.size(), 3u);
+  EXPECT_EQ(scene.catheter->steering, Steering::twist);
+  EXPECT_EQ(scene.catheter->tip_length, 2);
+  EXPECT_EQ(scene.catheter->tip_angle, 45);
+  EXPECT_EQ(scene.catheter->twist, 5);
   EXPECT_EQ(scene.gravity, (Vector<3>{0, 0, -9.81}));
   EXPECT_EQ(scene.restitution, 0.5);
   EXPECT_EQ(scene.friction, 0.25);
@@ -67,6 +72,8 @@ TEST(Scene, HasDefaults) {
   const auto tip = std::get<Scene<3>>(parse_scene("s.json", R"({"environment": "a.ovm", "steps": 5,
     "catheter": {"spacing": 3, "path": [[0,0,0],[1,1,1]]}, "output": {"picture": true}})"));
   EXPECT_EQ(tip.catheter->advance, 1.5);
+  EXPECT_EQ(tip.catheter->steering, Steering::tip);
+  EXPECT_EQ(tip.catheter->tip_angle, 0);
   EXPECT_TRUE(tip.output.picture);
 }
 
@@ -138,6 +145,22 @@ const Refusal refusals[] = {
      "s.json: catheter.path: expected at least 2 way points"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0],[0,0,0]]}})",
      "s.json: catheter.path[1]: the same way point twice in a row"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "particles": 1, "path": []}})",
+     "s.json: catheter.particles: expected an integer from 2 to 10000000, not 1"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "steering": "hand", "path": []}})",
+     "s.json: catheter.steering: expected \"tip\", \"twist\" or \"none\""},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "steering": "twist", "path": []}})",
+     "s.json: catheter: steering by \"twist\" needs a curved \"tip\""},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "tip": {"length": 1}, "path": []}})",
+     "s.json: catheter.tip: key \"degrees\" is missing"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "tip": {"length": 0, "degrees": 5}, "path": []}})",
+     "s.json: catheter.tip.length: expected a number greater than 0, not 0"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "tip": {"length": 1, "degrees": 500}, "path": []}})",
+     "s.json: catheter.tip.degrees: expected a number from 0 to 360, not 500"},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "twist": 5, "path": []}})",
+     "s.json: catheter.twist: only for \"steering\" by \"twist\" or \"none\""},
+    {R"({"environment": "e", "catheter": {"spacing": 1, "steering": "none", "twist": 181, "path": []}})",
+     "s.json: catheter.twist: expected a number from -180 to 180, not 181"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "stiffness": 1.5, "path": []}})",
      "s.json: catheter.stiffness: expected a number from 0 to 1, not 1.5"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "find_route": 1, "path": []}})",

@@ -56,6 +56,25 @@ TEST(SceneBodies, ReadsEveryKey) {
   EXPECT_EQ(found[2].placement.position, (Point<3>{0, 0, 1}));
 }
 
+TEST(SceneBodies, ReadsMaterials) {
+  const auto found = bodies<3>(R"({"shape": "box"}, {"shape": "box", "material": {}},
+    {"file": "a.off", "material": {"model": "shape_matching", "mode": "linear", "stiffness": 0.25, "deformation": 0.75,
+                                   "volume": false}},
+    {"shape": "box", "count": 3, "material": {"mode": "quadratic", "deformation": 1}})");
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_FALSE(found[0].material);
+  ASSERT_TRUE(found[1].material && found[2].material && found[3].material);
+  EXPECT_EQ(found[1].material->mode, Shape_mode::rigid);
+  EXPECT_EQ(found[1].material->stiffness, 1);
+  EXPECT_EQ(found[2].material->mode, Shape_mode::linear);
+  EXPECT_EQ(found[2].material->stiffness, 0.25);
+  EXPECT_EQ(found[2].material->deformation, 0.75);
+  EXPECT_FALSE(found[2].material->keeps_volume);
+  EXPECT_EQ(found[3].material->mode, Shape_mode::quadratic);
+  EXPECT_EQ(found[3].material->deformation, 1);
+  EXPECT_TRUE(found[3].material->keeps_volume);
+}
+
 TEST(SceneBodies, HasDefaults) {
   const auto body = bodies<3>(R"({"shape": "hexahedron", "count": 2})").at(0);
   EXPECT_EQ(body.placement.scale, 1);
@@ -135,12 +154,13 @@ const Refusal of_space[] = {
      "polyline, "
      "tetrahedron"},
     {R"({"shape": "box"}, {"shape": "tetrahedron", "radius": 1})",
-     "bodies[1].radius: unknown key; known here: count, file, motion, position, rotation, scale, seed, "
-     "shape, side, "
+     "bodies[1].radius: unknown key; known here: count, file, material, motion, position, rotation, scale, "
+     "seed, shape, side, "
      "speed, spin, velocity"},
     {R"({"file": "a", "side": 1})",
-     "bodies[0].side: unknown key; known here: count, file, motion, position, rotation, scale, seed, shape, "
-     "speed, "
+     "bodies[0].side: unknown key; known here: count, file, material, motion, position, rotation, scale, "
+     "seed, "
+     "shape, speed, "
      "spin, velocity"},
     {R"({"shape": "hexahedron", "side": 0})", "bodies[0].side: expected a number greater than 0, not 0"},
     {R"({"shape": "hexahedron", "faces": 1})", "bodies[0].faces: expected true or false"},
@@ -187,6 +207,26 @@ const Refusal of_space[] = {
      "bodies[0].motion.speed: expected a number greater than 0, not 0"},
     {R"({"file": "a", "count": 3, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
      "bodies[0].count: not for a body on a path, which starts at the first way point"},
+    {R"({"file": "a", "material": "rubber"})", "bodies[0].material: expected an object {...}"},
+    {R"({"file": "a", "material": {"model": "fem"}})",
+     "bodies[0].material.model: expected \"shape_matching\""},
+    {R"({"file": "a", "material": {"mode": "cubic"}})",
+     "bodies[0].material.mode: expected \"rigid\", \"linear\" or \"quadratic\""},
+    {R"({"file": "a", "material": {"mode": 1}})", "bodies[0].material.mode: expected a text"},
+    {R"({"file": "a", "material": {"stiffness": 0}})",
+     "bodies[0].material.stiffness: expected a number greater than 0: without stiffness there is no body"},
+    {R"({"file": "a", "material": {"stiffness": 1.5}})",
+     "bodies[0].material.stiffness: expected a number from 0 to 1, not 1.5"},
+    {R"({"file": "a", "material": {"deformation": 0.5}})",
+     "bodies[0].material.deformation: unknown key; known here: mode, model, stiffness"},
+    {R"({"file": "a", "material": {"mode": "linear", "deformation": -1}})",
+     "bodies[0].material.deformation: expected a number from 0 to 1, not -1"},
+    {R"({"file": "a", "material": {"mode": "linear", "volume": 1}})",
+     "bodies[0].material.volume: expected true or false"},
+    {R"({"file": "a", "material": {"mode": "quadratic", "volume": true}})",
+     "bodies[0].material.volume: unknown key; known here: deformation, mode, model, stiffness"},
+    {R"({"file": "a", "material": {}, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
+     "bodies[0].material: not for a body on a path, which is rigid"},
     {R"({"file": "a", "position": [0, 0, 0], "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
      "bodies[0].position: not for a body on a path, which starts at the first way point"},
 };

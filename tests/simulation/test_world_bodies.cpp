@@ -15,6 +15,7 @@
 namespace cellwalk {
 namespace {
 
+using test::pierces;
 using test::rooms;
 
 /// Copies thrown at random among free particles.
@@ -30,24 +31,6 @@ Scene<D> thrown(std::uint32_t count, double speed, std::uint64_t seed) {
   return scene;
 }
 
-/// True if a segment goes through the inside of a unit square or cube of the lattice: it meets each axis' open interval at a
-/// common parameter. By doubles, with cells shrunk by `margin`; knows nothing of chains.
-template <int D>
-bool pierces(const Point<D>& a, const Point<D>& b, const Point<D>& low, double margin) {
-  double from = 0, to = 1;
-  for (int k = 0; k < D; ++k) {
-    const double lower = low[k] + margin, upper = low[k] + 1 - margin, d = b[k] - a[k];
-    if (d == 0) {
-      if (a[k] <= lower || a[k] >= upper) return false;
-      continue;
-    }
-    const double s = (lower - a[k]) / d, t = (upper - a[k]) / d;
-    from = std::max(from, std::min(s, t));
-    to = std::min(to, std::max(s, t));
-  }
-  return from < to;
-}
-
 struct Seen {
   std::size_t by_vertex = 0, by_edge = 0, of_particles = 0;
 };
@@ -61,7 +44,7 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
   for (int i = 0; i < steps; ++i) {
     world.step();
     world.validate();
-    for (const Flight<D>& flight : world.bodies()) {
+    for (const Moving_body<D>& flight : world.bodies()) {
       const auto positions = flight.body().positions();
       for (const Point<D>& x : positions)
         for (int k = 0; k < D; ++k) EXPECT_TRUE(x[k] >= 0 && x[k] <= size[k]) << "step " << i;
@@ -157,7 +140,7 @@ TEST(WorldBodies, CopiesStartEverywhereInAllDirections) {
   const World<2> world(snapshot, scene, {generate_body(Catheter_shape<2>{0.4, 2})});
   std::array<int, 4> in_cell{};
   Vector<2> sum{};
-  for (const Flight<2>& flight : world.bodies()) {
+  for (const Moving_body<2>& flight : world.bodies()) {
     const auto x = flight.body().positions();
     EXPECT_EQ(x[0][0], x[1][0]) << "turned upright";
     EXPECT_NEAR(x[1][1] - x[0][1], 0.2, 1e-15);

@@ -76,6 +76,24 @@ bool lies_in_a_wall(const Snapshot<D>& snapshot, const Point<D>& p, const Vector
   return false;
 }
 
+/// True if a segment goes through the inside of a unit square or cube of the lattice: it meets each axis' open interval at a
+/// common parameter. By doubles, with cells shrunk by `margin`; knows nothing of chains.
+template <int D>
+bool pierces(const Point<D>& a, const Point<D>& b, const Point<D>& low, double margin) {
+  double from = 0, to = 1;
+  for (int k = 0; k < D; ++k) {
+    const double lower = low[k] + margin, upper = low[k] + 1 - margin, d = b[k] - a[k];
+    if (d == 0) {
+      if (a[k] <= lower || a[k] >= upper) return false;
+      continue;
+    }
+    const double s = (lower - a[k]) / d, t = (upper - a[k]) / d;
+    from = std::max(from, std::min(s, t));
+    to = std::min(to, std::max(s, t));
+  }
+  return from < to;
+}
+
 }  // namespace cellwalk::test
 
 #endif  // CELLWALK_TESTS_SIMULATION_WORLDS_H

@@ -5,6 +5,7 @@
 
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/body_shape.h>
+#include <cellwalk/records/material.h>
 
 #include <array>
 #include <cstdint>
@@ -64,17 +65,29 @@ struct Body_start {
   Spin<D> spin{};
   std::optional<Particle_cloud> cloud{};     ///< so many copies, each with its place and velocity
   std::optional<Guided_motion<D>> guided{};  ///< nothing: thrown, it flies freely under gravity
+  std::optional<Shape_material> material{};  ///< of a thrown body; nothing: it is rigid, as a whole
 };
 
-/// A catheter tip as a chain of particles: the first steers along the path, the others follow.
+/// What leads the tip of a catheter to its way points.
+enum class Steering : std::uint8_t {
+  tip,    ///< the tip is bent towards them
+  twist,  ///< the base is turned so that the natural curve of the tip points at them
+  none,   ///< nothing; the base is turned evenly
+};
+
+/// An elastic rod that is pushed in at its base.
 template <int D>
 struct Catheter {
-  std::uint32_t particles = 20;  ///< at most so many; they enter one by one at the start of the path
-  double spacing = 1;            ///< largest distance between neighbours that nothing blocks
-  double advance = 0.5;          ///< how far the tip is pushed a step
-  double stiffness = 0.5;        ///< 0: a thread, 1: as straight as the walls allow
-  std::vector<Point<D>> path;    ///< way points, at least two; the first is where the catheter enters
+  std::uint32_t particles = 20;  ///< its vertices; they enter one by one at the start of the path
+  double spacing = 1;            ///< distance between neighbours
+  double advance = 0.5;          ///< how far it is pushed a step
+  double stiffness = 0.5;        ///< 0: a thread, 1: bends as little as the walls allow
+  std::vector<Point<D>> path;    ///< way points, at least two; it enters at the first, towards the second
   bool find_route = false;       ///< join way points through the cells, rather than straight
+  Steering steering = Steering::tip;
+  double tip_length = 0;  ///< of the part at the tip that is curved when nothing holds it
+  double tip_angle = 0;   ///< by which that is bent from end to end, in degrees
+  double twist = 0;       ///< degrees by which the base is turned in a step; at most, if that steers
 };
 
 struct Picture_request {

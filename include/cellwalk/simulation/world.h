@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The world of a scene: free particles, a catheter tip and bodies among walls, advanced step by step.
+// The world of a scene: free particles, bodies and a catheter among walls, advanced step by step.
 //
-// Of bodies, vertices and edges are checked. Of the catheter only its particles: neighbours are held together, but the
-// straight edges between them may cut a wall that bends in between. Nothing that moves meets anything else that moves.
+// Of bodies and of the catheter, vertices and edges are checked. Nothing that moves meets anything else that moves.
 #ifndef CELLWALK_SIMULATION_WORLD_H
 #define CELLWALK_SIMULATION_WORLD_H
 
@@ -10,7 +9,7 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/contact_record.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/moving_body.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/particle.h>
 #include <cellwalk/walk/walk.h>
@@ -42,27 +41,21 @@ class World {
   /// Places tried for each copy of a body.
   static constexpr int most_tries = 1000;
 
-  /// Advances everything by one time step: free particles under gravity, in order, then the catheter, then the bodies in order.
+  /// Advances everything by one time step: free particles under gravity, in order, then the bodies in order.
   void step();
 
   std::uint32_t steps_done() const { return steps_done_; }
-  /// Free particles in the order of the scene, then those of the catheter in the order they entered: the tip first.
+  /// Free particles in the order of the scene.
   std::span<const Particle<D>> particles() const { return particles_; }
-  std::size_t free_count() const { return free_count_; }
-  /// Velocities; those of catheter particles are their displacement in the last step over the time step.
   std::span<const Vector<D>> velocities() const { return velocities_; }
-  /// Bodies in the order of the scene, copies in the order they were drawn.
-  std::span<const Flight<D>> bodies() const { return bodies_; }
-  /// The scene's entry that a body is of.
+  /// Bodies in the order of the scene, copies in the order they were drawn; the catheter is the last.
+  std::span<const Moving_body<D>> bodies() const { return bodies_; }
+  /// The scene's entry that a body is of. \pre it is not the catheter
   std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
+  /// Nothing if the scene has none.
+  const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
-  /// The catheter's way points, routes found included.
-  std::span<const Point<D>> path() const { return path_; }
-  /// The way point that the tip aims at; path().size() once it has arrived.
-  std::size_t next_way_point() const { return next_way_point_; }
-  /// The steps in which the tip waited because a neighbour was held back.
-  std::uint32_t steps_waited() const { return steps_waited_; }
   /// What particles walked.
   const Walk_counts& counts() const { return counts_; }
   /// What the moves of bodies did.
@@ -81,28 +74,15 @@ class World {
   void place_copies(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator);
   void step_free();
   void step_bodies();
-  void step_catheter(const Catheter<D>& catheter);
-  Vector<D> steer(const Catheter<D>& catheter);
-  void follow(const Catheter<D>& catheter, std::size_t i);
-  void push(std::size_t particle, const Vector<D>& displacement);
-  void enter();
-  bool in_sight(const Particle<D>& from, const Point<D>& to);
-  double link_length(std::size_t i) const;
   void report(std::size_t particle);
 
   const Snapshot<D>& snapshot_;
   Scene<D> scene_;
   std::vector<Particle<D>> particles_;
   std::vector<Vector<D>> velocities_;
-  std::size_t free_count_ = 0;
-  Particle<D> entry_;
-  /// Per catheter particle: where its predecessor has been since it was last in sight.
-  std::vector<std::vector<Point<D>>> trails_;
-  std::vector<Point<D>> path_;
-  std::size_t next_way_point_ = 1;
-  std::uint32_t steps_done_ = 0, steps_waited_ = 0;
+  std::uint32_t steps_done_ = 0;
   std::vector<Body_soup<D>> shapes_;
-  std::vector<Flight<D>> bodies_;
+  std::vector<Moving_body<D>> bodies_;
   std::vector<std::size_t> entry_of_;
   Flight_conditions<D> conditions_;
   std::vector<Contact_record<D>> contacts_;

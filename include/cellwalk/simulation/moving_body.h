@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A body of a world, however it moves.
+#ifndef CELLWALK_SIMULATION_MOVING_BODY_H
+#define CELLWALK_SIMULATION_MOVING_BODY_H
+
+#include <cellwalk/simulation/deformable.h>
+#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rod.h>
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cellwalk {
+
+/// Rigid and thrown or led along a path, deformable and thrown, or a catheter. All have the same interface.
+template <int D>
+class Moving_body {
+ public:
+  Moving_body(Flight<D> flight) : kind_(std::move(flight)) {}
+  Moving_body(Deformable<D> deformable) : kind_(std::move(deformable)) {}
+  Moving_body(Rod<D> rod) : kind_(std::move(rod)) {}
+
+  /// Advances by one time step. Contacts are appended.
+  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
+            Body_counts& counts) {
+    std::visit([&](auto& moving) { moving.step(conditions, contacts, counts); }, kind_);
+  }
+
+  Body<D>& body() {
+    return std::visit([](auto& moving) -> Body<D>& { return moving.body(); }, kind_);
+  }
+  const Body<D>& body() const {
+    return std::visit([](const auto& moving) -> const Body<D>& { return moving.body(); }, kind_);
+  }
+  /// Of a thrown body, of its middle; zero for others.
+  Vector<D> velocity() const {
+    return std::visit([](const auto& moving) -> Vector<D> { return moving.velocity(); }, kind_);
+  }
+  /// True at the end of the path of a body that has one.
+  bool has_arrived() const {
+    return std::visit([](const auto& moving) { return moving.has_arrived(); }, kind_);
+  }
+  /// The body as what it is; nothing if it is something else.
+  template <class Kind>
+  const Kind* as() const {
+    return std::get_if<Kind>(&kind_);
+  }
+
+ private:
+  std::variant<Flight<D>, Deformable<D>, Rod<D>> kind_;
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_SIMULATION_MOVING_BODY_H

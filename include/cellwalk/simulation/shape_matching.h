@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Goal positions of a deformed body: its rest shape, moved and deformed to match where its vertices are.
+// Paper: Mueller, Heidelberger, Teschner, Gross, "Meshless deformations based on shape matching", 2005.
+#ifndef CELLWALK_SIMULATION_SHAPE_MATCHING_H
+#define CELLWALK_SIMULATION_SHAPE_MATCHING_H
+
+#include <cellwalk/kernel/point.h>
+#include <cellwalk/records/material.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace cellwalk {
+
+/// The rest shape of a body, prepared for matching. Keeps no state between calls: equal positions give equal goals, with the
+/// same bits for every compiler.
+///
+/// Degenerate shapes have goals too. A rest shape that is flat, straight or a single point is deformed within its plane or line
+/// only, and turns with it. Positions that are flat, straight or one point leave rotations open that the rest shape shows: one
+/// of them is taken, arbitrary but fixed, and never a reflection. Positions that are turned inside out are matched by the
+/// nearest rotation as well.
+template <int D>
+class Shape_matching {
+ public:
+  /// \param masses one positive number a vertex, or none: all are equal
+  /// \pre rest has a vertex, all coordinates are finite
+  /// Cost: 1 us a vertex; in quadratic mode some 50 us more.
+  Shape_matching(std::span<const Point<D>> rest, const Shape_material& material,
+                 std::span<const double> masses = {});
+
+  const Shape_material& material() const { return material_; }
+
+  /// The goals of vertices that are at these positions. The centre of mass stays where it is.
+  /// \pre as many positions and goals as the rest shape has vertices, finite
+  /// Cost: about 1 us, and 10 to 60 ns a vertex.
+  void goals(std::span<const Point<D>> positions, std::span<Point<D>> result) const;
+
+ private:
+  /// Monomials of a vertex: its coordinates, then (quadratic mode) their squares and products less the means of these.
+  static constexpr int most_monomials = D + D * (D + 1) / 2;
+  using Monomials = std::array<double, most_monomials>;
+
+  Shape_material material_;
+  double radius_ = 1;  ///< of the rest shape; what follows is in units of it
+  double total_mass_ = 0;
+  std::vector<double> masses_;
+  std::vector<Vector<D>> rest_;                ///< from the centre of mass
+  std::vector<Monomials> monomials_;           ///< quadratic mode
+  std::array<Vector<D>, D> linear_inverse_{};  ///< of the moments of the rest shape, or their pseudo-inverse
+  std::array<Monomials, most_monomials> inverse_{};  ///< the same of the monomials
+  bool is_full_ = false;                             ///< the rest shape has a volume
+};
+
+/// The rotation nearest to a matrix (rows first), in the sense of the sum of squares: its polar factor, made a rotation where
+/// that is a reflection. The identity for a zero matrix or one that is not finite.
+template <int D>
+std::array<Vector<D>, D> nearest_rotation(const std::array<Vector<D>, D>& matrix);
+
+extern template class Shape_matching<2>;
+extern template class Shape_matching<3>;
+extern template std::array<Vector<2>, 2> nearest_rotation<2>(const std::array<Vector<2>, 2>&);
+extern template std::array<Vector<3>, 3> nearest_rotation<3>(const std::array<Vector<3>, 3>&);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_SIMULATION_SHAPE_MATCHING_H
