@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "measure.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <regex>
+#include <stdexcept>
+
+namespace cellwalk::figure_8 {
+namespace {
+
+using Answers = std::vector<std::uint8_t>;
+
+/// A number that changes with any answer: whole answers are kept for one method at a time only.
+std::uint64_t digest(const Answers& answers) {
+  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  for (const std::uint8_t a : answers) hash = (hash ^ a) * 0x100000001b3u;
+  return hash;
+}
+
+void compare(const Motion& motion, unsigned bits, const Answers& answers, Row& row) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const unsigned exact = motion.answers[i] & bits, own = answers[i] & bits;
+    row.hits += static_cast<unsigned>(std::popcount(exact));
+    row.wrong.missed += static_cast<unsigned>(std::popcount(exact & ~own));
+    row.wrong.reported += static_cast<unsigned>(std::popcount(own & ~exact));
+  }
+}
+
+Peers build(const World& world, const std::vector<Family>& families, const std::string& only) {
+  Peers peers;
+  for (const Family& family : families) family.make(world, peers);
+  if (!only.empty()) {
+    const std::regex pattern(only);
+    std::erase_if(peers, [&](const auto& peer) { return !std::regex_search(peer->name(), pattern); });
+  }
+  return peers;
+}
+
+}  // namespace
+
+double Row::median() const {
+  if (rounds.empty()) return 0;
+  std::vector<double> sorted = rounds;
+  std::ranges::sort(sorted);
+  const std::size_t n = sorted.size();
+  return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+}
+
+std::vector<Row> measure(const World& world, const Motion& motion, const std::vector<Family>& families,
+                         const Measure_options& options) {
+  const Peers peers = build(world, families, options.only);
+  Answers answers(motion.moves());
+  std::vector<Row> rows;
+  std::vector<std::uint64_t> digests;
+  for (const auto& peer : peers) {
+    Row row{peer->name(), peer->is_reproducible(), peer->build, 0, {}, {}, {}};
+    peer->prepare(motion);
+    row.counts = peer->count(motion, answers);
+    const std::uint64_t counted = digest(answers);
+    // The round to warm up is the one whose answers are compared.
+    peer->replay(motion, answers);
+    compare(motion, peer->answer_bits(), answers, row);
+    digests.push_back(digest(answers));
+    if (counted != digests.back()) throw std::runtime_error(row.method + " answers otherwise when it counts");
+    rows.push_back(row);
+  }
+  for (int round = 0; round < options.rounds; ++round)
+    for (std::size_t i = 0; i < peers.size(); ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      peers[i]->replay(motion, answers);
+      const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+      rows[i].rounds.push_back(time.count() / static_cast<double>(motion.moves()));
+      if (digest(answers) != digests[i])
+        throw std::runtime_error(rows[i].method + " answers another round otherwise");
+    }
+  return rows;
+}
+
+}  // namespace cellwalk::figure_8
