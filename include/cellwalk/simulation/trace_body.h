@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A body of a trace among walls, moved by the rule of traces: a vertex whose motion, or an edge of which after it, hits a wall
+// stays where it is. The rule: docs/formats.md.
+#ifndef CELLWALK_SIMULATION_TRACE_BODY_H
+#define CELLWALK_SIMULATION_TRACE_BODY_H
+
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/records/body_soup.h>
+#include <cellwalk/records/trace.h>
+#include <cellwalk/walk/locate.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cellwalk {
+
+/// What the moves of bodies of traces did. All counts are machine-independent.
+struct Trace_counts {
+  std::uint64_t moves = 0;          ///< of vertices
+  std::uint64_t vertex_hits = 0;    ///< moves in which the vertex hits: bit 0
+  std::uint64_t edge_hits = 0;      ///< edges that hit at the target: bits 1 to 3
+  std::uint64_t triangle_hits = 0;  ///< triangles of them that hit, if triangles are swept: bits 4 to 6
+  std::uint64_t rounds = 0;  ///< edges that went round an obstacle: their triangle hits, and they do not
+  std::uint64_t held = 0;    ///< moves after which the vertex stays where it was
+  Edge_counts edges;
+
+  Trace_counts& operator+=(const Trace_counts& other);
+};
+
+/// One body. Refers to the snapshot, which must outlive it. Copies are bodies of their own.
+class Trace_body {
+ public:
+  using Positions = std::span<const Point<3>, trace_vertices>;
+
+  /// Registers a body where it stands. \throw Error(outside) naming the vertex that is not in free space, or the edge that
+  /// crosses a wall
+  Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions);
+
+  /// The answer to the move of one vertex, and the first contact, if there is one: of the vertex or an edge at it.
+  struct Move {
+    std::uint8_t answer = 0;
+    std::optional<Contact<3>> contact;
+  };
+
+  /// Moves one vertex to a target, or leaves it where it is. The answer has bits 0 to 3 with Sweep::three_segments, and
+  /// bits 4 to 6 as well with Sweep::triangle; which one is asked for does not change what moves.
+  /// \pre the target is finite; `sweep` is one of these two
+  /// Degenerate cases: touching a wall is no hit, see sweep_triangle(); an edge that lies in a wall keeps its side of it.
+  /// Cost: that of a walk and the sweeps of three edges.
+  Move move(std::size_t vertex, const Point<3>& target, Sweep sweep, Trace_counts& counts);
+
+  const std::array<Particle<3>, trace_vertices>& particles() const { return particles_; }
+  /// The chain from a vertex to its neighbour k.
+  Chain chain(std::size_t vertex, std::size_t k) const;
+
+ private:
+  Chain& stored_chain(std::size_t vertex, std::size_t k);
+  const Chain& stored_chain(std::size_t vertex, std::size_t k) const;
+
+  const Snapshot<3>* snapshot_;
+  std::array<Particle<3>, trace_vertices> particles_;
+  /// From a vertex without bit k to its neighbour k, at chains_[k][vertex]; the other places are not used.
+  std::array<std::array<Chain, trace_vertices>, trace_edges> chains_;
+  std::vector<Cell> visited_;        // scratch space of move()
+  std::vector<Half_facet> crossed_;  // the same
+};
+
+/// The vertices and edges of a body of a trace.
+Body_soup<3> trace_body_soup(Trace_body::Positions positions);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_SIMULATION_TRACE_BODY_H

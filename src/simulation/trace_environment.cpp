@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/simulation/trace_environment.h>
+
+#include <utility>
+
+namespace cellwalk {
+
+Environment<3> trace_environment(const Trace& trace, const Lattice_map<3>& map) {
+  Grid_options<3> options;
+  options.cells = {trace.nx, trace.ny, trace.nz};
+  options.solid_cells = trace.obstacles;
+  options.map = map;
+  return Environment<3>::build(hex_grid(options), {.split = false, .keep_map = false});
+}
+
+Trace mapped(Trace trace, const Lattice_map<3>& map) {
+  for (Point<3>& x : trace.start_positions) x = map(x);
+  for (Point<3>& x : trace.targets) x = map(x);
+  return trace;
+}
+
+}  // namespace cellwalk

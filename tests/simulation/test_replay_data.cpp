@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The traces of the published benchmark: every answer is the recorded, exact one.
+#include <cellwalk/io/trace_file.h>
+#include <cellwalk/simulation/replay.h>
+#include <cellwalk/simulation/trace_environment.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace cellwalk {
+namespace {
+
+struct Facts {
+  const char* file;
+  std::uint64_t vertex_hits, edge_hits, rounds;
+};
+
+/// Facts of the recorded answers: moves with bit 0, bits 1 to 3, and bits 4 to 6 without the bit 1 to 3 that belongs to it.
+class Public_traces : public testing::TestWithParam<Facts> {};
+
+void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
+  const Trace trace =
+      mapped(io::read_trace(std::filesystem::path(CELLWALK_TEST_DATA) / "traces" / facts.file), map);
+  const Environment<3> environment = trace_environment(trace, map);
+  const Locator<3> locator(environment.snapshot());
+  for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
+    Replay replay(environment.snapshot(), locator, trace, sweep);
+    replay.run();
+    EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep), 0u);
+    const Trace_counts& counts = replay.counts();
+    EXPECT_EQ(counts.moves, trace.moves());
+    EXPECT_EQ(counts.vertex_hits, facts.vertex_hits);
+    EXPECT_EQ(counts.edge_hits, facts.edge_hits);
+    if (sweep == Sweep::triangle) {
+      EXPECT_EQ(counts.rounds, facts.rounds);
+      EXPECT_EQ(counts.triangle_hits, facts.edge_hits + facts.rounds);
+    }
+    // Each vertex lies in its cell, each edge has a chain.
+    Walk_counts walks;
+    for (const Trace_body& body : replay.bodies())
+      for (std::size_t v = 0; v < trace_vertices; ++v) {
+        EXPECT_TRUE(
+            in_closure(environment.snapshot(), body.particles()[v].cell, body.particles()[v].position));
+        for (std::size_t k = 0; k < trace_edges; ++k)
+          EXPECT_TRUE(is_chain(environment.snapshot(), body.particles()[v],
+                               body.particles()[trace_neighbour(v, k)], body.chain(v, k), walks));
+      }
+  }
+}
+
+TEST_P(Public_traces, GiveTheRecordedAnswers) { expect_recorded_answers(GetParam(), {}); }
+
+TEST_P(Public_traces, GiveTheRecordedAnswersSheared) { expect_recorded_answers(GetParam(), sheared<3>()); }
+
+INSTANTIATE_TEST_SUITE_P(Replay, Public_traces,
+                         testing::Values(Facts{"1k.bin", 884, 343, 4}, Facts{"10k.bin", 397, 235, 0},
+                                         Facts{"1m.bin", 243, 193, 0}),
+                         [](const auto& facts) {
+                           const std::string file = facts.param.file;
+                           return "Of" + file.substr(0, file.find('.'));
+                         });
+
+}  // namespace
+}  // namespace cellwalk
