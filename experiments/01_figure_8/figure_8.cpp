@@ -1,16 +1,75 @@
-#include "measure.h"
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Replays traces with all methods, in one process, and writes figure_8.csv and manifest.json.
+//
+//   figure_8 TRACE ... -o DIR [--rounds N] [--seconds S] [--only REGEX] [--commit NAME]
+#include <cellwalk/io/trace_file.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-using namespace cellwalk; using namespace cellwalk::figure_8;
-int main(int argc,char**argv){
-  std::ifstream in(argv[1],std::ios::binary); std::vector<char> d((std::istreambuf_iterator<char>(in)),{});
-  auto u=[&](size_t o){uint32_t x;memcpy(&x,d.data()+o,4);return x;};
-  uint32_t nx=u(8),ny=u(12),nz=u(16),B=u(20),S=u(24),O=u(28); size_t o=64; std::vector<uint32_t> solid(O); memcpy(solid.data(),d.data()+o,4*O); o+=4*(O+O%2);
-  std::vector<Point<3>> init(B*8),t(size_t(S)*B*8); memcpy(init.data(),d.data()+o,init.size()*24); o+=init.size()*24; memcpy(t.data(),d.data()+o,t.size()*24); o+=t.size()*24; std::vector<uint8_t> a(t.size()); memcpy(a.data(),d.data()+o,a.size());
-  World w=grid_world({nx,ny,nz},solid); printf("walls %zu\n",w.walls.triangles.size());
-  Motion m{B,S,init,t,a};
-  Measure_options opt; if(argc>2) opt.rounds=atoi(argv[2]); if(argc>3) opt.only=argv[3];
-  for(auto&r:measure(w,m,families(),opt)){ double n=m.moves(); printf("%-28s %8.1f ns  hits %lu missed %lu false %lu  build %.0f ms %.1f B  box %.3f seg %.3f tri %.3f walk %.3f cross %.3f cert %.3f\n",r.method.c_str(),r.median(),r.hits,r.wrong.missed,r.wrong.reported,r.build.milliseconds,r.build.bytes/double(r.build.per[0]=='w'?w.walls.triangles.size():w.cell_count()),r.counts.boxes/n,r.counts.segments/n,r.counts.triangle_tests/n,r.counts.walks/n,r.counts.crossings/n,r.counts.certified/n);}
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report.h"
+
+namespace {
+
+using namespace cellwalk;
+using namespace cellwalk::figure_8;
+
+Result measure_file(const std::filesystem::path& file, const std::vector<Family>& families,
+                    const Measure_options& options) {
+  const Trace trace = io::read_trace(file);
+  const Grid_world world = grid_world(trace);
+  Result result{file.stem().string(),
+                trace.cells(),
+                trace.obstacles.size(),
+                world.walls.triangles.size(),
+                trace.seed,
+                trace.body_side,
+                trace.speed,
+                trace.bodies,
+                trace.steps,
+                {}};
+  fmt::print("{}: {} cells, {} wall triangles, {} moves\n", result.trace, result.cells, result.walls,
+             result.moves());
+  result.rows = measure(world, trace, families, options);
+  for (const Row& row : result.rows)
+    fmt::print("  {:<26}{:>10.1f} ns a move   {:>6} missed {:>6} false of {}\n", row.method, row.median(),
+               row.wrong.missed, row.wrong.reported, row.hits);
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Replays traces with all methods of figure 8");
+  std::vector<std::string> files;
+  std::string folder, commit = "unknown";
+  Measure_options options;
+  app.add_option("traces", files, "trace files")->required();
+  app.add_option("-o,--out", folder, "folder for figure_8.csv and manifest.json")->required();
+  app.add_option("--rounds", options.rounds, "timed rounds of each method; 0: counts and answers only")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--seconds", options.seconds, "a method that would need longer on a trace gets fewer rounds")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--only", options.only, "methods whose names match a regular expression");
+  app.add_option("--commit", commit, "what the manifest names as the source");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const std::vector<Family> all = families();
+    std::filesystem::create_directories(folder);
+    std::vector<Result> results;
+    for (const std::string& file : files) {
+      results.push_back(measure_file(file, all, options));
+      write_report(folder, results, all, options, commit);
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "figure_8: {}\n", error.what());
+    return 1;
+  }
 }

@@ -19,16 +19,16 @@ std::uint64_t digest(const Answers& answers) {
   return hash;
 }
 
-void compare(const Motion& motion, unsigned bits, const Answers& answers, Row& row) {
+void compare(const Trace& trace, unsigned bits, const Answers& answers, Row& row) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    const unsigned exact = motion.answers[i] & bits, own = answers[i] & bits;
+    const unsigned exact = trace.answers[i] & bits, own = answers[i] & bits;
     row.hits += static_cast<unsigned>(std::popcount(exact));
     row.wrong.missed += static_cast<unsigned>(std::popcount(exact & ~own));
     row.wrong.reported += static_cast<unsigned>(std::popcount(own & ~exact));
   }
 }
 
-Peers build(const World& world, const std::vector<Family>& families, const std::string& only) {
+Peers build(const Grid_world& world, const std::vector<Family>& families, const std::string& only) {
   Peers peers;
   for (const Family& family : families) family.make(world, peers);
   if (!only.empty()) {
@@ -36,6 +36,14 @@ Peers build(const World& world, const std::vector<Family>& families, const std::
     std::erase_if(peers, [&](const auto& peer) { return !std::regex_search(peer->name(), pattern); });
   }
   return peers;
+}
+
+double timed_replay(Peer& peer, const Trace& trace, Answers& answers) {
+  peer.prepare(trace);
+  const auto start = std::chrono::steady_clock::now();
+  peer.replay(trace, answers);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  return time.count();
 }
 
 }  // namespace
@@ -48,30 +56,31 @@ double Row::median() const {
   return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
 }
 
-std::vector<Row> measure(const World& world, const Motion& motion, const std::vector<Family>& families,
+std::vector<Row> measure(const Grid_world& world, const Trace& trace, const std::vector<Family>& families,
                          const Measure_options& options) {
   const Peers peers = build(world, families, options.only);
-  Answers answers(motion.moves());
+  Answers answers(trace.moves());
   std::vector<Row> rows;
   std::vector<std::uint64_t> digests;
+  std::vector<int> rounds;
   for (const auto& peer : peers) {
     Row row{peer->name(), peer->is_reproducible(), peer->build, 0, {}, {}, {}};
-    peer->prepare(motion);
-    row.counts = peer->count(motion, answers);
-    const std::uint64_t counted = digest(answers);
     // The round to warm up is the one whose answers are compared.
-    peer->replay(motion, answers);
-    compare(motion, peer->answer_bits(), answers, row);
+    const double seconds = timed_replay(*peer, trace, answers);
+    compare(trace, peer->answer_bits(), answers, row);
     digests.push_back(digest(answers));
-    if (counted != digests.back()) throw std::runtime_error(row.method + " answers otherwise when it counts");
-    rows.push_back(row);
+    rounds.push_back(std::clamp(static_cast<int>(options.seconds / seconds), 1, std::max(options.rounds, 1)));
+    peer->prepare(trace);
+    row.counts = peer->count(trace, answers);
+    if (digest(answers) != digests.back())
+      throw std::runtime_error(row.method + " answers otherwise when it counts");
+    rows.push_back(std::move(row));
   }
   for (int round = 0; round < options.rounds; ++round)
     for (std::size_t i = 0; i < peers.size(); ++i) {
-      const auto start = std::chrono::steady_clock::now();
-      peers[i]->replay(motion, answers);
-      const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-      rows[i].rounds.push_back(time.count() / static_cast<double>(motion.moves()));
+      if (round >= rounds[i]) continue;
+      const double seconds = timed_replay(*peers[i], trace, answers);
+      rows[i].rounds.push_back(seconds * 1e9 / static_cast<double>(trace.moves()));
       if (digest(answers) != digests[i])
         throw std::runtime_error(rows[i].method + " answers another round otherwise");
     }

@@ -62,7 +62,7 @@ inline Box body_box(const Point<3>* positions, const Point<3>* targets) {
   __m128d least[3], most[3];
   for (std::size_t k = 0; k < 3; ++k) least[k] = most[k] = _mm_loadu_pd(lists[0] + 2 * k);
   for (const double* x : lists)
-    for (std::size_t i = 0; i < 3 * body_vertices; i += 6)
+    for (std::size_t i = 0; i < 3 * trace_vertices; i += 6)
       for (std::size_t k = 0; k < 3; ++k) {
         const __m128d pair = _mm_loadu_pd(x + i + 2 * k);
         least[k] = _mm_min_pd(least[k], pair);
@@ -76,7 +76,7 @@ inline Box body_box(const Point<3>* positions, const Point<3>* targets) {
   std::copy_n(lists[0], 6, low.begin());
   high = low;
   for (const double* x : lists)
-    for (std::size_t i = 0; i < 3 * body_vertices; i += 6)
+    for (std::size_t i = 0; i < 3 * trace_vertices; i += 6)
       for (std::size_t k = 0; k < 6; ++k) {
         low[k] = std::min(low[k], x[i + k]);
         high[k] = std::max(high[k], x[i + k]);

@@ -22,27 +22,26 @@ class Read_and_write : public Peer {
  public:
   std::string name() const override { return "read_and_write"; }
   unsigned answer_bits() const override { return segment_bits; }
-  void prepare(const Motion&) override {}
-  Counts count(const Motion& motion, std::span<std::uint8_t> answers) override {
-    replay(motion, answers);
+  void prepare(const Trace& trace) override { positions_ = trace.start_positions; }
+  Counts count(const Trace& trace, std::span<std::uint8_t> answers) override {
+    replay(trace, answers);
     return {};
   }
-  void replay(const Motion& motion, std::span<std::uint8_t> answers) override {
-    positions_.assign(motion.initial.begin(), motion.initial.end());
+  void replay(const Trace& trace, std::span<std::uint8_t> answers) override {
     double sum = 0;
     std::size_t at = 0;
-    for (std::size_t step = 0; step < motion.steps; ++step)
-      for (std::size_t body = 0; body < motion.bodies; ++body) {
-        Point<3>* const x = positions_.data() + body * body_vertices;
-        for (std::size_t v = 0; v < body_vertices; ++v, ++at) {
-          const unsigned bits = motion.answers[at] & segment_bits;
-          const Point<3>& p = bits & 1 ? x[v] : motion.targets[at];
-          for (std::size_t k = 0; k < body_edges; ++k) {
-            const Point<3>& q = x[v ^ (std::size_t{1} << k)];
+    for (std::size_t step = 0; step < trace.steps; ++step)
+      for (std::size_t body = 0; body < trace.bodies; ++body) {
+        Point<3>* const x = positions_.data() + body * trace_vertices;
+        for (std::size_t v = 0; v < trace_vertices; ++v, ++at) {
+          const unsigned bits = trace.answers[at] & segment_bits;
+          const Point<3>& p = bits & 1 ? x[v] : trace.targets[at];
+          for (std::size_t k = 0; k < trace_edges; ++k) {
+            const Point<3>& q = x[trace_neighbour(v, k)];
             sum += p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
           }
           answers[at] = static_cast<std::uint8_t>(bits);
-          if (!bits) x[v] = motion.targets[at];
+          if (!bits) x[v] = trace.targets[at];
         }
       }
     sum_ = sum;
@@ -63,7 +62,7 @@ class Unit_cubes {
   static constexpr unsigned bits = segment_bits;
   explicit Unit_cubes(std::shared_ptr<Cubes> cubes) : cubes_(std::move(cubes)) {}
 
-  void reset(std::size_t) {}
+  void prepare(const Trace&) {}
   template <class Counter>
   bool start(std::size_t, const Point<3>* positions, const Point<3>* targets, Counter&) {
     return is_free(body_box(positions, targets), [](const Point<3>&) { return true; });
@@ -119,14 +118,15 @@ class Unit_cubes {
 
 }  // namespace
 
-void add_bounds(const World& world, Peers& peers) {
+void add_bounds(const Grid_world& world, Peers& peers) {
   peers.push_back(std::make_unique<Read_and_write>());
   Build build;
   const auto cubes = measured_build(build, "cell", [&] {
     auto c = std::make_shared<Cubes>();
-    for (std::size_t k = 0; k < 3; ++k) c->cells[k] = static_cast<std::int32_t>(world.cells[k]);
+    c->cells = {static_cast<std::int32_t>(world.trace->nx), static_cast<std::int32_t>(world.trace->ny),
+                static_cast<std::int32_t>(world.trace->nz)};
     c->solid.assign(world.cell_count(), 0);
-    for (const std::uint32_t cell : world.solid_cells) c->solid[cell] = 1;
+    for (const std::uint32_t cell : world.trace->obstacles) c->solid[cell] = 1;
     return c;
   });
   add_peer(peers, "unit_cubes", Unit_cubes(cubes), build);

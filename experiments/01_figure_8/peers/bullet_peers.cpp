@@ -32,7 +32,8 @@ struct Candidate {
 };
 
 struct Bullet {
-  explicit Bullet(const Wall_mesh& w) : walls(&w), mesh(w), shape(&mesh.mesh(), /*useQuantizedAabbCompression=*/true) {
+  explicit Bullet(const Wall_mesh& w)
+      : walls(&w), mesh(w), shape(&mesh.mesh(), /*useQuantizedAabbCompression=*/true) {
     triangles.reserve(w.triangles.size());
     for (std::size_t i = 0; i < w.triangles.size(); ++i)
       triangles.emplace_back(w.corner(i, 0), w.corner(i, 1), w.corner(i, 2));
@@ -50,7 +51,8 @@ struct Bullet {
       void processNode(int, int index) override { found(static_cast<std::uint32_t>(index)); }
       const Found& found;
     } callback(found);
-    shape.getOptimizedBvh()->reportAabbOverlappingNodex(&callback, rounded_down(box.low), rounded_up(box.high));
+    shape.getOptimizedBvh()->reportAabbOverlappingNodex(&callback, rounded_down(box.low),
+                                                        rounded_up(box.high));
   }
 };
 
@@ -59,15 +61,16 @@ class Swept_box : public Stateless {
   explicit Swept_box(std::shared_ptr<Bullet> bullet) : bullet_(std::move(bullet)) {}
 
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     const auto from = rounded<btScalar>(positions[v]), to = rounded<btScalar>(target);
     unsigned answer = 0;
-    for (std::size_t k = 0; k < body_edges; ++k) {
-      const Point<3>& end = positions[v ^ (std::size_t{1} << k)];
+    for (std::size_t k = 0; k < trace_edges; ++k) {
+      const Point<3>& end = positions[trace_neighbour(v, k)];
       found_.clear();
       counter.boxes();
       bullet_->query(box_of(positions[v], target, end), [this](std::uint32_t i) { found_.push_back(i); });
-      // The box of the first edge holds the vertex's own motion.
+      // The box of the first edge holds the vertex's own trace.
       if (k == 0) answer = hits(from, to, counter);
       answer |= hits(answer & 1 ? from : to, rounded<btScalar>(end), counter) << (k + 1);
     }
@@ -94,7 +97,8 @@ class Ray : public Stateless {
   explicit Ray(std::shared_ptr<Bullet> bullet) : bullet_(std::move(bullet)) {}
 
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       struct Callback : btTriangleRaycastCallback {
         using btTriangleRaycastCallback::btTriangleRaycastCallback;
@@ -125,23 +129,25 @@ class Body_box {
   static constexpr unsigned bits = segment_bits;
   Body_box(std::shared_ptr<Bullet> bullet, double margin) : bullet_(std::move(bullet)), kept_(margin) {}
 
-  void reset(std::size_t bodies) { kept_.reset(bodies); }
+  void prepare(const Trace& trace) { kept_.reset(trace.bodies); }
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& box, std::vector<Candidate>& list) {
       bullet_->query(box, [&](std::uint32_t i) {
         const Wall_mesh& walls = *bullet_->walls;
-        list.push_back({bullet_->triangles[i], box_of(walls.corner(i, 0), walls.corner(i, 1), walls.corner(i, 2))});
+        list.push_back(
+            {bullet_->triangles[i], box_of(walls.corner(i, 0), walls.corner(i, 1), walls.corner(i, 2))});
       });
     };
     near_ = kept_.find(body, positions, targets, query, counter);
     return near_.empty();
   }
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return vertex_against<btScalar>(
-        near_.size(), [this](std::size_t i) -> const Triangle& { return near_[i]->triangle; }, v, positions, target,
-        counter);
+        near_.size(), [this](std::size_t i) -> const Triangle& { return near_[i]->triangle; }, v, positions,
+        target, counter);
   }
 
  private:
@@ -152,7 +158,7 @@ class Body_box {
 
 }  // namespace
 
-void add_bullet_peers(const World& world, Peers& peers) {
+void add_bullet_peers(const Grid_world& world, Peers& peers) {
   Build build;
   const auto bullet = measured_build(build, "wall", [&] { return std::make_shared<Bullet>(world.walls); });
   add_peer(peers, CELLWALK_BULLET_NAME("bullet_swept_box"), Swept_box(bullet), build);
@@ -164,7 +170,8 @@ void add_bullet_peers(const World& world, Peers& peers) {
 }  // namespace cellwalk::figure_8
 
 /// The entry of the plug-in: both precisions of Bullet have the same symbols, so each is loaded apart.
-extern "C" [[gnu::visibility("default")]] void cellwalk_figure_8_peers(const cellwalk::figure_8::World& world, cellwalk::figure_8::Peers& peers) {
+extern "C" [[gnu::visibility("default")]] void cellwalk_figure_8_peers(
+    const cellwalk::figure_8::Grid_world& world, cellwalk::figure_8::Peers& peers) {
   cellwalk::figure_8::add_bullet_peers(world, peers);
   cellwalk::figure_8::add_gimpact_peers(world, peers);
 }

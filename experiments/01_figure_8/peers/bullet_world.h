@@ -72,9 +72,9 @@ inline btVector3 rounded_up(const Point<3>& p) {
 }
 
 /// Adds the methods on Bullet's triangle hierarchy.
-void add_bullet_peers(const World& world, Peers& peers);
+void add_bullet_peers(const Grid_world& world, Peers& peers);
 /// Adds GIMPACT's.
-void add_gimpact_peers(const World& world, Peers& peers);
+void add_gimpact_peers(const Grid_world& world, Peers& peers);
 
 }  // namespace cellwalk::figure_8
 

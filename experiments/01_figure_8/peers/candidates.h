@@ -34,7 +34,7 @@ class Kept_candidates {
   /// candidates that meet a box.
   template <class Query, class Counter>
   std::span<const Candidate* const> find(std::size_t body, const Point<3>* positions, const Point<3>* targets,
-                                     const Query& query, Counter& counter) {
+                                         const Query& query, Counter& counter) {
     Body& b = bodies_[body];
     const Box now = body_box(positions, targets);
     if (!b.box.contains(now)) {

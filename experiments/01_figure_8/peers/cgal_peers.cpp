@@ -28,8 +28,8 @@ using Point_3 = Kernel::Point_3;
 using Segment_3 = Kernel::Segment_3;
 using Triangle_3 = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle_3>;
-using Tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+using Tree = CGAL::AABB_tree<
+    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
 Point_3 cgal_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -51,7 +51,8 @@ class Segment_query : public Stateless {
   explicit Segment_query(std::shared_ptr<Cgal> cgal) : cgal_(std::move(cgal)) {}
 
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       counter.segments();
       return cgal_->tree.do_intersect(Segment_3(cgal_point(a), cgal_point(b)));
@@ -72,13 +73,14 @@ class Kept_box {
   static constexpr unsigned bits = segment_bits;
   explicit Kept_box(std::shared_ptr<Cgal> cgal) : cgal_(std::move(cgal)), kept_(kept_margin) {}
 
-  void reset(std::size_t bodies) { kept_.reset(bodies); }
+  void prepare(const Trace& trace) { kept_.reset(trace.bodies); }
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& b, std::vector<Candidate>& list) {
       found_.clear();
       cgal_->tree.all_intersected_primitives(
-          CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]), std::back_inserter(found_));
+          CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]),
+          std::back_inserter(found_));
       for (const Triangles::const_iterator i : found_) {
         const CGAL::Bbox_3 box = i->bbox();
         list.push_back({*i, {{box.xmin(), box.ymin(), box.zmin()}, {box.xmax(), box.ymax(), box.zmax()}}});
@@ -88,7 +90,8 @@ class Kept_box {
     return near_.empty();
   }
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       const Box box = box_of(a, b);
       for (const Candidate* c : near_) {
@@ -109,7 +112,7 @@ class Kept_box {
 
 }  // namespace
 
-void add_cgal_peers(const World& world, Peers& peers) {
+void add_cgal_peers(const Grid_world& world, Peers& peers) {
   Build build;
   const auto cgal = measured_build(build, "wall", [&] { return std::make_shared<Cgal>(world.walls); });
   add_peer(peers, "cgal_segment", Segment_query(cgal), build);

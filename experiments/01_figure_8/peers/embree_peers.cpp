@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Embree 3: occlusion rays from a to b, one at a time and in packets of four, with its robust mode and without. Its
 // points are floats. Its answers follow the instruction set that it finds.
-#include "families.h"
 #include <embree3/rtcore.h>
 
 #include <cstring>
@@ -9,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "families.h"
 #include "measured_build.h"
 #include "replay.h"
 
@@ -18,7 +18,7 @@ namespace {
 class Embree {
  public:
   Embree(const Wall_mesh& walls, bool robust) {
-    device_ = rtcNewDevice(getenv("EMB")?getenv("EMB"):"threads=1");
+    device_ = rtcNewDevice("threads=1");
     rtcSetDeviceMemoryMonitorFunction(
         device_,
         [](void* sum, ssize_t bytes, bool) {
@@ -27,15 +27,15 @@ class Embree {
         },
         &bytes_);
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, getenv("MED")?RTC_BUILD_QUALITY_MEDIUM:RTC_BUILD_QUALITY_HIGH);
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     if (robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), walls.points.size()));
     for (const Point<3>& p : walls.points)
       for (const double x : p) *vertices++ = static_cast<float>(x);
-    auto* indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                            walls.triangles.size());
+    auto* indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            3 * sizeof(unsigned), walls.triangles.size());
     std::memcpy(indices, walls.triangles.data(), walls.triangles.size() * sizeof(walls.triangles[0]));
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene_, mesh);
@@ -64,7 +64,8 @@ struct Embree_check : Stateless {
 
 struct Single_ray : Embree_check {
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
@@ -88,10 +89,10 @@ struct Single_ray : Embree_check {
 /// from where it stands.
 struct Packet : Embree_check {
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    if (getenv("COH")) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     const unsigned guess = cast(context, v, positions, target, counter);
     return guess & 1 ? 1u | (cast(context, v, positions, positions[v], counter) & 0xeu) : guess;
   }
@@ -114,7 +115,7 @@ struct Packet : Embree_check {
     };
     set(0, positions[v], p);
     if (&p == &positions[v]) valid[0] = 0;
-    for (std::size_t k = 0; k < body_edges; ++k) set(k + 1, p, positions[v ^ (std::size_t{1} << k)]);
+    for (std::size_t k = 0; k < trace_edges; ++k) set(k + 1, p, positions[trace_neighbour(v, k)]);
     counter.segments(valid[0] ? 4 : 3);
     rtcOccluded4(valid, embree->scene(), &context, &rays);
     unsigned answer = 0;
@@ -125,10 +126,11 @@ struct Packet : Embree_check {
 
 }  // namespace
 
-void add_embree_peers(const World& world, Peers& peers) {
+void add_embree_peers(const Grid_world& world, Peers& peers) {
   for (const bool robust : {false, true}) {
     Build build;
-    const auto embree = measured_build(build, "wall", [&] { return std::make_shared<Embree>(world.walls, robust); });
+    const auto embree =
+        measured_build(build, "wall", [&] { return std::make_shared<Embree>(world.walls, robust); });
     build.bytes = embree->bytes();
     const std::string suffix = robust ? "_robust" : "";
     add_peer(peers, "embree_ray" + suffix, Single_ray{{{}, embree}}, build);

@@ -2,7 +2,6 @@
 #include "families.h"
 
 #include <CGAL/version.h>
-
 #include <dlfcn.h>
 
 #include <stdexcept>
@@ -28,6 +27,7 @@ namespace {
 
 std::vector<Family> families() {
   std::vector<Family> all{{"bounds", "", add_bounds},
+                          {"cellwalk", CELLWALK_VERSION, add_cellwalk_peers},
                           {"walks in doubles", "", add_double_walks},
                           {"cgal", CGAL_VERSION_STR, add_cgal_peers}};
 #ifdef CELLWALK_BULLET_FLOAT

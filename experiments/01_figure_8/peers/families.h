@@ -10,12 +10,12 @@
 
 namespace cellwalk::figure_8 {
 
-void add_bounds(const World& world, Peers& peers);         ///< reading and writing; a bound that knows the grid
-void add_double_walks(const World& world, Peers& peers);   ///< walks in doubles: plain, and the library's
-void add_cellwalk_peers(const World& world, Peers& peers);
-void add_cgal_peers(const World& world, Peers& peers);
-void add_embree_peers(const World& world, Peers& peers);
-void add_fcl_peers(const World& world, Peers& peers);
+void add_bounds(const Grid_world& world, Peers& peers);  ///< reading and writing; a bound that knows the grid
+void add_double_walks(const Grid_world& world, Peers& peers);  ///< walks in doubles: plain, and the library's
+void add_cellwalk_peers(const Grid_world& world, Peers& peers);
+void add_cgal_peers(const Grid_world& world, Peers& peers);
+void add_embree_peers(const Grid_world& world, Peers& peers);
+void add_fcl_peers(const Grid_world& world, Peers& peers);
 
 /// A family of methods and the version of the library behind it.
 struct Family {

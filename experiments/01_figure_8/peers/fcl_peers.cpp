@@ -49,14 +49,16 @@ std::shared_ptr<fcl::BVHModel<Bv>> fcl_model(const Wall_mesh& walls) {
 class Collide : public Stateless {
  public:
   using Model = fcl::BVHModel<fcl::OBBRSSd>;
-  explicit Collide(std::shared_ptr<Model> walls) : walls_(std::move(walls)), query_(std::make_shared<Model>()) {
+  explicit Collide(std::shared_ptr<Model> walls)
+      : walls_(std::move(walls)), query_(std::make_shared<Model>()) {
     query_->beginModel(1, 3);
     query_->addTriangle({0, 0, 0}, {1, 0, 0}, {1, thin, 0});
     query_->endModel();
   }
 
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       counter.segments();
       query_->beginReplaceModel();
@@ -87,7 +89,8 @@ class Boxes : public Stateless {
   explicit Boxes(std::shared_ptr<Model> walls) : walls_(std::move(walls)) {}
 
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       counter.segments();
       return hits(fcl_point(a), fcl_point(b), counter);
@@ -122,10 +125,9 @@ class Boxes : public Stateless {
 
 }  // namespace
 
-void add_fcl_peers(const World& world, Peers& peers) {
+void add_fcl_peers(const Grid_world& world, Peers& peers) {
   Build build;
-  const auto oriented =
-      measured_build(build, "wall", [&] { return fcl_model<fcl::OBBRSSd>(world.walls); });
+  const auto oriented = measured_build(build, "wall", [&] { return fcl_model<fcl::OBBRSSd>(world.walls); });
   add_peer(peers, "fcl_collide", Collide(oriented), build);
   const auto aligned = measured_build(build, "wall", [&] { return fcl_model<fcl::AABBd>(world.walls); });
   add_peer(peers, "fcl_boxes", Boxes(aligned), build);

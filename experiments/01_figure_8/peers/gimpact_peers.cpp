@@ -31,16 +31,17 @@ class Tau {
   static constexpr unsigned bits = triangle_bits;
   explicit Tau(std::shared_ptr<Gimpact> gimpact) : gimpact_(std::move(gimpact)) {}
 
-  void reset(std::size_t) {}
+  void prepare(const Trace&) {}
   template <class Counter>
   bool start(std::size_t, const Point<3>*, const Point<3>*, Counter&) {
     return false;
   }
   template <class Counter>
-  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target, Counter& counter) {
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
     unsigned answer = 0;
-    for (std::size_t k = 0; k < body_edges; ++k)
-      answer |= static_cast<unsigned>(meets(positions[v], target, positions[v ^ (std::size_t{1} << k)], counter))
+    for (std::size_t k = 0; k < trace_edges; ++k)
+      answer |= static_cast<unsigned>(meets(positions[v], target, positions[trace_neighbour(v, k)], counter))
                 << (4 + k);
     return answer;
   }
@@ -65,7 +66,8 @@ class Tau {
       wall.buildTriPlane();
       counter.triangle_tests();
       GIM_TRIANGLE_CONTACT contact;
-      if (tau.overlap_test_conservative(wall) && tau.find_triangle_collision_clip_method(wall, contact)) return true;
+      if (tau.overlap_test_conservative(wall) && tau.find_triangle_collision_clip_method(wall, contact))
+        return true;
     }
     return false;
   }
@@ -76,7 +78,7 @@ class Tau {
 
 }  // namespace
 
-void add_gimpact_peers(const World& world, Peers& peers) {
+void add_gimpact_peers(const Grid_world& world, Peers& peers) {
   Build build;
   const auto gimpact = measured_build(build, "wall", [&] { return std::make_shared<Gimpact>(world.walls); });
   add_peer(peers, CELLWALK_BULLET_NAME("gimpact_tau"), Tau(gimpact), build);

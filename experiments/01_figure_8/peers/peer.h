@@ -8,6 +8,7 @@
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 
 #include <cellwalk/kernel/point.h>
+#include <cellwalk/records/trace.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,31 +21,22 @@
 
 namespace cellwalk::figure_8 {
 
-inline constexpr std::size_t body_vertices = 8;  ///< a body is a hexahedron; v is joined to v^1, v^2, v^4
-inline constexpr std::size_t body_edges = 3;     ///< of each vertex
-
-/// Bits of an answer. Bit 0: [from, target] hits a wall. Bits 1 to 3: [p, q_k]. Bits 4 to 6: the triangle
-/// (from, target, q_k).
-inline constexpr unsigned segment_bits = 0x0f, triangle_bits = 0x70;
-
-/// A recorded motion. The spans belong to the record.
-struct Motion {
-  std::size_t bodies = 0, steps = 0;
-  std::span<const Point<3>> initial;      ///< per body, per vertex
-  std::span<const Point<3>> targets;      ///< per step, per body, per vertex
-  std::span<const std::uint8_t> answers;  ///< exact, in the order of targets
-  std::size_t moves() const { return targets.size(); }
-};
+/// Which bits of an answer a method gives: those of the segments, of the triangles, or both.
+inline constexpr unsigned segment_bits = trace_segment_bit | trace_edge_bits;
+inline constexpr unsigned triangle_bits = trace_triangle_bits;
 
 /// What a replay did. The same on every machine, but for Embree, whose arithmetic follows the processor.
 struct Counts {
-  std::uint64_t boxes = 0;           ///< box queries of a hierarchy
-  std::uint64_t segments = 0;        ///< rays cast and segments asked of a hierarchy, with or without packets
-  std::uint64_t triangle_tests = 0;  ///< a segment or a triangle against a wall triangle, where the peer tells
-  std::uint64_t walks = 0;           ///< walks of a particle, temporary ones included
-  std::uint64_t crossings = 0;       ///< facets crossed by walks
-  std::uint64_t fallbacks = 0;       ///< signs that needed exact arithmetic
-  std::uint64_t certified = 0;       ///< moves of vertices free by a proof for their whole body
+  std::uint64_t boxes = 0;     ///< box queries of a hierarchy
+  std::uint64_t segments = 0;  ///< rays cast and segments asked of a hierarchy, with or without packets
+  std::uint64_t triangle_tests =
+      0;                        ///< a segment or a triangle against a wall triangle, where the peer tells
+  std::uint64_t walks = 0;      ///< walks of a particle, temporary ones included
+  std::uint64_t crossings = 0;  ///< facets crossed by walks
+  std::uint64_t signs = 0;      ///< orientations asked of a number policy
+  std::uint64_t fallbacks = 0;  ///< of them: exact arithmetic was needed
+  std::uint64_t certified_edges = 0;  ///< edges decided by a certificate
+  std::uint64_t clear_moves = 0;      ///< moves of vertices free because the whole body is
 };
 
 /// Adds to counts, or does nothing at all, so that the timed code carries no counters.
@@ -66,8 +58,8 @@ struct Counter {
   void crossings(std::uint64_t n = 1) {
     if constexpr (counting) counts.crossings += n;
   }
-  void certified(std::uint64_t n = 1) {
-    if constexpr (counting) counts.certified += n;
+  void clear_moves(std::uint64_t n = 1) {
+    if constexpr (counting) counts.clear_moves += n;
   }
 };
 
@@ -88,14 +80,15 @@ class Peer {
   virtual unsigned answer_bits() const = 0;
   /// True if its answers and counts are the same on every machine.
   virtual bool is_reproducible() const { return true; }
-  /// Finds where the bodies of a motion start. Not a part of the replay, as the recorder hands the cells over too.
-  virtual void prepare(const Motion& motion) = 0;
-  /// Replays the motion by its own answers and writes them, in the order of motion.targets. Peers without bits 0 to 3
-  /// move as the recorded answers say. State of bodies from earlier replays is dropped.
-  /// \pre prepare(motion) was called last with the same motion
-  virtual void replay(const Motion& motion, std::span<std::uint8_t> answers) = 0;
-  /// Replays once more and counts. Slower.
-  virtual Counts count(const Motion& motion, std::span<std::uint8_t> answers) = 0;
+  /// Places the bodies where the trace starts, and drops what is remembered of an earlier replay. It is not timed: the
+  /// recorder hands the bodies over as they are registered.
+  virtual void prepare(const Trace& trace) = 0;
+  /// Replays the trace by its own answers and writes them, in the order of trace.targets. Peers without bits 0 to 3
+  /// move as the recorded answers say.
+  /// \pre prepare(trace) was called since the last replay
+  virtual void replay(const Trace& trace, std::span<std::uint8_t> answers) = 0;
+  /// The same, and counts. Slower.
+  virtual Counts count(const Trace& trace, std::span<std::uint8_t> answers) = 0;
 
   Build build;
 };
@@ -103,7 +96,7 @@ class Peer {
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
 /// Builds all methods of a family for a world, which must outlive them.
-using Make_peers = void (*)(const World& world, Peers& peers);
+using Make_peers = void (*)(const Grid_world& world, Peers& peers);
 
 }  // namespace cellwalk::figure_8
 

@@ -3,8 +3,7 @@
 //
 // A Check is
 //   static constexpr unsigned bits                      which bits it answers: segment_bits, triangle_bits or both
-//   void prepare(const Motion&)                         if it has one: finds where bodies start; untimed
-//   void reset(std::size_t bodies)                      drops what it remembers of bodies
+//   void prepare(const Trace&)                          see Peer
 //   bool start(body, positions, targets, counter)       before each step of a body; true: no wall is met in it
 //   unsigned vertex(body, v, positions, target, counter)  the answer for a vertex
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_REPLAY_H
@@ -27,36 +26,34 @@ inline unsigned four_segments(std::size_t v, const Point<3>* positions, const Po
   const unsigned blocked = hits(from, target);
   const Point<3>& p = blocked ? from : target;
   unsigned bits = blocked;
-  for (std::size_t k = 0; k < body_edges; ++k)
-    bits |= static_cast<unsigned>(hits(p, positions[v ^ (std::size_t{1} << k)])) << (k + 1);
+  for (std::size_t k = 0; k < trace_edges; ++k)
+    bits |= static_cast<unsigned>(hits(p, positions[trace_neighbour(v, k)])) << (k + 1);
   return bits;
 }
 
 template <class Check, class Counter>
-void replay_motion(Check& check, const Motion& motion, std::vector<Point<3>>& positions,
-                   std::span<std::uint8_t> answers, Counter& counter) {
+void replay_trace(Check& check, const Trace& trace, std::vector<Point<3>>& positions,
+                  std::span<std::uint8_t> answers, Counter& counter) {
   constexpr bool moves_itself = (Check::bits & segment_bits) == segment_bits;
-  positions.assign(motion.initial.begin(), motion.initial.end());
-  check.reset(motion.bodies);
   std::size_t at = 0;
-  for (std::size_t step = 0; step < motion.steps; ++step)
-    for (std::size_t body = 0; body < motion.bodies; ++body, at += body_vertices) {
-      Point<3>* const x = positions.data() + body * body_vertices;
-      const Point<3>* const targets = motion.targets.data() + at;
+  for (std::size_t step = 0; step < trace.steps; ++step)
+    for (std::size_t body = 0; body < trace.bodies; ++body, at += trace_vertices) {
+      Point<3>* const x = positions.data() + body * trace_vertices;
+      const Point<3>* const targets = trace.targets.data() + at;
       std::uint8_t* const out = answers.data() + at;
-      const std::uint8_t* const recorded = motion.answers.data() + at;
+      const std::uint8_t* const recorded = trace.answers.data() + at;
       if (check.start(body, x, targets, counter)) {
-        std::fill_n(out, body_vertices, std::uint8_t{0});
+        std::fill_n(out, trace_vertices, std::uint8_t{0});
         if constexpr (moves_itself) {
-          std::copy_n(targets, body_vertices, x);
+          std::copy_n(targets, trace_vertices, x);
         } else {
-          for (std::size_t v = 0; v < body_vertices; ++v)
+          for (std::size_t v = 0; v < trace_vertices; ++v)
             if (!(recorded[v] & segment_bits)) x[v] = targets[v];
         }
-        counter.certified(body_vertices);
+        counter.clear_moves(trace_vertices);
         continue;
       }
-      for (std::size_t v = 0; v < body_vertices; ++v) {
+      for (std::size_t v = 0; v < trace_vertices; ++v) {
         const unsigned bits = check.vertex(body, v, x, targets[v], counter);
         out[v] = static_cast<std::uint8_t>(bits);
         if (!((moves_itself ? bits : recorded[v]) & segment_bits)) x[v] = targets[v];
@@ -75,16 +72,17 @@ class Checking_peer : public Peer {
     if constexpr (requires { Check::follows_processor; }) return !Check::follows_processor;
     return true;
   }
-  void prepare(const Motion& motion) override {
-    if constexpr (requires { check_.prepare(motion); }) check_.prepare(motion);
+  void prepare(const Trace& trace) override {
+    positions_ = trace.start_positions;
+    check_.prepare(trace);
   }
-  void replay(const Motion& motion, std::span<std::uint8_t> answers) override {
+  void replay(const Trace& trace, std::span<std::uint8_t> answers) override {
     Counter<false> counter;
-    replay_motion(check_, motion, positions_, answers, counter);
+    replay_trace(check_, trace, positions_, answers, counter);
   }
-  Counts count(const Motion& motion, std::span<std::uint8_t> answers) override {
+  Counts count(const Trace& trace, std::span<std::uint8_t> answers) override {
     Counter<true> counter;
-    replay_motion(check_, motion, positions_, answers, counter);
+    replay_trace(check_, trace, positions_, answers, counter);
     if constexpr (requires { check_.add_counts(counter.counts); }) check_.add_counts(counter.counts);
     return counter.counts;
   }
@@ -104,7 +102,7 @@ void add_peer(Peers& peers, std::string name, Check check, const Build& build) {
 /// A Check without preparation or memory of a body.
 struct Stateless {
   static constexpr unsigned bits = segment_bits;
-  void reset(std::size_t) {}
+  void prepare(const Trace&) {}
   template <class Counter>
   bool start(std::size_t, const Point<3>*, const Point<3>*, Counter&) {
     return false;

@@ -72,12 +72,12 @@ inline unsigned vertex_against(std::size_t count, const Triangle& triangle, std:
     if (wall.side(from) * wall.side(to) <= 0 && wall.is_on_line(from, to)) bits = 1;
   }
   const Vec p = bits ? from : to;
-  std::array<Vec, body_edges> ends;
-  for (std::size_t k = 0; k < body_edges; ++k) ends[k] = rounded<Real>(positions[v ^ (std::size_t{1} << k)]);
+  std::array<Vec, trace_edges> ends;
+  for (std::size_t k = 0; k < trace_edges; ++k) ends[k] = rounded<Real>(positions[trace_neighbour(v, k)]);
   for (std::size_t i = 0; i < count; ++i) {
     const Wall_triangle<Real>& wall = triangle(i);
     const Real side = wall.side(p);
-    for (std::size_t k = 0; k < body_edges; ++k)
+    for (std::size_t k = 0; k < trace_edges; ++k)
       if (side * wall.side(ends[k]) <= 0 && wall.is_on_line(p, ends[k])) bits |= 2u << k;
   }
   return bits;

@@ -4,7 +4,6 @@
 #include <cellwalk/environment/generate/grid.h>
 
 #include <span>
-#include <utility>
 
 namespace cellwalk::figure_8 {
 
@@ -30,14 +29,11 @@ Wall_mesh wall_mesh(const Cell_soup<3>& soup, const Gluing& gluing) {
   return mesh;
 }
 
-World grid_world(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint32_t> solid_cells) {
-  World world;
+Grid_world grid_world(const Trace& trace) {
   Grid_options<3> options;
-  options.cells = cells;
-  options.solid_cells = solid_cells;
-  world.cells = cells;
-  world.solid_cells = std::move(solid_cells);
-  world.soup = hex_grid(options);
+  options.cells = {trace.nx, trace.ny, trace.nz};
+  options.solid_cells = trace.obstacles;
+  Grid_world world{&trace, hex_grid(options), {}, {}};
   world.gluing = glue(world.soup);
   world.walls = wall_mesh(world.soup, world.gluing);
   return world;

@@ -6,6 +6,7 @@
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/trace.h>
 
 #include <array>
 #include <cstddef>
@@ -25,24 +26,23 @@ struct Wall_mesh {
 /// Each impassable facet and each facet of the boundary, cut into a fan, once however many cells it bounds.
 Wall_mesh wall_mesh(const Cell_soup<3>& soup, const Gluing& gluing);
 
-struct World {
-  std::array<std::uint32_t, 3> cells{};    ///< of the grid; for the bound that knows it
-  std::vector<std::uint32_t> solid_cells;  ///< likewise
+struct Grid_world {
+  const Trace* trace = nullptr;
   Cell_soup<3> soup;
   Gluing gluing;
   Wall_mesh walls;
 
-  /// The cell that holds a point. \pre the point lies in the grid and in no facet
+  std::size_t cell_count() const { return soup.cell_count(); }
+  /// The cell that a point lies in. \pre the point lies in the grid and in no facet
   std::uint32_t cell_at(const Point<3>& p) const {
     std::array<std::uint32_t, 3> i;
     for (std::size_t k = 0; k < 3; ++k) i[k] = static_cast<std::uint32_t>(p[k]);
-    return i[0] + cells[0] * (i[1] + cells[1] * i[2]);
+    return i[0] + trace->nx * (i[1] + trace->ny * i[2]);
   }
-  std::size_t cell_count() const { return soup.cell_count(); }
 };
 
-/// The grid of unit cubes with these solid cells.
-World grid_world(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint32_t> solid_cells);
+/// The grid of a trace, which must outlive it.
+Grid_world grid_world(const Trace& trace);
 
 }  // namespace cellwalk::figure_8
 
