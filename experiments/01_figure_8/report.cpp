@@ -23,7 +23,7 @@ std::string processor() {
 std::string csv(const std::vector<Result>& results, int rounds) {
   std::string text =
       "trace,cells,solid_cells,walls,body_side,bodies,steps,moves,method,reproducible,hits,missed,false,"
-      "ns_per_vertex_move,us_per_step,build_ms,bytes,bytes_per,unit,boxes,segments,triangle_tests,walks,"
+      "ns_per_vertex_move,us_per_step,build_ms,bytes,bytes_per,unit,boxes,queries,triangle_tests,walks,"
       "crossings,signs,"
       "fallbacks,certified_edges,clear_moves";
   for (int i = 1; i <= rounds; ++i) text += fmt::format(",ns_round_{}", i);
@@ -42,7 +42,7 @@ std::string csv(const std::vector<Result>& results, int rounds) {
       text += fmt::format("{:.2f},{},{:.1f},{},", row.build.milliseconds, row.build.bytes,
                           static_cast<double>(row.build.bytes) / static_cast<double>(units), row.build.per);
       const Counts& c = row.counts;
-      text += fmt::format("{},{},{},{},{},{},{},{},{}", c.boxes, c.segments, c.triangle_tests, c.walks,
+      text += fmt::format("{},{},{},{},{},{},{},{},{}", c.boxes, c.queries, c.triangle_tests, c.walks,
                           c.crossings, c.signs, c.fallbacks, c.certified_edges, c.clear_moves);
       for (int i = 0; i < rounds; ++i)
         text += i < static_cast<int>(row.rounds.size())

@@ -114,7 +114,7 @@ class Ray : public Stateless {
         Counter* counter = nullptr;
       } callback(bullet_point(a), bullet_point(b));
       callback.counter = &counter;
-      counter.segments();
+      counter.queries();
       bullet_->shape.performRaycast(&callback, callback.m_from, callback.m_to);
       return callback.is_hit;
     });

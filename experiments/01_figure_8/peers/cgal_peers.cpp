@@ -2,6 +2,7 @@
 // CGAL's AABB_tree over the wall triangles, with a kernel of exact predicates: do_intersect is exact.
 //
 //   cgal_segment    do_intersect of the tree for each segment
+//   cgal_triangle   do_intersect of the tree for each triangle (from, target, q): bits 4 to 6, moved as recorded
 //   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are compared first with
 //                   that of the body, then with that of the segment, exactly
 #include <CGAL/AABB_traits.h>
@@ -54,9 +55,31 @@ class Segment_query : public Stateless {
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
-      counter.segments();
+      counter.queries();
       return cgal_->tree.do_intersect(Segment_3(cgal_point(a), cgal_point(b)));
     });
+  }
+
+ private:
+  std::shared_ptr<Cgal> cgal_;
+};
+
+class Triangle_query : public Stateless {
+ public:
+  static constexpr unsigned bits = triangle_bits;
+  explicit Triangle_query(std::shared_ptr<Cgal> cgal) : cgal_(std::move(cgal)) {}
+
+  template <class Counter>
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
+    unsigned answer = 0;
+    for (std::size_t k = 0; k < trace_edges; ++k) {
+      counter.queries();
+      const Triangle_3 tau(cgal_point(positions[v]), cgal_point(target),
+                           cgal_point(positions[trace_neighbour(v, k)]));
+      answer |= static_cast<unsigned>(cgal_->tree.do_intersect(tau)) << (4 + k);
+    }
+    return answer;
   }
 
  private:
@@ -116,6 +139,7 @@ void add_cgal_peers(const Grid_world& world, Peers& peers) {
   Build build;
   const auto cgal = measured_build(build, "wall", [&] { return std::make_shared<Cgal>(world.walls); });
   add_peer(peers, "cgal_segment", Segment_query(cgal), build);
+  add_peer(peers, "cgal_triangle", Triangle_query(cgal), build);
   add_peer(peers, "cgal_kept_box", Kept_box(cgal), build);
 }
 

@@ -78,7 +78,7 @@ struct Single_ray : Embree_check {
       ray.dir_z = static_cast<float>(b[2]) - ray.org_z;
       ray.tfar = 1;
       ray.mask = ~0u;
-      counter.segments();
+      counter.queries();
       rtcOccluded1(embree->scene(), &context, &ray);
       return ray.tfar < 0;
     });
@@ -116,7 +116,7 @@ struct Packet : Embree_check {
     set(0, positions[v], p);
     if (&p == &positions[v]) valid[0] = 0;
     for (std::size_t k = 0; k < trace_edges; ++k) set(k + 1, p, positions[trace_neighbour(v, k)]);
-    counter.segments(valid[0] ? 4 : 3);
+    counter.queries(valid[0] ? 4 : 3);
     rtcOccluded4(valid, embree->scene(), &context, &rays);
     unsigned answer = 0;
     for (unsigned i = 0; i < 4; ++i) answer |= static_cast<unsigned>(rays.tfar[i] < 0) << i;

@@ -60,7 +60,7 @@ class Collide : public Stateless {
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
-      counter.segments();
+      counter.queries();
       query_->beginReplaceModel();
       query_->replaceTriangle(fcl_point(a), fcl_point(b), beside(fcl_point(a), fcl_point(b)));
       query_->endReplaceModel();
@@ -92,7 +92,7 @@ class Boxes : public Stateless {
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
-      counter.segments();
+      counter.queries();
       return hits(fcl_point(a), fcl_point(b), counter);
     });
   }

@@ -27,8 +27,8 @@ inline constexpr unsigned triangle_bits = trace_triangle_bits;
 
 /// What a replay did. The same on every machine, but for Embree, whose arithmetic follows the processor.
 struct Counts {
-  std::uint64_t boxes = 0;     ///< box queries of a hierarchy
-  std::uint64_t segments = 0;  ///< rays cast and segments asked of a hierarchy, with or without packets
+  std::uint64_t boxes = 0;    ///< box queries of a hierarchy
+  std::uint64_t queries = 0;  ///< rays, segments and triangles asked of a hierarchy, packets or not
   std::uint64_t triangle_tests =
       0;                        ///< a segment or a triangle against a wall triangle, where the peer tells
   std::uint64_t walks = 0;      ///< walks of a particle, temporary ones included
@@ -46,8 +46,8 @@ struct Counter {
   void boxes(std::uint64_t n = 1) {
     if constexpr (counting) counts.boxes += n;
   }
-  void segments(std::uint64_t n = 1) {
-    if constexpr (counting) counts.segments += n;
+  void queries(std::uint64_t n = 1) {
+    if constexpr (counting) counts.queries += n;
   }
   void triangle_tests(std::uint64_t n = 1) {
     if constexpr (counting) counts.triangle_tests += n;
