@@ -57,6 +57,10 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
       if (!contact) break;
       ++counts.contacts;
       contacts.push_back(*contact);
+      if (options.hold) {
+        ++counts.held;
+        break;
+      }
       counts.held += !stop(v, target, *contact, options, counts);
       normals.push_back(contact->contact.normal);
       const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);

@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   add_check(app, action);
   add_generate(app, action);
   add_query(app, action);
+  add_replay(app, action);
   add_run(app, action);
 
   try {

@@ -23,6 +23,7 @@
 #include "cli/run_bodies.h"
 #include "cli/run_files.h"
 #include "cli/run_picture.h"
+#include "cli/run_record.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -31,6 +32,7 @@ using nlohmann::ordered_json;
 
 struct Run_options {
   std::string scene, folder;
+  std::string record;       ///< a trace to write; empty: none
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
   bool force = false;
   Body_options body;
@@ -99,6 +101,7 @@ World<D> Run<D>::make_world() const {
 template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
+  const auto record = start_record(options.record, options.scene, environment, world, scene);
   const Cell_soup<D> soup = environment.soup();
   Output_folder folder(options.folder, options.force);
   const Interruption interruption;
@@ -110,6 +113,7 @@ void Run<D>::operator()() const {
     for (std::uint32_t i = 1; i <= steps(); ++i) {
       world.step();
       files.record(world, i == steps());
+      if (record) record->record(world);
       if (picture) picture->record(world);
       progress.update(i);
       interruption.check();
@@ -134,8 +138,10 @@ void Run<D>::operator()() const {
     io::write_file(folder.path() / "picture.png", io::encode_png(image));
   }
   io::write_json(folder.path() / "run.json", report(world, files));
+  if (record) record->write();
   interruption.check();
   folder.commit();
+  if (record) record->commit();
   summary(world, files, picture.has_value());
 }
 
@@ -207,7 +213,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   if (sizes.bodies > 0) {
     line("of bodies", describe_contacts(files.body_contacts()));
     line("moves", describe_moves(world.body_counts()));
-    line("edges", describe_edges(world.body_counts()));
+    line("edges", describe_edges(world.body_counts().edges));
   }
   if (sizes.guided > 0)
     line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
@@ -224,11 +230,13 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
+  if (!options.record.empty()) line("recorded", options.record);
 }
 
 template <int D>
 void run_scene(const Run_options& options, const Scene<D>& scene) {
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
+  if (!options.record.empty()) check_recordable(scene, bodies.shapes, options.scene);
   const Prepared_environment prepared = prepare(scene.environment, options.scene);
   const auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
@@ -258,16 +266,30 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(CLI::Range(1u, 100000000u));
-  add_choice(
+  const CLI::Option* sweep = add_choice(
       *command, "--sweep", options->body.sweep.sweep,
       {{sweep_names[0], Sweep::three_segments},
        {sweep_names[1], Sweep::triangle},
        {sweep_names[2], Sweep::faces}},
       "What is checked of bodies: edges by the paper's three segments, which miss what fits between them; "
       "the triangles that edges sweep; or faces as well");
+  command
+      ->add_option(
+          "--record", options->record,
+          "Record the motion with its exact answers, for cellwalk replay: of hexahedra in a grid of unit "
+          "cubes. A vertex that meets a wall stays where it is, and edges are checked by three segments")
+      ->type_name("TRACE");
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
-  command->callback([options, &chosen] {
-    chosen = [options] {
+  command->callback([options, sweep, &chosen] {
+    const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
+    chosen = [options, other_sweep] {
+      if (!options->record.empty()) {
+        if (other_sweep)
+          throw Error(Error_code::usage,
+                      "bodies that are recorded move by three segments: leave --sweep out, or --record");
+        options->body.sweep.sweep = Sweep::three_segments;
+        options->body.hold = true;
+      }
       try {
         run(*options);
       } catch (const Interrupted& interrupted) {

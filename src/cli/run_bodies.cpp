@@ -90,27 +90,33 @@ ordered_json to_json(const Walk_counts& c) {
           {"exact_fallbacks", c.predicates.fallbacks}};
 }
 
+ordered_json to_json(const Edge_counts& c) {
+  return {{"checked", c.edges},         {"same_cell", c.same_cell}, {"convex_pair", c.convex_pair},
+          {"same_chain", c.same_chain}, {"clear", c.clear},         {"event_sweeps", c.event_sweeps},
+          {"changed", c.changed},       {"floods", c.floods},       {"flooded_cells", c.flooded_cells}};
+}
+
+ordered_json shares_json(const Edge_counts& c) {
+  return {{"same_cell", share(c.same_cell, c.edges)},
+          {"convex_pair", share(c.convex_pair, c.edges)},
+          {"same_chain", share(c.same_chain, c.edges)},
+          {"clear", share(c.clear, c.edges)},
+          {"event_sweeps", share(c.event_sweeps, c.edges)}};
+}
+
 ordered_json to_json(const Body_counts& c) {
   ordered_json result{{"moves", c.moves},           {"in_region", c.in_region},
                       {"regions", c.regions},       {"no_region", c.no_region},
                       {"catch_ups", c.catch_ups},   {"contacts", c.contacts},
                       {"stop_tries", c.stop_tries}, {"held", c.held}};
-  const Edge_counts& e = c.edges;
-  result["edges"] = {
-      {"checked", e.edges},         {"same_cell", e.same_cell}, {"convex_pair", e.convex_pair},
-      {"same_chain", e.same_chain}, {"clear", e.clear},         {"event_sweeps", e.event_sweeps},
-      {"changed", e.changed},       {"floods", e.floods},       {"flooded_cells", e.flooded_cells}};
-  result["shares"] = {{"in_region", share(c.in_region, c.moves)},
-                      {"same_cell", share(e.same_cell, e.edges)},
-                      {"convex_pair", share(e.convex_pair, e.edges)},
-                      {"same_chain", share(e.same_chain, e.edges)},
-                      {"clear", share(e.clear, e.edges)},
-                      {"event_sweeps", share(e.event_sweeps, e.edges)}};
+  result["edges"] = to_json(c.edges);
+  result["shares"] = {{"in_region", share(c.in_region, c.moves)}};
+  result["shares"].update(shares_json(c.edges));
   const Face_counts& f = c.faces;
   if (f.faces > 0)
     result["faces"] = {{"swept", f.faces}, {"clear", f.clear},     {"flooded_cells", f.flooded_cells},
                        {"walls", f.walls}, {"clipped", f.clipped}, {"flat", f.flat}};
-  result["walks"] = to_json(e.walk);
+  result["walks"] = to_json(c.edges.walk);
   return result;
 }
 
@@ -124,8 +130,7 @@ std::string describe_moves(const Body_counts& c) {
                      percent(c.in_region, c.moves));
 }
 
-std::string describe_edges(const Body_counts& c) {
-  const Edge_counts& e = c.edges;
+std::string describe_edges(const Edge_counts& e) {
   return fmt::format(
       "{} checked: {:.1f} % in one cell, {:.1f} % in a convex pair of cells, {:.1f} % along the same "
       "chain, {:.1f} % clear of walls, {:.1f} % by their events",

@@ -38,13 +38,16 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene);
 nlohmann::ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
                                    const std::vector<std::string>& notes);
 nlohmann::ordered_json to_json(const Walk_counts& counts);
+nlohmann::ordered_json to_json(const Edge_counts& counts);
+/// The share of edge checks that each certificate decided.
+nlohmann::ordered_json shares_json(const Edge_counts& counts);
 /// Counts, and the share of vertex moves and edge checks that each certificate decided.
 nlohmann::ordered_json to_json(const Body_counts& counts);
 
 /// For people: contacts by feature, and what decided the moves of vertices and the checks of edges.
 std::string describe_contacts(const Body_contacts& contacts);
 std::string describe_moves(const Body_counts& counts);
-std::string describe_edges(const Body_counts& counts);
+std::string describe_edges(const Edge_counts& counts);
 
 extern template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);
 extern template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);

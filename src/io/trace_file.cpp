@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/trace_file.h>
 #include <cellwalk/kernel/error.h>
 
@@ -136,16 +135,15 @@ Trace parse_trace(const std::string& name, std::string_view bytes) {
 
 Trace read_trace(const std::filesystem::path& path) { return parse_trace(path.string(), load(path)); }
 
-void write_trace(const std::filesystem::path& path, const Trace& trace) {
+void write_trace(Atomic_file& file, const Trace& trace) {
   const auto refuse = [&](const std::string& what) {
-    throw Error(Error_code::usage, fmt::format("{}: is not written: {}", path.string(), what));
+    throw Error(Error_code::usage, fmt::format("{}: is not written: {}", file.destination().string(), what));
   };
   if (trace.obstacles.size() > std::numeric_limits<std::uint32_t>::max() ||
       trace.start_positions.size() != trace.bodies * trace_vertices ||
       trace.targets.size() != trace.moves() || trace.answers.size() != trace.moves())
     refuse("the trace holds other numbers of positions, targets and answers than its counts say");
   if (const std::string what = flaw(trace); !what.empty()) refuse(what);
-  Atomic_file file(path);
   file.write(magic);
   const auto obstacles = static_cast<std::uint32_t>(trace.obstacles.size());
   for (std::uint32_t n : {trace.nx, trace.ny, trace.nz, trace.bodies, trace.steps, obstacles})
@@ -157,6 +155,11 @@ void write_trace(const std::filesystem::path& path, const Trace& trace) {
   file.write(bytes_of(trace.start_positions));
   file.write(bytes_of(trace.targets));
   file.write(bytes_of(trace.answers));
+}
+
+void write_trace(const std::filesystem::path& path, const Trace& trace) {
+  Atomic_file file(path);
+  write_trace(file, trace);
   file.commit();
 }
 

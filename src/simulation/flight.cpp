@@ -89,6 +89,7 @@ void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_co
     velocity_ = {};
     angle_ = angle_before;
     turning_ = 0;
+    std::ranges::copy(body_.positions(), targets_.begin());
     return;
   }
   const std::size_t first = contacts.size();

@@ -32,6 +32,8 @@ struct Body_options {
   bool clearance = true;  ///< keep a region that is free of walls, in which nothing needs a test
   /// A vertex that meets a wall goes on along it, at most so often in a step.
   int most_contacts = 4;
+  /// A vertex that meets a wall stays where it is, and does not go on: the rule of traces.
+  bool hold = false;
 };
 
 /// What the moves of bodies did. All counts are machine-independent.

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_IO_TRACE_FILE_H
 #define CELLWALK_IO_TRACE_FILE_H
 
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/records/trace.h>
 
 #include <filesystem>
@@ -26,6 +27,9 @@ Trace parse_trace(const std::string& name, std::string_view bytes);
 /// \throw Error(usage) where they are not, or where the trace is one that read_trace refuses; Error(other) where the file
 ///        cannot be written
 void write_trace(const std::filesystem::path& path, const Trace& trace);
+
+/// The same into a file that the caller commits.
+void write_trace(Atomic_file& file, const Trace& trace);
 
 }  // namespace cellwalk::io
 

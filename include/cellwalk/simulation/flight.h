@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cellwalk {
@@ -39,6 +40,8 @@ class Flight {
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
+  /// Where the last step was to take the vertices. \pre there was one
+  std::span<const Point<D>> targets() const { return targets_; }
   /// Of a thrown body; zero if it is guided.
   const Vector<D>& velocity() const { return velocity_; }
   /// True while a guided body stands at the end of its path, no vertex held back.

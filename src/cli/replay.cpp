@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk replay TRACE: answers and times a recorded motion.
+#include <cellwalk/io/trace_file.h>
+#include <cellwalk/simulation/replay.h>
+#include <cellwalk/simulation/trace_environment.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/environment_file.h"
+#include "cli/kind_names.h"
+#include "cli/machine.h"
+#include "cli/progress.h"
+#include "cli/run_bodies.h"
+
+namespace cellwalk::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int default_rounds = 7, default_warmup = 1, most_rounds = 100000;
+
+struct Replay_options {
+  std::string trace, json;
+  Sweep sweep = Sweep::triangle;
+  int rounds = default_rounds, warmup = default_warmup;
+  bool sheared = false;
+};
+
+/// What all rounds found: they differ in time only.
+struct Replayed {
+  std::vector<double> ns_per_move;  ///< of each round
+  std::uint64_t mismatches = 0, contacts = 0;
+  Trace_counts counts;  ///< of one round
+
+  double median() const {
+    std::vector<double> sorted = ns_per_move;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+  }
+};
+
+Trace load(const Replay_options& options) {
+  Trace trace = io::read_trace(options.trace);
+  if (trace.moves() == 0)
+    throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
+                                               options.trace, trace.bodies, trace.steps));
+  return options.sheared ? mapped(std::move(trace), sheared<3>()) : trace;
+}
+
+Environment<3> build(const Trace& trace, const Replay_options& options) {
+  const Progress progress("generating and certifying the grid");
+  try {
+    return trace_environment(trace, options.sheared ? sheared<3>() : Lattice_map<3>{});
+  } catch (const Error& error) {
+    // What a trace asks for is input, whatever it would be in a call.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: {}", options.trace, error.what()));
+  }
+}
+
+/// Replays the trace again and again. Only the moves are timed: answers are compared, and bodies registered, in between.
+Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, const Replay_options& options) {
+  using Clock = std::chrono::steady_clock;
+  const Locator<3> locator(environment.snapshot());
+  const int rounds = options.warmup + options.rounds;
+  Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
+  Replayed result;
+  for (int round = 0; round < rounds; ++round) {
+    Replay replay =
+        naming(options.trace, [&] { return Replay(environment.snapshot(), locator, trace, options.sweep); });
+    const Clock::time_point begin = Clock::now();
+    replay.run();
+    const std::chrono::duration<double, std::nano> passed = Clock::now() - begin;
+    progress.update(static_cast<std::uint64_t>(round) + 1);
+    result.mismatches = std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
+    result.contacts = replay.contacts().size();
+    result.counts = replay.counts();
+    if (round >= options.warmup)
+      result.ns_per_move.push_back(passed.count() / static_cast<double>(trace.moves()));
+  }
+  return result;
+}
+
+ordered_json counts_json(const Replayed& replayed) {
+  const Trace_counts& c = replayed.counts;
+  ordered_json result{{"moves", c.moves},
+                      {"contacts", replayed.contacts},
+                      {"held", c.held},
+                      {"vertex_hits", c.vertex_hits},
+                      {"edge_hits", c.edge_hits},
+                      {"triangle_hits", c.triangle_hits},
+                      {"rounds", c.rounds},
+                      {"walks", c.edges.walk.walks},
+                      {"crossings", c.edges.walk.crossings},
+                      {"exact_fallbacks", c.edges.walk.predicates.fallbacks}};
+  result["shares"] = shares_json(c.edges);
+  result["edges"] = to_json(c.edges);
+  result["walk"] = to_json(c.edges.walk);
+  return result;
+}
+
+ordered_json manifest(const Trace& trace, const Replay_options& options) {
+  ordered_json result = machine_json();
+  result["trace"] = {{"file", std::filesystem::path(options.trace).filename().string()},
+                     {"cells", {trace.nx, trace.ny, trace.nz}},
+                     {"bodies", trace.bodies},
+                     {"steps", trace.steps},
+                     {"obstacles", trace.obstacles.size()},
+                     {"seed", trace.seed},
+                     {"obstacle_fraction", trace.obstacle_fraction},
+                     {"body_side", trace.body_side},
+                     {"speed", trace.speed}};
+  result["sweep"] = sweep_names[static_cast<std::size_t>(options.sweep)];
+  result["sheared"] = options.sheared;
+  result["rounds"] = options.rounds;
+  result["warmup"] = options.warmup;
+  result["threads"] = 1;
+  return result;
+}
+
+void print_summary(const Trace& trace, const Replay_options& options, const Replayed& replayed) {
+  const auto line = [](const char* name, const std::string& value) {
+    fmt::print("  {:<12}{}\n", name, value);
+  };
+  const Trace_counts& c = replayed.counts;
+  const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
+  fmt::print("{}: {} x {} x {} cells{}, {} of them solid, {} bodies, {} steps\n", options.trace, trace.nx,
+             trace.ny, trace.nz, options.sheared ? ", sheared" : "", trace.obstacles.size(), trace.bodies,
+             trace.steps);
+  line("time", fmt::format("{:.1f} ns per vertex move with its three edges, by {} (median of {} rounds, from "
+                           "{:.1f} to {:.1f})",
+                           replayed.median(), sweep_names[static_cast<std::size_t>(options.sweep)],
+                           options.rounds, *least, *most));
+  line("mismatches", fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
+  line("moves", fmt::format("{}, {} of them held by walls; {} contacts, {} edges went round an obstacle",
+                            c.moves, c.held, replayed.contacts, c.rounds));
+  line("edges", describe_edges(c.edges));
+}
+
+void replay(const Replay_options& options) {
+  const Trace trace = load(options);
+  const Environment<3> environment = build(trace, options);
+  const Replayed replayed = replay_rounds(trace, environment, options);
+  write_json(options.json, {{"ns_per_vertex_move", replayed.median()},
+                            {"ns_per_vertex_move_rounds", replayed.ns_per_move},
+                            {"mismatches", replayed.mismatches},
+                            {"counts", counts_json(replayed)},
+                            {"manifest", manifest(trace, options)}});
+  print_summary(trace, options, replayed);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<Replay_options>();
+  CLI::App* command = app.add_subcommand(
+      "replay", "Answer and time a recorded motion of bodies, and compare with the recorded exact answers");
+  command->add_option("trace", options->trace, "A trace, see docs/formats.md")
+      ->required()
+      ->type_name("TRACE");
+  add_choice(
+      *command, "--sweep", options->sweep,
+      {{sweep_names[0], Sweep::three_segments}, {sweep_names[1], Sweep::triangle}},
+      "What is checked of edges. three_segments: the way of the vertex, then the edge, as in the paper; "
+      "answers bits 0 to 3. triangle: also all that the edge sweeps; answers bits 4 to 6, too");
+  command
+      ->add_option("--repeat", options->rounds,
+                   "Rounds that are timed, each from the start; the median counts")
+      ->type_name("N")
+      ->check(CLI::Range(1, most_rounds))
+      ->capture_default_str();
+  command->add_option("--warmup", options->warmup, "Rounds before them that are not timed")
+      ->type_name("N")
+      ->check(CLI::Range(0, most_rounds))
+      ->capture_default_str();
+  command->add_flag("--shear", options->sheared,
+                    "Shear the grid and all motion: cells are no cubes then, and cost the same");
+  add_json(*command, options->json);
+  command->callback([options, &chosen] { chosen = [options] { replay(*options); }; });
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk run --record: the motion of a run as a trace.
+#ifndef CELLWALK_CLI_RUN_RECORD_H
+#define CELLWALK_CLI_RUN_RECORD_H
+
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/io/trace_file.h>
+#include <cellwalk/records/scene.h>
+#include <cellwalk/simulation/trace_recorder.h>
+#include <cellwalk/simulation/world.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cellwalk::cli {
+
+/// Refuses scenes that a trace cannot hold: its environment is a grid of unit cubes (generator hexes, neither scaled nor
+/// rotated nor sheared), and all that moves are bodies with the 8 vertices and 12 edges of the hexahedron.
+/// \throw Error(input) naming the scene and its key
+template <int D>
+void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& shapes,
+                      const std::string& scene_name);
+
+/// Records a run whose bodies move by the rule of traces (Sweep::three_segments, Body_options::hold).
+class Run_record {
+ public:
+  /// \pre the scene is recordable, the world has made no step
+  /// \throw Error(other) if the file cannot be written; as Trace_recorder, with the name of the scene
+  Run_record(const std::string& path, const std::string& scene_name, const Environment<3>& environment,
+             const World<3>& world, const Scene<3>& scene);
+
+  /// To be called after each step. \throw Error(input) as Trace_recorder, with the name of the scene; Error(other) if the
+  /// bodies went elsewhere in the world
+  void record(const World<3>& world);
+  /// Scenes of the plane are not recordable: never called.
+  void record(const World<2>&) {}
+
+  /// Completes the file; commit() puts it in place.
+  void write() { io::write_trace(file_, recorder_.trace()); }
+  void commit() { file_.commit(); }
+
+  const Trace& trace() const { return recorder_.trace(); }
+  const Trace_counts& counts() const { return recorder_.counts(); }
+
+ private:
+  std::string scene_name_;
+  io::Atomic_file file_;
+  Trace_recorder recorder_;
+  std::vector<Point<3>> targets_;
+};
+
+/// A record into a file of that name; none if it is empty.
+template <int D>
+std::unique_ptr<Run_record> start_record(const std::string& path, const std::string& scene_name,
+                                         const Environment<D>& environment, const World<D>& world,
+                                         const Scene<D>& scene) {
+  if constexpr (D == 3)
+    if (!path.empty()) return std::make_unique<Run_record>(path, scene_name, environment, world, scene);
+  return nullptr;
+}
+
+extern template void check_recordable(const Scene<2>&, const std::vector<Body_soup<2>>&, const std::string&);
+extern template void check_recordable(const Scene<3>&, const std::vector<Body_soup<3>>&, const std::string&);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_RECORD_H
