@@ -131,17 +131,17 @@ set y2range [{low * moves_a_step / 1e3}:{high * moves_a_step / 1e3}]
 set format x "10^{{%T}}"
 set xlabel "cells of the environment, n"
 set ylabel "time of a vertex move with its three edges (ns)"
-set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)" offset 27,0
+set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)"
 set ytics nomirror
 set y2tics
-set rmargin 42
+set rmargin 46
 set grid ytics lc rgb "#dddddd" lt 1
 unset key
 """
     for (name, line), height in zip(lines.items(), labels):
         label, dash, point, width = PLOTTED[name]
         grey = "#000000" if name.startswith("cellwalk") else "#555555"
-        script += (f'set label "{label}" at first {sizes[-1] * 1.3}, first {10 ** height:.6g} offset 7,0 '
+        script += (f'set label "{label}" at graph 1.17, first {10 ** height:.6g} '
                    f'font ",9" textcolor rgb "{grey}"\n')
         script += (f"set arrow from first {sizes[-1] * 1.04}, first {line[-1][1]} to first {sizes[-1] * 2.3}, "
                    f'first {10 ** height:.6g} nohead lw 0.4 lc rgb "#999999"\n')

@@ -6,11 +6,12 @@
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/trace_body.h>
 #include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/simulation/trace_recorder.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -97,13 +98,9 @@ class Flyer {
   double speed_;
 };
 
-struct Placed {
-  Flyer flyer;
-  Trace_body body;
-};
-
-Placed place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_options& options,
-             Random& random) {
+/// A body at a place where it is free. Its start is appended.
+Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_options& options,
+            Random& random, std::vector<Point<3>>& starts) {
   for (int i = 0; i < most_tries; ++i) {
     Flyer flyer(random, options.body_side, options.speed);
     Vector3 center;
@@ -115,7 +112,9 @@ Placed place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace
                             [&](const Point<3>& x) { return locator.particle_at(x).cell == Cell::none; }))
       continue;
     try {
-      return {flyer, Trace_body(snapshot, locator, positions)};
+      const Trace_body body(snapshot, locator, positions);
+      starts.insert(starts.end(), positions.begin(), positions.end());
+      return flyer;
     } catch (const Error& error) {
       if (error.code() != Error_code::outside) throw;
     }
@@ -134,7 +133,6 @@ Trace make_trace(const Trace_options& options) {
   trace.ny = options.cells[1];
   trace.nz = options.cells[2];
   trace.bodies = options.bodies;
-  trace.steps = options.steps;
   trace.seed = options.seed;
   trace.obstacle_fraction = options.solid_share;
   trace.body_side = options.body_side;
@@ -143,27 +141,29 @@ Trace make_trace(const Trace_options& options) {
   const Environment<3> environment = trace_environment(trace);
   const Locator<3> locator(environment.snapshot());
   Random random(scramble(options.seed));
-  std::vector<Placed> bodies;
+  std::vector<Flyer> flyers;
   for (std::uint32_t b = 0; b < options.bodies; ++b)
-    bodies.push_back(place(environment.snapshot(), locator, options, random));
-  for (const Placed& placed : bodies)
-    for (const Particle<3>& p : placed.body.particles()) trace.start_positions.push_back(p.position);
-  Trace_counts counts;
-  for (std::uint32_t step = 0; step < options.steps; ++step)
-    for (Placed& placed : bodies) {
+    flyers.push_back(place(environment.snapshot(), locator, options, random, trace.start_positions));
+  Trace_recorder recorder(environment.snapshot(), locator, std::move(trace));
+  std::vector<Point<3>> targets;
+  for (std::uint32_t step = 0; step < options.steps; ++step) {
+    targets.clear();
+    for (std::uint32_t b = 0; b < options.bodies; ++b) {
       std::array<Point<3>, trace_vertices> positions;
-      for (std::size_t v = 0; v < trace_vertices; ++v) positions[v] = placed.body.particles()[v].position;
-      const auto targets = placed.flyer.targets(positions);
-      bool is_held = false;
-      for (std::size_t v = 0; v < trace_vertices; ++v) {
-        const std::uint8_t answer = placed.body.move(v, targets[v], Sweep::triangle, counts).answer;
-        trace.targets.push_back(targets[v]);
-        trace.answers.push_back(answer);
-        is_held |= (answer & (trace_segment_bit | trace_edge_bits)) != 0;
-      }
-      if (is_held) placed.flyer.change_course(random);
+      std::ranges::transform(recorder.bodies()[b].particles(), positions.begin(), &Particle<3>::position);
+      const auto goals = flyers[b].targets(positions);
+      targets.insert(targets.end(), goals.begin(), goals.end());
     }
-  return trace;
+    recorder.step(targets);
+    for (std::uint32_t b = 0; b < options.bodies; ++b) {
+      const auto answers =
+          std::span(recorder.trace().answers).last(targets.size()).subspan(b * trace_vertices);
+      if (std::ranges::any_of(answers.first(trace_vertices),
+                              [](unsigned a) { return (a & (trace_segment_bit | trace_edge_bits)) != 0; }))
+        flyers[b].change_course(random);
+    }
+  }
+  return recorder.trace();
 }
 
 }  // namespace cellwalk::figure_8

@@ -22,8 +22,8 @@ struct Trace_options {
 
 /// Makes a trace. Cubes start at random places, turned at random, where their edges are free. In each step the vertices aim
 /// at the rigid body nearest to them, moved on and turned a little; a body of which a vertex was held back flies another way.
-/// The answers are those of the library's complete sweep. Same options, same bytes, on every machine.
-/// \throw Error(usage) if the share cannot be reached, or a body finds no place
+/// The answers are those of Trace_recorder. Same options, same bytes, on every machine.
+/// \throw Error(usage) if the share cannot be reached, or a body finds no place; Error(input) if a wall is touched
 Trace make_trace(const Trace_options& options);
 
 }  // namespace cellwalk::figure_8
