@@ -20,7 +20,7 @@ NO_GNUPLOT = 3
 # line. The styles differ without colours.
 PLOTTED = {
     "cellwalk_triangle": ("cellwalk, complete sweep", 1, 7, 4),
-    "cellwalk_three_segments": ("cellwalk, three segments", 1, 6, 4),
+    "cellwalk_three_segments": ("cellwalk, three segments", 1, 6, 2),
     "bullet_swept_box": ("Bullet, a box an edge (paper)", 2, 5, 1.5),
     "bullet_ray": ("Bullet, rays", 3, 4, 1.5),
     "bullet_body_box": ("Bullet, a box a body", 2, 9, 1.5),
@@ -121,34 +121,39 @@ def plot_script(rows):
     low, high = min(values) / 1.5, max(values) * 1.5
     moves_a_step = int(rows[0]["moves"]) // int(rows[0]["steps"])
     labels = apart([math.log10(line[-1][1]) for line in lines.values()], math.log10(high / low) / 27)
+    # The labels stand in the plot, to the right of the last points.
+    room = (sizes[-1] / sizes[0]) ** 0.55
+    tics = ", ".join(f'"10^{{{round(math.log10(n))}}}" {n}' for n in sizes)
     script = "# gnuplot figure_8.gp\n"
     for name, line in lines.items():
         script += f"${name} << END\n" + "".join(f"{n} {ns}\n" for n, ns in line) + "END\n"
     script += f"""set logscale xyy2
-set xrange [{sizes[0] / 1.3}:{sizes[-1] * 1.3}]
+set xrange [{sizes[0] / 1.3}:{sizes[-1] * room}]
 set yrange [{low}:{high}]
 set y2range [{low * moves_a_step / 1e3}:{high * moves_a_step / 1e3}]
-set format x "10^{{%T}}"
+set xtics ({tics})
 set xlabel "cells of the environment, n"
 set ylabel "time of a vertex move with its three edges (ns)"
 set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)"
 set ytics nomirror
 set y2tics
-set rmargin 46
 set grid ytics lc rgb "#dddddd" lt 1
 unset key
 """
     for (name, line), height in zip(lines.items(), labels):
-        label, dash, point, width = PLOTTED[name]
-        grey = "#000000" if name.startswith("cellwalk") else "#555555"
-        script += (f'set label "{label}" at graph 1.17, first {10 ** height:.6g} '
-                   f'font ",9" textcolor rgb "{grey}"\n')
-        script += (f"set arrow from first {sizes[-1] * 1.04}, first {line[-1][1]} to first {sizes[-1] * 2.3}, "
-                   f'first {10 ** height:.6g} nohead lw 0.4 lc rgb "#999999"\n')
+        label = PLOTTED[name][0]
+        at = f"first {sizes[-1] * room ** 0.2:.6g}, first {10 ** height:.6g}"
+        script += f'set label "{label}" at {at} offset 0.3,0 font ",10" textcolor rgb "{shade(name)}" front\n'
+        script += (f"set arrow from first {sizes[-1] * room ** 0.03:.6g}, first {line[-1][1]} to {at} "
+                   'nohead lw 0.4 lc rgb "#999999"\n')
     script += "plot " + ", ".join(
         f'${name} with linespoints dt {PLOTTED[name][1]} pt {PLOTTED[name][2]} lw {PLOTTED[name][3]} ps 0.9 '
-        f'lc rgb "{"#000000" if name.startswith("cellwalk") else "#555555"}"' for name in lines) + "\n"
+        f'lc rgb "{shade(name)}"' for name in lines) + "\n"
     return script
+
+
+def shade(name):
+    return "#000000" if name.startswith("cellwalk") else "#555555"
 
 
 TERMINALS = {

@@ -28,7 +28,10 @@ struct Box {
   }
   bool contains(const Box& b) const {
     bool in = true;
-    for (std::size_t k = 0; k < 3; ++k) in &= (low[k] <= b.low[k]) & (b.high[k] <= high[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      in &= low[k] <= b.low[k];
+      in &= b.high[k] <= high[k];
+    }
     return in;
   }
   Box enlarged(double margin) const {

@@ -70,7 +70,7 @@ class Swept_box : public Stateless {
       found_.clear();
       counter.boxes();
       bullet_->query(box_of(positions[v], target, end), [this](std::uint32_t i) { found_.push_back(i); });
-      // The box of the first edge holds the vertex's own trace.
+      // The box of the first edge holds the vertex's own motion.
       if (k == 0) answer = hits(from, to, counter);
       answer |= hits(answer & 1 ? from : to, rounded<btScalar>(end), counter) << (k + 1);
     }

@@ -14,9 +14,13 @@ namespace cellwalk::figure_8 {
 /// By how much the box of a body is enlarged before its walls are kept: five steps at the speed of the scene.
 inline constexpr double kept_margin = 0.1;
 
+/// True if two closed boxes have a point in common.
 inline bool meet(const Box& a, const Box& b) {
   bool all = true;
-  for (std::size_t k = 0; k < 3; ++k) all &= (a.low[k] <= b.high[k]) & (b.low[k] <= a.high[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    all &= a.low[k] <= b.high[k];
+    all &= b.low[k] <= a.high[k];
+  }
   return all;
 }
 

@@ -27,14 +27,13 @@ inline constexpr unsigned triangle_bits = trace_triangle_bits;
 
 /// What a replay did. The same on every machine, but for Embree, whose arithmetic follows the processor.
 struct Counts {
-  std::uint64_t boxes = 0;    ///< box queries of a hierarchy
-  std::uint64_t queries = 0;  ///< rays, segments and triangles asked of a hierarchy, packets or not
-  std::uint64_t triangle_tests =
-      0;                        ///< a segment or a triangle against a wall triangle, where the peer tells
-  std::uint64_t walks = 0;      ///< walks of a particle, temporary ones included
-  std::uint64_t crossings = 0;  ///< facets crossed by walks
-  std::uint64_t signs = 0;      ///< orientations asked of a number policy
-  std::uint64_t fallbacks = 0;  ///< of them: exact arithmetic was needed
+  std::uint64_t boxes = 0;            ///< box queries of a hierarchy
+  std::uint64_t queries = 0;          ///< rays, segments and triangles asked of a hierarchy, packets or not
+  std::uint64_t triangle_tests = 0;   ///< of a wall triangle, where the peer lets them be counted
+  std::uint64_t walks = 0;            ///< walks of a particle, temporary ones included
+  std::uint64_t crossings = 0;        ///< facets crossed by walks
+  std::uint64_t signs = 0;            ///< orientations asked of a number policy
+  std::uint64_t fallbacks = 0;        ///< of them: exact arithmetic was needed
   std::uint64_t certified_edges = 0;  ///< edges decided by a certificate
   std::uint64_t clear_moves = 0;      ///< moves of vertices free because the whole body is
 };
