@@ -189,6 +189,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
   result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
   if (!scene.bodies.empty())
     result["manifest"]["sweep"] = sweep_names[static_cast<std::size_t>(options.body.sweep.sweep)];
+  if (!options.record.empty()) result["manifest"]["recorded"] = true;
   return result;
 }
 

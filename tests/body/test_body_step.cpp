@@ -50,6 +50,25 @@ TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   EXPECT_EQ(contacts[0].contact.normal, (Vector<3>{0, 0, 1}));
 }
 
+TEST(Body_step, HoldsVerticesThatMeetWalls) {
+  const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {});
+  Body<3> body = hexahedron(snapshot, {1, 2, 2}, 1);
+  const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
+  const std::vector<Point<3>> targets = shifted<3>(body, {-0.75, 0.125, 0});
+  Body_options options;
+  options.hold = true;
+  std::vector<Body_contact<3>> contacts;
+  Body_counts counts;
+  body.step(targets, options, contacts, counts);
+  // The four vertices on the side of the wall x = 0 would pass it, the others go all the way.
+  for (std::size_t v = 0; v < 8; ++v)
+    EXPECT_EQ(body.positions()[v], before[v][0] < 1 ? before[v] : targets[v]) << v;
+  EXPECT_EQ(contacts.size(), 4u);
+  EXPECT_EQ(counts.held, 4u);
+  EXPECT_EQ(counts.stop_tries, 0u);
+  EXPECT_NO_THROW(body.validate());
+}
+
 TEST(Body_step, SlidesAlongAnObliqueWall) {
   // A channel whose floor rises: by no angle at which anything is a double.
   Cell_soup<2> soup;

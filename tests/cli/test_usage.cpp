@@ -15,12 +15,13 @@ TEST_F(Usage, VersionNamesTheOptionalParts) {
 
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
-  for (const char* text : {"import", "check", "generate", "query", "4 environment not certified"})
+  for (const char* text :
+       {"import", "check", "generate", "query", "replay", "run", "4 environment not certified"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"import", "check", "generate", "query"})
+  for (const char* command : {"import", "check", "generate", "query", "replay", "run"})
     EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
               std::string::npos);
 }

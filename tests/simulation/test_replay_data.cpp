@@ -8,6 +8,9 @@
 
 #include <filesystem>
 
+#include "simulation/replay_checks.h"
+#include "simulation/trace_oracle.h"
+
 namespace cellwalk {
 namespace {
 
@@ -36,20 +39,22 @@ void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
       EXPECT_EQ(counts.rounds, facts.rounds);
       EXPECT_EQ(counts.triangle_hits, facts.edge_hits + facts.rounds);
     }
-    // Each vertex lies in its cell, each edge has a chain.
-    Walk_counts walks;
-    for (const Trace_body& body : replay.bodies())
-      for (std::size_t v = 0; v < trace_vertices; ++v) {
-        EXPECT_TRUE(
-            in_closure(environment.snapshot(), body.particles()[v].cell, body.particles()[v].position));
-        for (std::size_t k = 0; k < trace_edges; ++k)
-          EXPECT_TRUE(is_chain(environment.snapshot(), body.particles()[v],
-                               body.particles()[trace_neighbour(v, k)], body.chain(v, k), walks));
-      }
+    test::expect_valid(environment.snapshot(), replay);
   }
 }
 
 TEST_P(Public_traces, GiveTheRecordedAnswers) { expect_recorded_answers(GetParam(), {}); }
+
+TEST_P(Public_traces, HoldTheAnswersOfBruteForce) {
+  const Trace trace = io::read_trace(std::filesystem::path(CELLWALK_TEST_DATA) / "traces" / GetParam().file);
+  const test::Trace_walls walls(trace);
+  std::uint64_t vertex_hits = 0;
+  test::for_each_move(trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto& q) {
+    ASSERT_EQ(int{trace.answers[i]}, int{test::answer(walls, from, target, q)}) << "move " << i;
+    vertex_hits += trace.answers[i] & trace_segment_bit;
+  });
+  EXPECT_EQ(vertex_hits, GetParam().vertex_hits);
+}
 
 TEST_P(Public_traces, GiveTheRecordedAnswersSheared) { expect_recorded_answers(GetParam(), sheared<3>()); }
 

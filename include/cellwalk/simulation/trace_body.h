@@ -39,7 +39,7 @@ class Trace_body {
   /// crosses a wall
   Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Positions positions);
 
-  /// The answer to the move of one vertex, and the first contact, if there is one: of the vertex or an edge at it.
+  /// The answer to the move of one vertex, and its contact: that of the vertex if it hits, else the first one of its edges.
   struct Move {
     std::uint8_t answer = 0;
     std::optional<Contact<3>> contact;
