@@ -11,7 +11,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -91,6 +90,23 @@ struct Candidate {
   Box box;
 };
 
+/// Steers a traversal of the tree: appends the triangles whose boxes meet a box.
+struct Near_box {
+  CGAL::Bbox_3 box;
+  std::vector<Candidate>* list;
+
+  bool go_further() const { return true; }
+  bool do_intersect(int, const CGAL::AABB_node<Tree::AABB_traits>& node) const {
+    return CGAL::do_overlap(box, node.bbox());
+  }
+  void intersection(int, const Tree::Primitive& primitive) const {
+    const Triangle_3& triangle = primitive.datum();
+    const CGAL::Bbox_3 b = triangle.bbox();
+    if (CGAL::do_overlap(box, b))
+      list->push_back({triangle, {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}}});
+  }
+};
+
 class Kept_box {
  public:
   static constexpr unsigned bits = segment_bits;
@@ -100,14 +116,9 @@ class Kept_box {
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& b, std::vector<Candidate>& list) {
-      found_.clear();
-      cgal_->tree.all_intersected_primitives(
-          CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]),
-          std::back_inserter(found_));
-      for (const Triangles::const_iterator i : found_) {
-        const CGAL::Bbox_3 box = i->bbox();
-        list.push_back({*i, {{box.xmin(), box.ymin(), box.zmin()}, {box.xmax(), box.ymax(), box.zmax()}}});
-      }
+      // Boxes against boxes is all that candidates need; an exact test of each triangle and the box would cost more than it saves.
+      Near_box near{CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]), &list};
+      cgal_->tree.traversal(0, near);
     };
     near_ = kept_.find(body, positions, targets, query, counter);
     return near_.empty();
@@ -130,7 +141,6 @@ class Kept_box {
   std::shared_ptr<Cgal> cgal_;
   Kept_candidates<Candidate> kept_;
   std::span<const Candidate* const> near_;
-  std::vector<Triangles::const_iterator> found_;
 };
 
 }  // namespace
