@@ -5,7 +5,6 @@
 
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -55,20 +54,16 @@ inline btVector3 bullet_point(const Point<3>& p) {
   return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
 }
 
-/// The points next to a rounded one, so that a rounded box holds what the box held.
+/// By how much of itself a coordinate of a rounded box is moved outward: four times the largest error of rounding it.
+inline constexpr btScalar box_rounding = 2 * std::numeric_limits<btScalar>::epsilon();
+
 inline btVector3 rounded_down(const Point<3>& p) {
-  btVector3 r = bullet_point(p);
-  for (int k = 0; k < 3; ++k)
-    if (r[k] > p[static_cast<std::size_t>(k)])
-      r[k] = std::nextafter(r[k], -std::numeric_limits<btScalar>::infinity());
-  return r;
+  const btVector3 r = bullet_point(p);
+  return sizeof(btScalar) == sizeof(double) ? r : r - box_rounding * r.absolute();
 }
 inline btVector3 rounded_up(const Point<3>& p) {
-  btVector3 r = bullet_point(p);
-  for (int k = 0; k < 3; ++k)
-    if (r[k] < p[static_cast<std::size_t>(k)])
-      r[k] = std::nextafter(r[k], std::numeric_limits<btScalar>::infinity());
-  return r;
+  const btVector3 r = bullet_point(p);
+  return sizeof(btScalar) == sizeof(double) ? r : r + box_rounding * r.absolute();
 }
 
 /// Adds the methods on Bullet's triangle hierarchy.
