@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev] [--print]
+#   scripts/setup.sh [--for demo|test|dev|peers] [--print]
 #
-#   demo  build and run the program            test  also Gmsh, VTK, the test tools and clang-format (default)
-#   dev   also clang, clang-tidy and ccache    --print  only name the packages
+#   demo  build and run the program            test   also Gmsh, VTK, the test tools and clang-format (default)
+#   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
+#   --print  only name the packages
 set -euo pipefail
 
 core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
@@ -15,6 +16,7 @@ pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
 tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format)
 tools=(clang clang-tidy ccache)
+peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 
 purpose=test
 only_print=false
@@ -23,7 +25,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -33,7 +35,8 @@ case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${tests[@]}") ;;
   dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test or dev, not '$purpose'" >&2; exit 2 ;;
+  peers) packages+=("${peers[@]}") ;;
+  *) echo "setup.sh: --for takes demo, test, dev or peers, not '$purpose'" >&2; exit 2 ;;
 esac
 
 if $only_print; then

@@ -33,7 +33,7 @@ using nlohmann::ordered_json;
 
 struct Run_options {
   std::string scene, folder;
-  std::string record;       ///< a trace to write; empty: none
+  std::string record;  ///< a trace to write; empty: none
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says

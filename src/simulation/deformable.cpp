@@ -120,6 +120,7 @@ void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Bod
   const double gained = std::max(0.0, kinetic_energy() - before);  // from gravity
   if (!predict(dt)) {
     std::ranges::fill(velocities_, Vector<D>{});
+    std::ranges::copy(body_.positions(), targets_.begin());
     stored_ = 0;
     return;
   }

@@ -150,7 +150,10 @@ void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_conta
   if (catheter_.steering != Steering::tip)
     detail::bend_tip<D>(before, twist_before, x, state(), bend(), targets_);
   detail::relax<D>(state(), bend(), targets_);
-  if (!std::ranges::all_of(targets_, is_finite<D>)) return;
+  if (!std::ranges::all_of(targets_, is_finite<D>)) {
+    std::ranges::copy(x, targets_.begin());
+    return;
+  }
   body_.step(targets_, conditions.body, contacts, counts);
 }
 

@@ -40,6 +40,8 @@ class Deformable {
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
+  /// Where the vertices went in the last step, walls or not.
+  std::span<const Point<D>> targets() const { return targets_; }
   /// Of the middle of the vertices.
   Vector<D> velocity() const;
   std::span<const Vector<D>> velocities() const { return velocities_; }

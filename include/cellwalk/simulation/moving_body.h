@@ -7,6 +7,7 @@
 #include <cellwalk/simulation/flight.h>
 #include <cellwalk/simulation/rod.h>
 
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -32,6 +33,10 @@ class Moving_body {
   }
   const Body<D>& body() const {
     return std::visit([](const auto& moving) -> const Body<D>& { return moving.body(); }, kind_);
+  }
+  /// Where the vertices went in the last step, walls or not.
+  std::span<const Point<D>> targets() const {
+    return std::visit([](const auto& moving) { return moving.targets(); }, kind_);
   }
   /// Of a thrown body, of its middle; zero for others.
   Vector<D> velocity() const {

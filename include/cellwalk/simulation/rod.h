@@ -47,6 +47,8 @@ class Rod {
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
+  /// Where the vertices went in the last step, walls or not.
+  std::span<const Point<D>> targets() const { return targets_; }
   const Point<D>& tip() const { return body_.positions()[0]; }
   /// The length that has been pushed in.
   double length_inside() const { return inside_; }

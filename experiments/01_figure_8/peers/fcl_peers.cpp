@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// FCL has no segments against meshes, and its continuous queries move whole models. A segment is asked as a triangle.
+//
+//   fcl_collide    fcl::collide of a model of one triangle, refitted for each query, with the model of the walls (OBBRSS
+//                  boxes: models of AABBs are copied whole by every call). The triangle is thin, as the oriented box of a
+//                  degenerate one has no frame.
+//   fcl_boxes      its AABB hierarchy and its test of triangles, called directly, with the triangle (a, b, b): that test
+//                  projects onto axes, the axis of a zero normal separates nothing, and what is left are the axes of a
+//                  segment against a triangle. Nothing is enlarged.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/AABB.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/traversal/collision/intersect.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "body_box.h"
+#include "families.h"
+#include "measured_build.h"
+#include "replay.h"
+
+namespace cellwalk::figure_8 {
+namespace {
+
+/// Width of a thin triangle, in cells: far below what a wrong answer could be told from, far above the rounding of its box.
+constexpr double thin = 0x1p-30;
+
+fcl::Vector3d fcl_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+
+template <class Bv>
+std::shared_ptr<fcl::BVHModel<Bv>> fcl_model(const Wall_mesh& walls) {
+  std::vector<fcl::Vector3d> points;
+  points.reserve(walls.points.size());
+  for (const Point<3>& p : walls.points) points.push_back(fcl_point(p));
+  std::vector<fcl::Triangle> triangles;
+  triangles.reserve(walls.triangles.size());
+  for (const auto& t : walls.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  auto model = std::make_shared<fcl::BVHModel<Bv>>();
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
+  model->addSubModel(points, triangles);
+  model->endModel();
+  return model;
+}
+
+class Collide : public Stateless {
+ public:
+  using Model = fcl::BVHModel<fcl::OBBRSSd>;
+  explicit Collide(std::shared_ptr<Model> walls)
+      : walls_(std::move(walls)), query_(std::make_shared<Model>()) {
+    query_->beginModel(1, 3);
+    query_->addTriangle({0, 0, 0}, {1, 0, 0}, {1, thin, 0});
+    query_->endModel();
+  }
+
+  template <class Counter>
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
+    return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
+      counter.queries();
+      query_->beginReplaceModel();
+      query_->replaceTriangle(fcl_point(a), fcl_point(b), beside(fcl_point(a), fcl_point(b)));
+      query_->endReplaceModel();
+      const fcl::CollisionRequestd request(1, false);
+      fcl::CollisionResultd result;
+      const fcl::Transform3d identity = fcl::Transform3d::Identity();
+      return fcl::collide(query_.get(), identity, walls_.get(), identity, request, result) > 0;
+    });
+  }
+
+ private:
+  /// b, shifted along the axis that the segment has least of.
+  static fcl::Vector3d beside(const fcl::Vector3d& a, fcl::Vector3d b) {
+    Eigen::Index k = 0;
+    (b - a).cwiseAbs().minCoeff(&k);
+    b[k] += thin;
+    return b;
+  }
+
+  std::shared_ptr<Model> walls_, query_;
+};
+
+class Boxes : public Stateless {
+ public:
+  using Model = fcl::BVHModel<fcl::AABBd>;
+  explicit Boxes(std::shared_ptr<Model> walls) : walls_(std::move(walls)) {}
+
+  template <class Counter>
+  unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
+                  Counter& counter) {
+    return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
+      counter.queries();
+      return hits(fcl_point(a), fcl_point(b), counter);
+    });
+  }
+
+ private:
+  template <class Counter>
+  bool hits(const fcl::Vector3d& a, const fcl::Vector3d& b, Counter& counter) {
+    const fcl::AABBd box(a, b);
+    stack_.assign(1, 0);
+    while (!stack_.empty()) {
+      const fcl::BVNode<fcl::AABBd>& node = walls_->getBV(stack_.back());
+      stack_.pop_back();
+      if (!node.bv.overlap(box)) continue;
+      if (!node.isLeaf()) {
+        stack_.push_back(node.leftChild());
+        stack_.push_back(node.rightChild());
+        continue;
+      }
+      counter.triangle_tests();
+      const fcl::Triangle& t = walls_->tri_indices[node.primitiveId()];
+      const fcl::Vector3d* x = walls_->vertices;
+      if (fcl::detail::Intersectd::intersect_Triangle(a, b, b, x[t[0]], x[t[1]], x[t[2]])) return true;
+    }
+    return false;
+  }
+
+  std::shared_ptr<Model> walls_;
+  std::vector<int> stack_;
+};
+
+}  // namespace
+
+void add_fcl_peers(const Grid_world& world, Peers& peers) {
+  Build build;
+  const auto oriented = measured_build(build, "wall", [&] { return fcl_model<fcl::OBBRSSd>(world.walls); });
+  add_peer(peers, "fcl_collide", Collide(oriented), build);
+  const auto aligned = measured_build(build, "wall", [&] { return fcl_model<fcl::AABBd>(world.walls); });
+  add_peer(peers, "fcl_boxes", Boxes(aligned), build);
+}
+
+}  // namespace cellwalk::figure_8

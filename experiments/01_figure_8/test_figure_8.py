@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Runs figure 8 in its quick form, without times, and compares answers and counts with expected/quick.csv.
+
+usage: test_figure_8.py BUILD_DIR [PEER ...]     the peers that were built: bullet, bullet_double, embree, fcl
+       test_figure_8.py BUILD_DIR --update       writes expected/quick.csv anew; needs all peers
+
+Expected are the rows of methods whose answers and counts are the same on every machine. Of cellwalk only the answers are
+compared: its counts change with every better certificate.
+"""
+
+import csv
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+EXPECTED = HERE / "expected" / "quick.csv"
+ANSWERS = ["moves", "hits", "missed", "false"]
+COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "clear_moves"]
+COLUMNS = ["trace", "method", *ANSWERS, *COUNTS]
+ALWAYS = {"read_and_write", "unit_cubes", "cellwalk_three_segments", "cellwalk_triangle", "double_walk", "library_double",
+          "cgal_segment", "cgal_triangle", "cgal_kept_box"}
+PEERS = {
+    "bullet": {"bullet_swept_box", "bullet_ray", "bullet_body_box", "bullet_kept_box", "gimpact_tau"},
+    "bullet_double": {"bullet_swept_box_double", "bullet_ray_double", "bullet_body_box_double", "bullet_kept_box_double",
+                      "gimpact_tau_double"},
+    "embree": {"embree_ray", "embree_packet", "embree_ray_robust", "embree_packet_robust"},
+    "fcl": {"fcl_collide", "fcl_boxes"},
+}
+EXACT = {"cellwalk_three_segments", "cellwalk_triangle", "cgal_segment", "cgal_triangle", "cgal_kept_box"}
+TRACES = ["n_1e3", "n_1e4", "side_0.1", "side_1", "side_3", "solid_01", "solid_30"]
+
+
+def read(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def quick(build, out):
+    """The rows of a quick run."""
+    subprocess.run([HERE / "run.sh", "--quick", "--counts", "--no-build", "--build", build, "--out", out], check=True,
+                   stdout=subprocess.DEVNULL)
+    return read(out / "figure_8.csv")
+
+
+def kept(row):
+    """What of a row is expected again."""
+    counts = [] if row["method"].startswith("cellwalk") else COUNTS
+    return {c: row[c] if c in ["trace", "method", *ANSWERS, *counts] else "" for c in COLUMNS}
+
+
+def spoil(source, target):
+    """Copies a trace with the recorded answers of its last move turned round: bits 0 and 4, of one without any hit."""
+    data = bytearray(source.read_bytes())
+    bodies, steps = struct.unpack("<II", data[20:28])
+    answers = len(data) - 8 * bodies * steps
+    last = max(i for i in range(answers, len(data)) if data[i] == 0)
+    assert last >= len(data) - 8 * bodies, "no move of the last step is free"
+    data[last] = 0b0010001
+    target.write_bytes(data)
+
+
+class Figure8(unittest.TestCase):
+    build, peers = None, ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = Path(cls.folder.name)
+        cls.rows = quick(cls.build, cls.out)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_all_methods_ran(self):
+        methods = ALWAYS.union(*(PEERS[p] for p in self.peers))
+        for trace in TRACES:
+            self.assertEqual(methods, {r["method"] for r in self.rows if r["trace"] == trace}, trace)
+
+    def test_answers_and_counts_are_as_expected(self):
+        methods = {r["method"] for r in self.rows}
+        got = [kept(r) for r in self.rows if r["reproducible"] == "1"]
+        self.assertGreaterEqual(len(got), len(ALWAYS) * len(TRACES))
+        self.assertEqual([r for r in read(EXPECTED) if r["method"] in methods], got)
+
+    def test_exact_methods_are_never_wrong(self):
+        exact = [r for r in self.rows if r["method"] in EXACT]
+        self.assertEqual(len(EXACT) * len(TRACES), len(exact))
+        for row in exact:
+            self.assertGreater(int(row["hits"]), 10, row)
+            self.assertEqual(("0", "0"), (row["missed"], row["false"]), row)
+
+    def test_a_wrong_answer_shows(self):
+        trace, out = self.out / "spoiled.bin", self.out / "spoiled"
+        spoil(self.out / "traces" / "n_1e3.bin", trace)
+        subprocess.run([self.build / "experiments/01_figure_8/figure_8", trace, "--out", out, "--rounds", "0", "--only",
+                        "^(cellwalk|cgal)"], check=True, stdout=subprocess.DEVNULL)
+        missed = {r["method"]: (r["missed"], r["false"]) for r in read(out / "figure_8.csv")}
+        self.assertEqual({"cellwalk_three_segments": ("1", "0"), "cellwalk_triangle": ("2", "0"), "cgal_segment": ("1", "0"),
+                          "cgal_triangle": ("1", "0"), "cgal_kept_box": ("1", "0")}, missed)
+
+    def test_traces_are_the_same_again(self):
+        again = self.out / "again.bin"
+        subprocess.run([self.build / "experiments/01_figure_8/make_traces", again, "--steps", "10", "--cells", "10", "10",
+                        "10"], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual((self.out / "traces" / "n_1e3.bin").read_bytes(), again.read_bytes())
+
+    def test_tables_name_every_method_and_trace(self):
+        text = (self.out / "tables.md").read_text(encoding="utf-8")
+        for name in {r["method"] for r in self.rows}.union(TRACES):
+            self.assertIn(f"| {name} |", text)
+
+
+def update(build):
+    with tempfile.TemporaryDirectory() as folder:
+        rows = quick(build, Path(folder))
+    assert {r["method"] for r in rows} == ALWAYS.union(*PEERS.values()), "not all peers are built"
+    EXPECTED.parent.mkdir(exist_ok=True)
+    with EXPECTED.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(kept(r) for r in rows if r["reproducible"] == "1")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    Figure8.build = Path(sys.argv[1]).resolve()
+    if sys.argv[2:] == ["--update"]:
+        update(Figure8.build)
+    else:
+        Figure8.peers = sys.argv[2:]
+        unittest.main(argv=sys.argv[:1])

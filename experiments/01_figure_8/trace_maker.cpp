@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "trace_maker.h"
+
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/simulation/trace_body.h>
+#include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/simulation/trace_recorder.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rigid_fit.h"
+
+namespace cellwalk::figure_8 {
+namespace {
+
+/// The largest share of cells of which no two touch.
+constexpr double largest_apart = 0.125;
+/// A vertex is asked to move by at most so many times the speed, as the published traces have it: bodies that hang on a wall
+/// do not snap back.
+constexpr double longest_move = 5;
+/// A body turns by at most so much a step, in radians (a vertex of the paper's bodies then by a quarter of its speed).
+constexpr double fastest_turn = 0.02;
+/// Places tried for a body: bodies of three cells find one in about a thousand.
+constexpr int most_tries = 1'000'000;
+
+std::vector<std::uint32_t> solid_cells(const Trace_options& options) {
+  const auto count = static_cast<std::uint32_t>(options.cells[0] * options.cells[1] * options.cells[2]);
+  std::vector<std::uint32_t> cells;
+  if (options.solid_share <= largest_apart) {
+    Grid_options<3> grid;
+    grid.cells = options.cells;
+    grid.solid_share = options.solid_share;
+    grid.seed = options.seed;
+    const Cell_soup<3> soup = hex_grid(grid);
+    for (std::uint32_t c = 0; c < count; ++c)
+      if (soup.solid[c]) cells.push_back(c);
+    return cells;
+  }
+  for (std::uint32_t c = 0; c < count; ++c) cells.push_back(c);
+  Random random(options.seed);
+  random.shuffle(cells);
+  cells.resize(static_cast<std::size_t>(options.solid_share * count));
+  std::ranges::sort(cells);
+  return cells;
+}
+
+/// A cube in flight.
+class Flyer {
+ public:
+  Flyer(Random& random, double side, double speed) : turn_(random_rotation(random)), speed_(speed) {
+    for (std::size_t v = 0; v < trace_vertices; ++v)
+      for (std::size_t k = 0; k < 3; ++k)
+        rest_[v][static_cast<Eigen::Index>(k)] = (v >> k & 1 ? 0.5 : -0.5) * side;
+    change_course(random);
+  }
+
+  void change_course(Random& random) {
+    velocity_ = speed_ * in_unit_ball(random).normalized();
+    spin_ = rotation(1, 0.5 * fastest_turn * in_unit_ball(random));
+  }
+  std::array<Point<3>, trace_vertices> placed(const Vector3& center) const {
+    std::array<Point<3>, trace_vertices> x;
+    for (std::size_t v = 0; v < trace_vertices; ++v) x[v] = point(center + turn_ * rest_[v]);
+    return x;
+  }
+  /// Where the vertices are to go from where they are.
+  std::array<Point<3>, trace_vertices> targets(const std::array<Point<3>, trace_vertices>& positions) {
+    Vector3 center = Vector3::Zero();
+    for (const Point<3>& x : positions) center += vector(x);
+    center /= static_cast<double>(trace_vertices);
+    Matrix3 moments = Matrix3::Zero();
+    for (std::size_t v = 0; v < trace_vertices; ++v)
+      moments += (vector(positions[v]) - center) * rest_[v].transpose();
+    turn_ = spin_ * nearest_rotation(moments, turn_);
+    std::array<Point<3>, trace_vertices> goals = placed(center + velocity_);
+    for (std::size_t v = 0; v < trace_vertices; ++v) {
+      const Vector3 from = vector(positions[v]), way = vector(goals[v]) - from;
+      const double length = way.norm();
+      if (length > longest_move * speed_) goals[v] = point(from + longest_move * speed_ / length * way);
+    }
+    return goals;
+  }
+
+ private:
+  static Vector3 vector(const Point<3>& x) { return {x[0], x[1], x[2]}; }
+  static Point<3> point(const Vector3& x) { return {x[0], x[1], x[2]}; }
+
+  std::array<Vector3, trace_vertices> rest_;
+  Matrix3 turn_, spin_;
+  Vector3 velocity_;
+  double speed_;
+};
+
+/// A body at a place where it is free. Its start is appended.
+Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_options& options,
+            Random& random, std::vector<Point<3>>& starts) {
+  for (int i = 0; i < most_tries; ++i) {
+    Flyer flyer(random, options.body_side, options.speed);
+    Vector3 center;
+    for (std::size_t k = 0; k < 3; ++k)
+      center[static_cast<Eigen::Index>(k)] = random.real(0, static_cast<double>(options.cells[k]));
+    const auto positions = flyer.placed(center);
+    // Most places are refused, and cheaply so where a vertex is not in free space.
+    if (std::ranges::any_of(positions,
+                            [&](const Point<3>& x) { return locator.particle_at(x).cell == Cell::none; }))
+      continue;
+    try {
+      const Trace_body body(snapshot, locator, positions);
+      starts.insert(starts.end(), positions.begin(), positions.end());
+      return flyer;
+    } catch (const Error& error) {
+      if (error.code() != Error_code::outside) throw;
+    }
+  }
+  throw Error(
+      Error_code::usage,
+      fmt::format("no place found for a body of side {} among {} solid cells of a hundred: make it smaller",
+                  options.body_side, 100 * options.solid_share));
+}
+
+}  // namespace
+
+Trace make_trace(const Trace_options& options) {
+  Trace trace;
+  trace.nx = options.cells[0];
+  trace.ny = options.cells[1];
+  trace.nz = options.cells[2];
+  trace.bodies = options.bodies;
+  trace.seed = options.seed;
+  trace.obstacle_fraction = options.solid_share;
+  trace.body_side = options.body_side;
+  trace.speed = options.speed;
+  trace.obstacles = solid_cells(options);
+  const Environment<3> environment = trace_environment(trace);
+  const Locator<3> locator(environment.snapshot());
+  Random random(scramble(options.seed));
+  std::vector<Flyer> flyers;
+  for (std::uint32_t b = 0; b < options.bodies; ++b)
+    flyers.push_back(place(environment.snapshot(), locator, options, random, trace.start_positions));
+  Trace_recorder recorder(environment.snapshot(), locator, std::move(trace));
+  std::vector<Point<3>> targets;
+  for (std::uint32_t step = 0; step < options.steps; ++step) {
+    targets.clear();
+    for (std::uint32_t b = 0; b < options.bodies; ++b) {
+      std::array<Point<3>, trace_vertices> positions;
+      std::ranges::transform(recorder.bodies()[b].particles(), positions.begin(), &Particle<3>::position);
+      const auto goals = flyers[b].targets(positions);
+      targets.insert(targets.end(), goals.begin(), goals.end());
+    }
+    recorder.step(targets);
+    for (std::uint32_t b = 0; b < options.bodies; ++b) {
+      const auto answers =
+          std::span(recorder.trace().answers).last(targets.size()).subspan(b * trace_vertices);
+      if (std::ranges::any_of(answers.first(trace_vertices),
+                              [](unsigned a) { return (a & (trace_segment_bit | trace_edge_bits)) != 0; }))
+        flyers[b].change_course(random);
+    }
+  }
+  return recorder.trace();
+}
+
+}  // namespace cellwalk::figure_8
