@@ -5,71 +5,20 @@
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "cut_plane.h"
+#include "point_box.h"
+
 namespace cellwalk {
 namespace {
 
-/// A closed box, and nothing before it is extended.
-template <int D>
-struct Box {
-  Point<D> low, high;
-
-  Box() {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-  }
-  void extend(const Point<D>& x) {
-    for (std::size_t k = 0; k < D; ++k) {
-      low[k] = std::min(low[k], x[k]);
-      high[k] = std::max(high[k], x[k]);
-    }
-  }
-  void extend(const Box& other) {
-    extend(other.low);
-    extend(other.high);
-  }
-};
-
-/// Two points at a time, as their coordinates lie: one minimum and one maximum for each of them.
-template <int D>
-Box<D> box_of(std::span<const Point<D>> points) {
-  Box<D> box;
-  if (points.empty()) return box;
-  constexpr std::size_t lanes = 2 * D;
-  std::array<double, lanes> low, high;
-  for (std::size_t k = 0; k < lanes; ++k) low[k] = high[k] = points.front()[k % D];
-  const double* x = points.front().data();
-  for (std::size_t left = points.size() / 2; left > 0; --left, x += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) {
-      low[k] = x[k] < low[k] ? x[k] : low[k];
-      high[k] = x[k] > high[k] ? x[k] : high[k];
-    }
-  for (std::size_t k = 0; k < D; ++k) {
-    box.low[k] = std::min(low[k], low[k + D]);
-    box.high[k] = std::max(high[k], high[k + D]);
-  }
-  if (points.size() % 2 != 0) box.extend(points.back());
-  return box;
-}
-
-/// A half-space without a wall: the exact product of its points with the normal is less than the limit; where the product as
-/// rounded is less than the offset, for points of the box, it is.
-template <int D>
-struct Cut_plane {
-  Vector<D> normal{};
-  double limit = 0, offset = 0;
-};
-
-/// A scalar product is rounded by less than this part of the sum of the sizes of its terms: each is rounded at most D times,
-/// by 2^-53, and so is the sum of their sizes.
-constexpr double product_error = 0x1p-50;
-/// And by less than product_error of this where a term underflows.
-constexpr double least_magnitude = 1e-290;
+using detail::Box;
+using detail::box_of;
+using detail::Cut_plane;
 
 /// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
 constexpr double enough_steps = 4;
@@ -209,7 +158,7 @@ class Region_search {
     for (int k = 0; k < D; ++k)
       if (facet.low[k] >= region_.box().high(k) || facet.high[k] <= region_.box().low(k)) return true;
     for (const Cut_plane<D>& plane : planes_)
-      if (is_beyond(plane, cell, i)) return true;
+      if (detail::is_beyond(plane, cell, i)) return true;
     return cut_keeping(wanted_, cell, i, facet) || cut_keeping(kept_, cell, i, facet) ||
            (may_lose && cut_keeping_anchor(cell, i, facet));
   }
@@ -233,7 +182,7 @@ class Region_search {
     }
     if (best < enough_ && planes_.size() < Clear_region<D>::most_planes) {
       const bool with_targets = &kept == &wanted_;
-      if (cut_by_plane(cell, i, outward(cell, i), with_targets, best)) return true;
+      if (cut_by_plane(cell, i, detail::outward(cell, i), with_targets, best)) return true;
       // To part the targets as well would be in vain where they lie behind a wall.
       if (!(best > 0) && !with_targets && cut_by_plane(cell, i, apart(cell, i), false, 0)) return true;
     }
@@ -268,7 +217,7 @@ class Region_search {
       consider(below);
       consider(above);
     }
-    if (const auto plane = plane_of(cell, i, outward(cell, i))) {
+    if (const auto plane = plane_before(cell, i, detail::outward(cell, i))) {
       Clear_region<D> below = region_;
       below.cut(plane->normal, plane->offset);
       if (consider(below)) planes_.push_back(*plane);
@@ -292,7 +241,7 @@ class Region_search {
   /// Cuts in a direction, if the points to keep are further from there than `best`.
   bool cut_by_plane(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal, bool with_targets,
                     double best) {
-    const auto plane = plane_of(cell, i, normal);
+    const auto plane = plane_before(cell, i, normal);
     if (!plane) return false;
     const double gap = best * length(normal);
     if (!is_before(*plane, gap, request_.positions)) return false;
@@ -302,29 +251,11 @@ class Region_search {
     return true;
   }
 
-  /// The half-space before a facet in a direction, made smaller by what is rounded. None if nothing can be said, or there are as
-  /// many as there may be.
-  std::optional<Cut_plane<D>> plane_of(const Cell_view<D>& cell, std::size_t i,
-                                       const Vector<D>& normal) const {
+  /// None if nothing can be said, or there are as many half-spaces as there may be.
+  std::optional<Cut_plane<D>> plane_before(const Cell_view<D>& cell, std::size_t i,
+                                           const Vector<D>& normal) const {
     if (planes_.size() == Clear_region<D>::most_planes) return {};
-    const auto loop = cell.loop(i);
-    Cut_plane<D> plane{normal, std::numeric_limits<double>::infinity(), 0};
-    for (const std::uint16_t v : loop)
-      plane.limit = std::min(plane.limit, least_product(plane.normal, cell.point(v)));
-    const double error = product_error * (magnitude(plane.normal, sizes_) + least_magnitude);
-    plane.offset = plane.limit - error;
-    // The difference is rounded, too.
-    plane.offset -= product_error * std::abs(plane.offset);
-    if (!std::isfinite(plane.offset)) return {};
-    return plane;
-  }
-
-  /// True if a facet lies beyond a half-space in which the region lies.
-  bool is_beyond(const Cut_plane<D>& plane, const Cell_view<D>& cell, std::size_t i) const {
-    const auto loop = cell.loop(i);
-    return std::all_of(loop.begin(), loop.end(), [&](std::uint16_t v) {
-      return least_product(plane.normal, cell.point(v)) >= plane.limit;
-    });
+    return detail::plane_before(cell, i, normal, sizes_);
   }
 
   /// True if the points that the region holds are inside a half-space, and further inside than a gap, in units of its normal.
@@ -334,22 +265,12 @@ class Region_search {
                        [&](const Point<D>& x) { return dot(plane.normal, x) < most || !region_.holds(x); });
   }
 
-  static Vector<D> outward(const Cell_view<D>& cell, std::size_t i) {
-    const auto loop = cell.loop(i);
-    const Point<D>& u = cell.point(loop[0]);
-    const Vector<D> edge = cell.point(loop[1]) - u;
-    if constexpr (D == 2)
-      return {edge[1], -edge[0]};
-    else
-      return cross(edge, cell.point(loop[2]) - u);
-  }
-
   /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is soon found: it is turned
-  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; plane_of() and
+  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; plane_before() and
   /// is_before() say what it is worth.
   Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
-    Vector<D> normal = outward(cell, i);
+    Vector<D> normal = detail::outward(cell, i);
     normal = (1 / length(normal)) * normal;
     for (int turn = 0; turn < most_turns; ++turn) {
       const Point<D>*last = nullptr, *first = nullptr;
@@ -371,18 +292,6 @@ class Region_search {
       normal = normal + (1 / distance) * ahead;
     }
     return normal;
-  }
-
-  /// The sum of the sizes of the terms of a product.
-  static double magnitude(const Vector<D>& normal, const Point<D>& x) {
-    double sum = 0;
-    for (std::size_t k = 0; k < D; ++k) sum += std::abs(normal[k] * x[k]);
-    return sum;
-  }
-  /// A lower bound of a product.
-  static double least_product(const Vector<D>& normal, const Point<D>& x) {
-    const double bound = dot(normal, x) - product_error * (magnitude(normal, x) + least_magnitude);
-    return std::isfinite(bound) ? bound : -std::numeric_limits<double>::infinity();
   }
 
   const Snapshot<D>& snapshot_;
