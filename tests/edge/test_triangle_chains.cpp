@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and on worlds of
 // spikes and long edges, where edges slide in planes of walls.
+#include <algorithm>
 #include <cellwalk/kernel/predicates.h>
 
 #include <gtest/gtest.h>
@@ -188,8 +189,9 @@ TEST(TriangleChains, AreRightWhereEdgesSlide3) { test_sliding<3>(); }
 /// The oracle takes for granted that nothing changes between its critical times: two times of each interval must agree.
 template <int D>
 void test_critical_times() {
+  const std::size_t worlds = std::max<std::size_t>(1, oracle::scaled_count(oracle::world_kinds));
   std::size_t intervals = 0, differ = 0;
-  for (std::uint64_t number = 0; number < oracle::scaled_count(oracle::world_kinds); ++number) {
+  for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(number, number % 3 == 0);
     const oracle::Integer_complex<D> complex(w.world.soup);
     for (int k = 0; k < 12; ++k) {
@@ -206,6 +208,8 @@ void test_critical_times() {
       }
     }
   }
+  EXPECT_GT(intervals, 5u);
+  if (worlds < oracle::world_kinds) return;
   EXPECT_GT(intervals, 500u);
   EXPECT_GT(differ, intervals / 4) << "most critical times are there for a reason";
 }
