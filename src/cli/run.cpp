@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
 
 #include <filesystem>
 #include <memory>
@@ -37,6 +38,7 @@ struct Run_options {
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
+  std::size_t threads = 0;  ///< 0: as many as there are cores
   bool force = false;
   Body_options body;
 };
@@ -268,6 +270,9 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(CLI::Range(1u, 100000000u));
+  command->add_option("--threads", options->threads, "Use at most so many threads; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
   const CLI::Option* sweep = add_choice(
       *command, "--sweep", options->body.sweep.sweep,
       {{sweep_names[0], Sweep::three_segments},
@@ -292,6 +297,8 @@ void add_run(CLI::App& app, Action& chosen) {
         options->body.sweep.sweep = Sweep::three_segments;
         options->body.hold = true;
       }
+      std::optional<tbb::global_control> limit;
+      if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);
       try {
         run(*options);
       } catch (const Interrupted& interrupted) {

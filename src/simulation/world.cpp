@@ -3,6 +3,8 @@
 #include <cellwalk/simulation/world.h>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace cellwalk {
 template <int D>
@@ -40,18 +42,31 @@ void World<D>::step_free() {
   }
 }
 
+/// Nothing that moves meets anything else that moves, so all bodies may move at the same time; contacts are reported in their order.
 template <int D>
 void World<D>::step_bodies() {
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    body_contacts_.clear();
-    bodies_[i].step(conditions_, body_contacts_, body_counts_);
-    for (const Body_contact<D>& met : body_contacts_) {
+  constexpr std::size_t bodies_at_once = 8;
+  body_steps_.resize(bodies_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bodies_.size(), bodies_at_once), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      body_steps_[i].contacts.clear();
+      bodies_[i].step(conditions_, body_steps_[i].contacts, body_steps_[i].counts);
+    }
+  });
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+    for (const Body_contact<D>& met : body_steps_[i].contacts) {
       const Contact<D>& c = met.contact;
       const Vector<D> normal = c.normal + Vector<D>{};
       contacts_.push_back({steps_done_, 0, c.time, c.point, normal, c.kind, snapshot_.index(c.cell),
                            Met_body{i, met.vertex, c.body, met.feature}});
     }
-  }
+}
+
+template <int D>
+Body_counts World<D>::body_counts() const {
+  Body_counts sum;
+  for (const Body_step& step : body_steps_) sum += step.counts;
+  return sum;
 }
 
 template <int D>
@@ -65,7 +80,8 @@ void World<D>::validate() {
                             steps_done_, fmt::join(p.position, ", ")));
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    bodies_[i].body().catch_up(body_counts_);
+    body_steps_.resize(bodies_.size());
+    bodies_[i].body().catch_up(body_steps_[i].counts);
     try {
       bodies_[i].body().validate();
     } catch (const Error& error) {
@@ -84,11 +100,13 @@ template const Rod<3>* World<3>::catheter() const;
 template void World<2>::step();
 template void World<2>::step_free();
 template void World<2>::step_bodies();
+template Body_counts World<2>::body_counts() const;
 template void World<2>::report(std::size_t);
 template void World<2>::validate();
 template void World<3>::step();
 template void World<3>::step_free();
 template void World<3>::step_bodies();
+template Body_counts World<3>::body_counts() const;
 template void World<3>::report(std::size_t);
 template void World<3>::validate();
 

@@ -157,6 +157,16 @@ TEST_F(Run_bodies, ThreeSegmentsAreTheOtherSweep) {
   expect_failure(2, {"run", "flat.json", "-o", "out", "--sweep", "none"}, {"--sweep"});
 }
 
+TEST_F(Run_bodies, ThreadsChangeNothing) {
+  run_grid();
+  for (const char* threads : {"1", "3"}) {
+    succeed({"run", "grid.json", "-o", threads, "--threads", threads});
+    for (const char* file : {"/contacts.csv", "/run.json"})
+      EXPECT_EQ(text(std::string(threads) + file), text(std::string("out") + file)) << file;
+  }
+  expect_failure(2, {"run", "grid.json", "-o", "none", "--threads", "0"}, {"--threads"});
+}
+
 TEST_F(Run_bodies, FacesAreSweptOnRequest) {
   run_grid();
   succeed({"run", "grid.json", "-o", "faces", "--sweep", "faces"});

@@ -6,6 +6,7 @@
 #include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <bit>
 #include <cmath>
@@ -130,6 +131,27 @@ TEST(WorldBodies, IsDeterministicAndValidationChangesNothing) {
   EXPECT_EQ(run(1, false, {}), run(1, true, {}));
   EXPECT_EQ(run(1, false, {}), run(1, false, plain));
   EXPECT_NE(run(1, false, {}), run(2, false, {}));
+}
+
+TEST(WorldBodies, AnyNumberOfThreadsGivesTheSameBits) {
+  const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    World<3> world(snapshot, thrown<3>(40, 2, 5), {generate_body(Hexahedron_shape{0.4, false})});
+    std::uint64_t h = 0;
+    std::size_t contacts = 0;
+    for (int i = 0; i < 60; ++i) {
+      world.step();
+      h = hash_of(world, h);
+      for (const auto& c : world.contacts()) {
+        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.time) ^ c.body->body);
+        ++contacts;
+      }
+    }
+    EXPECT_GT(contacts, 200u);
+    return std::pair{h, world.body_counts().edges.walk.walks};
+  };
+  EXPECT_EQ(run(1), run(4));
 }
 
 TEST(WorldBodies, CopiesStartEverywhereInAllDirections) {

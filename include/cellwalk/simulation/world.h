@@ -59,7 +59,7 @@ class World {
   /// What particles walked.
   const Walk_counts& counts() const { return counts_; }
   /// What the moves of bodies did.
-  const Body_counts& body_counts() const { return body_counts_; }
+  Body_counts body_counts() const;
 
   /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are caught up first (see
   /// Body::catch_up), which moves nothing and shows in the counts only.
@@ -86,10 +86,13 @@ class World {
   std::vector<std::size_t> entry_of_;
   Flight_conditions<D> conditions_;
   std::vector<Contact_record<D>> contacts_;
-  std::vector<Body_contact<D>> body_contacts_;  ///< of one body in one step
+  struct Body_step {
+    std::vector<Body_contact<D>> contacts;  ///< in the latest step
+    Body_counts counts;                     ///< of all steps
+  };
+  std::vector<Body_step> body_steps_;  ///< of each body: they move at the same time
   std::vector<Met_contact<D>> met_;
   Walk_counts counts_;
-  Body_counts body_counts_;
 };
 
 extern template class World<2>;
