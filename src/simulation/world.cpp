@@ -47,12 +47,13 @@ template <int D>
 void World<D>::step_bodies() {
   constexpr std::size_t bodies_at_once = 8;
   body_steps_.resize(bodies_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bodies_.size(), bodies_at_once), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      body_steps_[i].contacts.clear();
-      bodies_[i].step(conditions_, body_steps_[i].contacts, body_steps_[i].counts);
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bodies_.size(), bodies_at_once),
+                    [&](const auto& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        body_steps_[i].contacts.clear();
+                        bodies_[i].step(conditions_, body_steps_[i].contacts, body_steps_[i].counts);
+                      }
+                    });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
     for (const Body_contact<D>& met : body_steps_[i].contacts) {
       const Contact<D>& c = met.contact;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and on worlds of
 // spikes and long edges, where edges slide in planes of walls.
-#include <algorithm>
 #include <cellwalk/kernel/predicates.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <numeric>
 
