@@ -88,7 +88,7 @@ class Region_search {
     for (const std::size_t i : open) {
       const Cell next = snapshot_.neighbor(Snapshot<D>::half_facet(cell, i));
       if (is_found(next)) continue;
-      if (found_.size() == request_.most_cells) {
+      if (found_.size() >= request_.most_cells) {
         effort_.is_exhausted = true;
         if (!cut_off(view, i, false)) return false;
         continue;

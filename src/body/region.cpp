@@ -104,6 +104,8 @@ void Body<D>::catch_up_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!vertex_behind_[vertex]) return;
   // Between two points of the region is no wall.
   vertex_behind_[vertex] = false;
+  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
+  if (particles_[vertex].position == positions_[vertex]) return;
   particles_[vertex] = region_->anchor();
   move(*snapshot_, particles_[vertex], positions_[vertex], counts.edges.walk);
   ++counts.catch_ups;

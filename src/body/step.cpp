@@ -42,7 +42,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
     if (moves_in_region(v, targets[v], counts)) continue;
     Point<D> target = targets[v];
     normals.clear();
-    for (int met = 0; met < options.most_contacts; ++met) {
+    for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
       const auto contact = try_move(v, target, options, counts);
       if (!contact) break;
       ++counts.contacts;

@@ -165,6 +165,28 @@ TEST(Body_step, RefusesFacesThatWallsPierce) {
   }
 }
 
+/// Free moves need no contacts; the first of them is where a vertex stops.
+TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
+  const Snapshot<2> snapshot = rooms<2>({4, 4});
+  const Locator<2> locator(snapshot);
+  for (const bool clearance : {false, true})
+    for (const int most : {-1, 0, 1, 2}) {
+      Body<2> body(snapshot, locator, {{{1.5, 1.5}}, {}, {}});
+      Body_options options;
+      options.clearance = clearance;
+      options.most_contacts = most;
+      std::vector<Body_contact<2>> contacts;
+      Body_counts counts;
+      body.step(std::vector<Point<2>>{{2.5, 1.5}}, options, contacts, counts);
+      EXPECT_EQ(body.positions()[0], (Point<2>{2.5, 1.5})) << most;
+      EXPECT_TRUE(contacts.empty());
+      body.step(std::vector<Point<2>>{{5, 2.5}}, options, contacts, counts);
+      EXPECT_EQ(contacts.size(), 1u);
+      EXPECT_NEAR(body.positions()[0][0], 4, 1e-12) << most;
+      EXPECT_EQ(body.positions()[0][1] > 2.4, most > 1) << "it goes on along the wall after the first";
+    }
+}
+
 TEST(Body_step, ABodyWithoutVerticesStaysOne) {
   const Snapshot<3> snapshot = rooms<3>({2, 2, 2}, {});
   Body<3> body(snapshot, Locator<3>(snapshot), {});
@@ -193,6 +215,40 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   EXPECT_EQ(contacts.size(), 1u);
   EXPECT_EQ(body.positions()[0][0], 11);
   EXPECT_NO_THROW(body.validate());
+}
+
+/// A vertex between two cells is registered in one of them. It lies in the plane of a wall further on, and the cell is what says
+/// on which side of that it comes to lie.
+TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
+  Cell_soup<2> soup = square_grid(Grid_options<2>{.cells = {8, 4}});
+  int walls = 0;
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
+    const Point<2>&u = soup.points[soup.facet(f)[0]], &v = soup.points[soup.facet(f)[1]];
+    if (u[1] != 2 || v[1] != 2 || u[0] + v[0] != 13) continue;  // from (6, 2) to (7, 2)
+    soup.impassable[f] = 1;
+    ++walls;
+  }
+  ASSERT_EQ(walls, 2);
+  const Snapshot<2> snapshot = compile(soup);
+  const Locator<2> locator(snapshot);
+  for (const bool clearance : {false, true}) {
+    // The other vertex is above: from there the upper cell is the first met.
+    Body<2> body(snapshot, locator, {{{1.5, 2.5}, {1.5, 2}}, {{0, 1}}, {}});
+    Body_options options;
+    options.clearance = clearance;
+    std::vector<Body_contact<2>> contacts;
+    Body_counts counts;
+    const Cell below = body.particles()[1].cell;
+    body.step(std::vector<Point<2>>{{1.75, 2.5}, {1.5, 2}}, options, contacts, counts);
+    EXPECT_EQ(counts.in_region, clearance ? 2u : 0u);
+    body.leave_region(counts);
+    EXPECT_EQ(body.particles()[1].cell, below);
+    EXPECT_FALSE(body.move_vertex(0, {1.5, 1.5}, options, counts));
+    EXPECT_FALSE(body.move_vertex(1, {6.5, 2}, options, counts)) << "onto the wall";
+    EXPECT_TRUE(body.move_vertex(1, {6.5, 2.5}, options, counts)) << "through it";
+    EXPECT_FALSE(body.move_vertex(1, {6.5, 1.5}, options, counts)) << "off it";
+    EXPECT_NO_THROW(body.validate());
+  }
 }
 
 TEST(Body_step, AVertexThatStaysMeetsNothing) {

@@ -122,6 +122,25 @@ TEST(Clear_region, ReachesWallsAndWhereTheMotionLeads) {
   EXPECT_FALSE(region->holds({1.5, 3})) << "it leads not there";
 }
 
+TEST(Clear_region, LooksAtTheCellOfTheAnchorAtLeast) {
+  const Snapshot<2> snapshot = rooms<2>({6, 6});
+  const Locator<2> locator(snapshot);
+  const std::vector<Point<2>> positions{{2.5, 2.5}}, targets{{2.75, 2.5}};
+  Region_request<2> request;
+  request.positions = positions;
+  request.targets = targets;
+  for (const std::size_t most : {std::size_t{0}, std::size_t{1}}) {
+    Region_effort effort;
+    request.most_cells = most;
+    const auto region = find_clear_region(snapshot, locator.particle_at({2.5, 2.5}), request, effort);
+    ASSERT_TRUE(region);
+    EXPECT_EQ(effort.cells, 1u);
+    EXPECT_TRUE(effort.is_exhausted);
+    EXPECT_TRUE(region->holds({2.75, 2.5}));
+    EXPECT_FALSE(region->holds({3, 2.5}));
+  }
+}
+
 TEST(Clear_region, IsNoneAtAWall) {
   const Snapshot<2> snapshot = rooms<2>({6, 6}, {14});
   const Locator<2> locator(snapshot);

@@ -43,8 +43,11 @@ struct Blocked_move {
 
 struct Body_options {
   Sweep_options sweep;
-  bool clearance = true;  ///< keep a region that is free of walls, in which nothing needs a test
-  /// A vertex that meets a wall goes on along it, at most so often in a step.
+  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only, a vertex that comes to
+  /// lie on a border between cells may be registered in another of them, and where walls leave a choice, of the side on which a
+  /// motion in their plane goes on or of the one to report, that may be taken otherwise.
+  bool clearance = true;
+  /// A vertex that meets a wall goes on along it, until it met so many in a step. Less than 1 is 1: it stays at the first.
   int most_contacts = 4;
   /// A vertex that meets a wall stays where it is, and does not go on: the rule of traces.
   bool hold = false;
