@@ -13,10 +13,19 @@ constexpr std::uint32_t patience_with_targets = 6;
 constexpr std::uint32_t least_patience = 1, most_patience = 64;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
-/// How many steps ahead, where there are not too many cells.
-constexpr double furthest_ahead = 24;
 
 }  // namespace
+
+/// Begins a step: true if all vertices could be moved without a test, and were.
+template <int D>
+bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_options& options,
+                            Body_counts& counts) {
+  if (positions_.empty()) return true;
+  counts.moves += positions_.size();
+  if (options.clearance) return moves_in_region(targets, counts);
+  leave_region(counts);
+  return false;
+}
 
 /// Moves all vertices, if the region allows it.
 template <int D>
@@ -70,7 +79,8 @@ void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& count
   Region_effort effort;
   const auto found = find_clear_region(*snapshot_, particles_[anchor_vertex_], request, effort);
   counts.region_cells += effort.cells;
-  steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_ : std::min(2 * steps_ahead_ + 1, furthest_ahead);
+  steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_
+                                     : std::min(2 * steps_ahead_ + 1, Region_request<D>{}.steps_ahead);
   outside_ = 0;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     is_outside_[v] = !found || !found->holds(positions_[v]);
@@ -143,15 +153,16 @@ void Body<D>::place(std::uint32_t vertex, const Point<D>& position) {
   outside_ += is_outside_[vertex];
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                         \
-  template bool Body<D>::moves_in_region(std::span<const Point<D>>, Body_counts&);      \
-  template bool Body<D>::moves_in_region(std::uint32_t, const Point<D>&, Body_counts&); \
-  template void Body<D>::renew_region(std::span<const Point<D>>, Body_counts&);         \
-  template void Body<D>::note_all_behind();                                             \
-  template void Body<D>::catch_up_vertex(std::uint32_t, Body_counts&);                  \
-  template void Body<D>::catch_up_edge(std::uint32_t, Body_counts&);                    \
-  template void Body<D>::catch_up(Body_counts&);                                        \
-  template void Body<D>::leave_region(Body_counts&);                                    \
+#define CELLWALK_INSTANTIATE(D)                                                                       \
+  template bool Body<D>::moves_at_once(std::span<const Point<D>>, const Body_options&, Body_counts&); \
+  template bool Body<D>::moves_in_region(std::span<const Point<D>>, Body_counts&);                    \
+  template bool Body<D>::moves_in_region(std::uint32_t, const Point<D>&, Body_counts&);               \
+  template void Body<D>::renew_region(std::span<const Point<D>>, Body_counts&);                       \
+  template void Body<D>::note_all_behind();                                                           \
+  template void Body<D>::catch_up_vertex(std::uint32_t, Body_counts&);                                \
+  template void Body<D>::catch_up_edge(std::uint32_t, Body_counts&);                                  \
+  template void Body<D>::catch_up(Body_counts&);                                                      \
+  template void Body<D>::leave_region(Body_counts&);                                                  \
   template void Body<D>::place(std::uint32_t, const Point<D>&);
 
 CELLWALK_INSTANTIATE(2)

@@ -31,12 +31,7 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
 template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options,
                    std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
-  if (positions_.empty()) return;
-  counts.moves += positions_.size();
-  if (!options.clearance)
-    leave_region(counts);
-  else if (moves_in_region(targets, counts))
-    return;
+  if (moves_at_once(targets, options, counts)) return;
   std::vector<Vector<D>> normals;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     if (moves_in_region(v, targets[v], counts)) continue;

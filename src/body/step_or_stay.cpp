@@ -5,34 +5,10 @@
 #include <utility>
 
 namespace cellwalk {
-namespace {
-
-/// Facet i of a cell leads to another, their union is convex, and it is the only one that they share: all between their insides
-/// passes it. Half_facet::none if there is no such facet.
-template <int D>
-Half_facet convex_passage(const Snapshot<D>& snapshot, Cell from, Cell to) {
-  Half_facet passage = Half_facet::none;
-  const std::size_t facets = snapshot.facet_count(from);
-  for (std::size_t i = 0; i < facets; ++i) {
-    const Half_facet f = Snapshot<D>::half_facet(from, i);
-    if (snapshot.neighbor(f) != to) continue;
-    if (passage != Half_facet::none || !snapshot.is_convex_pair(f)) return Half_facet::none;
-    passage = f;
-  }
-  return passage;
-}
-
-}  // namespace
-
 template <int D>
 void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
                            std::vector<Blocked_move<D>>& blocked, Body_counts& counts) {
-  if (positions_.empty()) return;
-  counts.moves += positions_.size();
-  if (!options.clearance)
-    leave_region(counts);
-  else if (moves_in_region(targets, counts))
-    return;
+  if (moves_at_once(targets, options, counts)) return;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     if (moves_in_region(v, targets[v], counts)) continue;
     const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
@@ -72,8 +48,9 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
   moved_chains_.resize(end - begin);
   for (std::uint32_t i = begin; i < end; ++i) {
     Moved_chain& moved = moved_chains_[i - begin];
-    moved.is_behind = !needs_way || (is_inside && !is_outside_[corners_[i].other]);
-    if (is_inside && !is_outside_[corners_[i].other]) continue;
+    const bool is_in_region = is_inside && !is_outside_[corners_[i].other];
+    moved.is_behind = !needs_way || is_in_region;
+    if (is_in_region) continue;
     const bool is_met = needs_way ? sweep_meets_at_end(way, i, options.sweep, moved.chain, answer, counts)
                                   : meets_at_end(way, i, options.sweep, answer, counts);
     if (is_met) answer.edges |= std::uint64_t{1} << (i - begin);

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "cli/command.h"
+#include "cli/counts_json.h"
 #include "cli/environment_file.h"
 #include "cli/query_moves.h"
 #include "cli/query_sweeps.h"
@@ -31,21 +32,6 @@ struct Query_options {
   Build_options build{.keep_map = false};
 };
 
-nlohmann::ordered_json to_json(const Walk_counts& c) {
-  return {{"walks", c.walks},
-          {"stays", c.stays},
-          {"crossings", c.crossings},
-          {"plane_blocks", c.plane_blocks},
-          {"uncertain_lanes", c.uncertain_lanes},
-          {"side_tests", c.side_tests},
-          {"along_tests", c.along_tests},
-          {"turns", c.turns},
-          {"star_searches", c.star_searches},
-          {"star_cells", c.star_cells},
-          {"orientations", c.predicates.orientations},
-          {"exact_fallbacks", c.predicates.fallbacks}};
-}
-
 nlohmann::ordered_json to_json(const Edge_counts& c) {
   return {{"edges", c.edges},
           {"same_cell", c.same_cell},
@@ -61,7 +47,7 @@ nlohmann::ordered_json to_json(const Edge_counts& c) {
           {"search_sweeps", c.search_sweeps},
           {"search_walls", c.search_walls},
           {"search_misses", c.search_misses},
-          {"walk", to_json(c.walk)}};
+          {"walk", cli::to_json(c.walk)}};
 }
 
 /// Writes the answers and says how many there are of each status.
@@ -94,7 +80,7 @@ void query_environment(const Query_options& options, const Environment<D>& envir
   if (options.mode == Query_mode::move) {
     const auto moves = io::read_moves<D>(options.queries);
     const auto answers = answer_moves(snapshot, moves, options.move, counts);
-    report(options, snapshot, moves, answers, to_json(counts.walk));
+    report(options, snapshot, moves, answers, cli::to_json(counts.walk));
   } else {
     const auto sweeps = io::read_sweeps<D>(options.queries);
     const auto answers = answer_sweeps(snapshot, sweeps, options.sweep, counts);

@@ -98,23 +98,11 @@ ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
   return result;
 }
 
-ordered_json to_json(const Walk_counts& c) {
-  return {{"walks", c.walks},
-          {"stays", c.stays},
-          {"crossings", c.crossings},
-          {"plane_blocks", c.plane_blocks},
-          {"uncertain_lanes", c.uncertain_lanes},
-          {"side_tests", c.side_tests},
-          {"along_tests", c.along_tests},
-          {"star_searches", c.star_searches},
-          {"orientations", c.predicates.orientations},
-          {"exact_fallbacks", c.predicates.fallbacks}};
-}
-
 ordered_json to_json(const Edge_counts& c) {
   return {{"checked", c.edges},         {"same_cell", c.same_cell}, {"convex_pair", c.convex_pair},
           {"same_chain", c.same_chain}, {"clear", c.clear},         {"event_sweeps", c.event_sweeps},
-          {"changed", c.changed},       {"floods", c.floods},       {"flooded_cells", c.flooded_cells}};
+          {"changed", c.changed},       {"floods", c.floods},       {"flooded_cells", c.flooded_cells},
+          {"pierced", c.pierced}};
 }
 
 ordered_json shares_json(const Edge_counts& c) {
@@ -126,10 +114,10 @@ ordered_json shares_json(const Edge_counts& c) {
 }
 
 ordered_json to_json(const Body_counts& c) {
-  ordered_json result{{"moves", c.moves},           {"in_region", c.in_region},
-                      {"regions", c.regions},       {"no_region", c.no_region},
-                      {"catch_ups", c.catch_ups},   {"contacts", c.contacts},
-                      {"stop_tries", c.stop_tries}, {"held", c.held}};
+  ordered_json result{
+      {"moves", c.moves},         {"in_region", c.in_region},       {"regions", c.regions},
+      {"no_region", c.no_region}, {"region_cells", c.region_cells}, {"catch_ups", c.catch_ups},
+      {"contacts", c.contacts},   {"stop_tries", c.stop_tries},     {"held", c.held}};
   result["edges"] = to_json(c.edges);
   result["shares"] = {{"in_region", share(c.in_region, c.moves)}};
   result["shares"].update(shares_json(c.edges));

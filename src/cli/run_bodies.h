@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/counts_json.h"
 #include "cli/run_files.h"
 
 namespace cellwalk::cli {
@@ -37,7 +38,6 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene);
 /// Sizes, contacts and notes.
 nlohmann::ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
                                    const std::vector<std::string>& notes);
-nlohmann::ordered_json to_json(const Walk_counts& counts);
 nlohmann::ordered_json to_json(const Edge_counts& counts);
 /// The share of edge checks that each certificate decided.
 nlohmann::ordered_json shares_json(const Edge_counts& counts);

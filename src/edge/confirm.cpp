@@ -2,22 +2,6 @@
 #include "confirm.h"
 
 namespace cellwalk {
-namespace {
-
-/// True if the union of the cells on both sides of a facet is convex, and it is the only facet they share: a segment between
-/// them passes it.
-template <int D>
-bool joins_convex_pair(const Snapshot<D>& snapshot, Half_facet f) {
-  if (!snapshot.is_convex_pair(f)) return false;
-  const Cell c = snapshot.cell_of(f), other = snapshot.neighbor(f);
-  int shared = 0;
-  for (std::size_t i = 0; i < snapshot.facet_count(c); ++i)
-    shared += snapshot.neighbor(Snapshot<D>::half_facet(c, i)) == other;
-  return shared == 1;
-}
-
-}  // namespace
-
 template <int D>
 bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
                           std::span<const Half_facet> crossed, const Particle<D>& p, const Particle<D>& q,
@@ -31,7 +15,9 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
     result = {};
     return true;
   }
-  if (certificates.convex_pair && chain.size() == 1 && joins_convex_pair(snapshot, chain.front())) {
+  if (certificates.convex_pair && chain.size() == 1 &&
+      convex_passage(snapshot, snapshot.cell_of(chain.front()), snapshot.neighbor(chain.front())) !=
+          Half_facet::none) {
     ++counts.convex_pair;
     result = {chain, {}, {}};
     return true;

@@ -99,7 +99,7 @@ class Body {
 
   /// Moves the vertices one after the other, by the rule of the paper: a vertex that meets a wall, or would have an edge that does
   /// where it goes, stays where it is. Whatever the sweep, only the way of the vertex and the edges at its end decide; the
-  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. No contact is located. Appends what
+  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. Touching is free, and no contact is located. Appends what
   /// blocks, vertex by vertex; a vertex without an entry moved, and nothing was met.
   /// \pre one finite target a vertex; no vertex has more than 64 edges
   /// Cost: that of step(), less that of locating contacts.
@@ -153,6 +153,7 @@ class Body {
                        const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
+  bool moves_at_once(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
   bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
   bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   void renew_region(std::span<const Point<D>> targets, Body_counts& counts);
@@ -184,12 +185,12 @@ class Body {
   std::vector<char> is_outside_;       ///< of each vertex
   bool are_all_behind_ = false;        ///< all of the following
   std::vector<char> vertex_behind_;    ///< its particle is where it was; it is in the region
-  std::vector<char> edge_behind_;      ///< its chain is that of before; it meets no wall
+  std::vector<char> edge_behind_;      ///< its chain is not known, but it has one
   std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
   std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
   std::uint32_t next_patience_ = 4;    ///< if that finds none
-  double steps_ahead_ = 24;            ///< that the next one is asked to hold
-  std::uint32_t anchor_vertex_ = 0;    ///< about which it is looked for
+  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next one is asked to hold
+  std::uint32_t anchor_vertex_ = 0;                       ///< about which it is looked for
 
   // Scratch space of move_vertex.
   std::vector<Cell> visited_;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cli/counts_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace cellwalk::cli {
+
+nlohmann::ordered_json to_json(const Walk_counts& c) {
+  return {{"walks", c.walks},
+          {"stays", c.stays},
+          {"crossings", c.crossings},
+          {"plane_blocks", c.plane_blocks},
+          {"uncertain_lanes", c.uncertain_lanes},
+          {"side_tests", c.side_tests},
+          {"along_tests", c.along_tests},
+          {"turns", c.turns},
+          {"star_searches", c.star_searches},
+          {"star_cells", c.star_cells},
+          {"orientations", c.predicates.orientations},
+          {"exact_fallbacks", c.predicates.fallbacks}};
+}
+
+}  // namespace cellwalk::cli
