@@ -33,6 +33,7 @@ Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body
       edges_(soup.edges),
       faces_(soup.faces),
       is_outside_(soup.points.size()),
+      outside_near_(soup.points.size()),
       vertex_behind_(soup.points.size()),
       edge_behind_(soup.edges.size()) {
   detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);

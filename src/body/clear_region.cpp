@@ -5,13 +5,17 @@
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cut_plane.h"
-#include "point_box.h"
 
 namespace cellwalk {
 namespace {
@@ -19,11 +23,14 @@ namespace {
 using detail::Box;
 using detail::box_of;
 using detail::Cut_plane;
+using detail::furthest;
 
 /// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
 constexpr double enough_steps = 4;
 /// How often a direction is turned to part two sets of points.
-constexpr int most_turns = 12;
+constexpr int most_turns = 6;
+/// Cells of so many blocks are looked at in one go.
+constexpr std::size_t blocks_at_once = 16;
 
 template <int D>
 class Region_search {
@@ -35,6 +42,8 @@ class Region_search {
         effort_(effort),
         kept_(box_of<D>(request.positions)),
         wanted_(kept_),
+        positions_(request.positions),
+        targets_(request.targets),
         region_(anchor, kept_.low, kept_.high) {
     const Box<D> targets = box_of<D>(request.targets);
     wanted_.extend(targets);
@@ -51,52 +60,67 @@ class Region_search {
       const double around = request.steps_around * step;
       low[k] = wanted_.low[k] - request.steps_ahead * std::max(0.0, down[k]) - around;
       high[k] = wanted_.high[k] + request.steps_ahead * std::max(0.0, up[k]) + around;
+      sizes_[k] = std::max(std::abs(low[k]), std::abs(high[k]));
     }
-    region_ = {anchor, low, high};
+    region_.set_box(low, high);
   }
 
-  std::optional<Clear_region<D>> find() {
-    for (int k = 0; k < D; ++k)
-      sizes_[k] = std::max(std::abs(region_.box().low(k)), std::abs(region_.box().high(k)));
-    if (!is_finite(sizes_)) return {};
+  bool find() {
+    if (!is_finite(sizes_)) return false;
     found_.push_back(region_.anchor().cell);
     bool is_good = true;
     for (std::size_t head = 0; is_good && head < found_.size(); ++head) is_good = visit(found_[head]);
     effort_.cells += found_.size();
     // The box is open: a body without extent needs one around it.
-    if (!is_good || !region_.holds(region_.anchor().position)) return {};
-    return region_;
+    return is_good && region_.holds(region_.anchor().position);
   }
+  const Clear_region<D>& region() const { return region_; }
 
  private:
   /// Cuts its walls off, and adds its neighbours. False if a cut cannot be made.
   bool visit(Cell cell) {
-    const Cell_view<D> view = snapshot_.view(cell);
-    boost::container::small_vector<std::size_t, 16> open;
     const std::size_t blocks = snapshot_.block_count(cell);
-    for (std::size_t b = 0; b < blocks; ++b) {
-      for (unsigned met = facets_met(snapshot_.blocks(cell)[b]); met != 0; met &= met - 1) {
-        const std::size_t i = 4 * b + static_cast<std::size_t>(std::countr_zero(met));
-        if (i >= view.facet_count()) break;
-        const Half_facet f = Snapshot<D>::half_facet(cell, i);
-        if (!snapshot_.is_impassable(f))
-          open.push_back(i);
-        else if (!cut_off(view, i))
-          return false;
+    for (std::size_t begin = 0; begin < blocks; begin += blocks_at_once) {
+      // A bit a facet; lanes without one are never met.
+      std::uint64_t met = 0;
+      if (!is_mapped_) map_box();
+      const std::size_t end = std::min(blocks, begin + blocks_at_once);
+      for (std::size_t b = begin; b < end; ++b)
+        met |= std::uint64_t{facets_met(snapshot_.blocks(cell)[b])} << 4 * (b - begin);
+      const auto facet = [begin](std::uint64_t bits) {
+        return 4 * begin + static_cast<std::size_t>(std::countr_zero(bits));
+      };
+      for (std::uint64_t left = met; left != 0; left &= left - 1) {
+        const std::size_t i = facet(left);
+        if (!snapshot_.is_impassable(Snapshot<D>::half_facet(cell, i))) continue;
+        met ^= left & -left;
+        if (!cut_off(snapshot_.view(cell), i)) return false;
       }
-    }
-    for (const std::size_t i : open) {
-      const Cell next = snapshot_.neighbor(Snapshot<D>::half_facet(cell, i));
-      if (is_found(next)) continue;
-      if (found_.size() >= request_.most_cells) {
-        effort_.is_exhausted = true;
-        if (!cut_off(view, i, false)) return false;
-        continue;
-      }
-      found_.push_back(next);
-      note_found(next);
+      for (; met != 0; met &= met - 1)
+        if (!enter(cell, facet(met))) return false;
     }
     return true;
+  }
+
+  /// Adds the cell behind a passable facet; if there are too many, the facet is cut off. False if that cannot be made.
+  bool enter(Cell cell, std::size_t i) {
+    const Cell next = snapshot_.neighbor(Snapshot<D>::half_facet(cell, i));
+    if (is_found(next)) return true;
+    if (found_.size() >= request_.most_cells) {
+      effort_.is_exhausted = true;
+      return cut_off(snapshot_.view(cell), i, false);
+    }
+    prefetch(next);
+    found_.push_back(next);
+    note_found(next);
+    return true;
+  }
+
+  /// Asks for what visit() will need: in a large environment the cells are not in the cache, and so they come side by side.
+  void prefetch(Cell cell) const {
+    const Plane_block<D>* planes = snapshot_.blocks(cell);
+    for (std::size_t b = 0; b < snapshot_.block_count(cell); ++b) __builtin_prefetch(planes + b);
+    __builtin_prefetch(snapshot_.links(cell));
   }
 
   /// Few cells are compared one by one, many looked up in a table.
@@ -124,16 +148,13 @@ class Region_search {
   /// Facets (bits) of a block whose planes the closed box does not certainly lie inside of. The corner of the box that is
   /// furthest outside is a point like any other: its value is within plane_error.
   unsigned facets_met(const Plane_block<D>& block) {
-    if (!is_mapped_) map_box();
-    std::array<Float4, D> furthest;
-    for (std::size_t k = 0; k < D; ++k) {
-      const Float4 low = block.normal[k] * low_[k], high = block.normal[k] * high_[k];
-      furthest[k] = low > high ? low : high;
-    }
-    const Float4 r = furthest[D - 1] + block.offset;
-    Float4 value = furthest[0] + r;
-    if constexpr (D == 3) value = (furthest[0] + furthest[1]) + r;
-    return ~lane_mask(value < -plane_error) & 0xfu;  // not numbers, where the frame overflows, count as met
+    std::array<Float4, D> far;
+    for (std::size_t k = 0; k < D; ++k)
+      far[k] = lane_max(block.normal[k] * low_[k], block.normal[k] * high_[k]);
+    const Float4 r = far[D - 1] + block.offset;
+    Float4 value = far[0] + r;
+    if constexpr (D == 3) value = (far[0] + far[1]) + r;
+    return ~lane_mask(value < -plane_error) & 0xfu;
   }
 
   /// Nothing of the environment lies outside its frame.
@@ -159,12 +180,13 @@ class Region_search {
       if (facet.low[k] >= region_.box().high(k) || facet.high[k] <= region_.box().low(k)) return true;
     for (const Cut_plane<D>& plane : planes_)
       if (detail::is_beyond(plane, cell, i)) return true;
-    return cut_keeping(wanted_, cell, i, facet) || cut_keeping(kept_, cell, i, facet) ||
+    return cut_keeping(true, cell, i, facet) || cut_keeping(false, cell, i, facet) ||
            (may_lose && cut_keeping_anchor(cell, i, facet));
   }
 
-  /// The best cut that loses nothing of a box, nor of the positions (and targets) in it.
-  bool cut_keeping(const Box<D>& kept, const Cell_view<D>& cell, std::size_t i, const Box<D>& facet) {
+  /// The best cut that loses no positions, and no targets where these are to be kept.
+  bool cut_keeping(bool with_targets, const Cell_view<D>& cell, std::size_t i, const Box<D>& facet) {
+    const Box<D>& kept = with_targets ? wanted_ : kept_;
     double best = 0;
     int axis = 0;
     bool above = true;
@@ -181,7 +203,6 @@ class Region_search {
       }
     }
     if (best < enough_ && planes_.size() < Clear_region<D>::most_planes) {
-      const bool with_targets = &kept == &wanted_;
       if (cut_by_plane(cell, i, detail::outward(cell, i), with_targets, best)) return true;
       // To part the targets as well would be in vain where they lie behind a wall.
       if (!(best > 0) && !with_targets && cut_by_plane(cell, i, apart(cell, i), false, 0)) return true;
@@ -192,82 +213,85 @@ class Region_search {
     else
       region_.cut_below(axis, facet.high[axis]);
     is_mapped_ = false;
-    if (&kept == &kept_) lose_what_is_outside(wanted_);
+    if (!with_targets) lose_targets();
     return true;
   }
 
   /// The cut that loses the fewest positions.
   bool cut_keeping_anchor(const Cell_view<D>& cell, std::size_t i, const Box<D>& facet) {
-    std::size_t most = 0;
-    Clear_region<D> best = region_;
-    const auto consider = [&](const Clear_region<D>& region) {
-      if (!region.holds(region.anchor().position)) return false;
-      const auto count =
-          static_cast<std::size_t>(std::count_if(request_.positions.begin(), request_.positions.end(),
-                                                 [&](const Point<D>& x) { return region.holds(x); }));
-      if (count <= most) return false;
-      most = count;
-      best = region;
-      return true;
+    const auto plane = planes_.size() < Clear_region<D>::most_planes
+                           ? detail::plane_before(cell, i, detail::outward(cell, i), sizes_)
+                           : std::nullopt;
+    // Positions before the facet along each axis, behind it, and in the half-space before it.
+    std::array<std::size_t, 2 * D + 1> counts{};
+    const auto is_left = [&](std::size_t cut, const Point<D>& x) {
+      if (cut == 2 * D) return plane && dot(plane->normal, x) < plane->offset;
+      const std::size_t k = cut / 2;
+      return cut % 2 == 0 ? x[k] < facet.low[k] : facet.high[k] < x[k];
     };
-    for (int k = 0; k < D; ++k) {
-      Clear_region<D> below = region_, above = region_;
-      below.cut_above(k, facet.low[k]);
-      above.cut_below(k, facet.high[k]);
-      consider(below);
-      consider(above);
-    }
-    if (const auto plane = plane_before(cell, i, detail::outward(cell, i))) {
-      Clear_region<D> below = region_;
-      below.cut(plane->normal, plane->offset);
-      if (consider(below)) planes_.push_back(*plane);
-    }
+    for (const Point<D>& x : positions_)
+      for (std::size_t cut = 0; cut < counts.size(); ++cut) counts[cut] += is_left(cut, x);
+    std::size_t best = counts.size(), most = 0;
+    for (std::size_t cut = 0; cut < counts.size(); ++cut)
+      if (counts[cut] > most && is_left(cut, region_.anchor().position)) {
+        best = cut;
+        most = counts[cut];
+      }
     if (most == 0) return false;
-    region_ = best;
+    if (best == 2 * D)
+      cut(*plane);
+    else if (best % 2 == 0)
+      region_.cut_above(static_cast<int>(best / 2), facet.low[best / 2]);
+    else
+      region_.cut_below(static_cast<int>(best / 2), facet.high[best / 2]);
     is_mapped_ = false;
     lose_what_is_outside(kept_);
-    lose_what_is_outside(wanted_);
+    lose_points(positions_, positions_left_);
+    lose_targets();
     return true;
   }
 
+  void cut(const Cut_plane<D>& plane) {
+    region_.cut(plane.normal, plane.offset);
+    planes_.push_back(plane);
+  }
+
+  void lose_targets() {
+    lose_what_is_outside(wanted_);
+    lose_points(targets_, targets_left_);
+  }
   void lose_what_is_outside(Box<D>& box) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (int k = 0; k < D; ++k) {
-      box.low[k] = std::max(box.low[k], std::nextafter(region_.box().low(k), infinity));
-      box.high[k] = std::min(box.high[k], std::nextafter(region_.box().high(k), -infinity));
+      box.low[k] = std::max(box.low[k], region_.box().low(k));
+      box.high[k] = std::min(box.high[k], region_.box().high(k));
     }
+  }
+  void lose_points(std::span<const Point<D>>& points, std::vector<Point<D>>& left) const {
+    std::vector<Point<D>> held;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(held),
+                 [this](const Point<D>& x) { return region_.holds(x); });
+    left = std::move(held);
+    points = left;
   }
 
   /// Cuts in a direction, if the points to keep are further from there than `best`.
   bool cut_by_plane(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal, bool with_targets,
                     double best) {
-    const auto plane = plane_before(cell, i, normal);
-    if (!plane) return false;
+    double most = furthest<D>(normal, positions_);
+    if (with_targets) most = std::max(most, furthest<D>(normal, targets_));
     const double gap = best * length(normal);
-    if (!is_before(*plane, gap, request_.positions)) return false;
-    if (with_targets && !is_before(*plane, gap, request_.targets)) return false;
-    region_.cut(plane->normal, plane->offset);
-    planes_.push_back(*plane);
+    // Most that are of no use are found out before anything is bounded.
+    if (!(most < dot(normal, cell.point(cell.loop(i)[0])) - gap)) return false;
+    const auto plane = detail::plane_before(cell, i, normal, sizes_);
+    if (!plane || !(most < plane->offset - gap)) return false;
+    cut(*plane);
+    if (!with_targets) lose_targets();
     return true;
   }
 
-  /// None if nothing can be said, or there are as many half-spaces as there may be.
-  std::optional<Cut_plane<D>> plane_before(const Cell_view<D>& cell, std::size_t i,
-                                           const Vector<D>& normal) const {
-    if (planes_.size() == Clear_region<D>::most_planes) return {};
-    return detail::plane_before(cell, i, normal, sizes_);
-  }
-
-  /// True if the points that the region holds are inside a half-space, and further inside than a gap, in units of its normal.
-  bool is_before(const Cut_plane<D>& plane, double gap, std::span<const Point<D>> points) const {
-    const double most = plane.offset - gap;
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Point<D>& x) { return dot(plane.normal, x) < most || !region_.holds(x); });
-  }
-
   /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is soon found: it is turned
-  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; plane_before() and
-  /// is_before() say what it is worth.
+  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; cut_by_plane()
+  /// says what it is worth.
   Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
     Vector<D> normal = detail::outward(cell, i);
@@ -275,8 +299,8 @@ class Region_search {
     for (int turn = 0; turn < most_turns; ++turn) {
       const Point<D>*last = nullptr, *first = nullptr;
       double most = -std::numeric_limits<double>::infinity(), least = -most;
-      for (const Point<D>& x : request_.positions)
-        if (const double d = dot(normal, x); d > most && region_.holds(x)) {
+      for (const Point<D>& x : positions_)
+        if (const double d = dot(normal, x); d > most) {
           most = d;
           last = &x;
         }
@@ -298,6 +322,9 @@ class Region_search {
   const Region_request<D>& request_;
   Region_effort& effort_;
   Box<D> kept_, wanted_;  ///< of positions, and with the targets
+  // Of both, what the region holds.
+  std::span<const Point<D>> positions_, targets_;
+  std::vector<Point<D>> positions_left_, targets_left_;
   Clear_region<D> region_;
   double enough_ = 0;  ///< distance
   Point<D> sizes_;     ///< the largest size of each coordinate in it
@@ -314,7 +341,9 @@ class Region_search {
 template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,
                                                  const Region_request<D>& request, Region_effort& effort) {
-  return Region_search<D>(snapshot, anchor, request, effort).find();
+  Region_search<D> search(snapshot, anchor, request, effort);
+  if (!search.find()) return {};
+  return search.region();
 }
 
 template std::optional<Clear_region<2>> find_clear_region<2>(const Snapshot<2>&, const Particle<2>&,

@@ -3,6 +3,7 @@
 #include <cellwalk/body/body.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace cellwalk {
 namespace {
@@ -16,44 +17,50 @@ constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 409
 
 }  // namespace
 
+/// Moves all vertices without registering them.
+template <int D>
+void Body<D>::take_all(std::span<const Point<D>> targets, Body_counts& counts) {
+  std::memcpy(positions_.data(), targets.data(), targets.size_bytes());
+  are_all_behind_ = true;
+  counts.in_region += targets.size();
+}
+
 /// Begins a step: true if all vertices could be moved without a test, and were.
 template <int D>
 bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_options& options,
                             Body_counts& counts) {
-  if (positions_.empty()) return true;
   counts.moves += positions_.size();
-  if (options.clearance) return moves_in_region(targets, counts);
-  leave_region(counts);
-  return false;
+  if (options.clearance && region_ && outside_ == 0 && region_->holds_all(targets)) [[likely]] {
+    take_all(targets, counts);
+    return true;
+  }
+  return positions_.empty() || moves_in_new_region(targets, options, counts);
 }
 
-/// Moves all vertices, if the region allows it.
+/// The same where the region that there is does not do. Not to be inlined: the question above is short.
 template <int D>
-bool Body<D>::moves_in_region(std::span<const Point<D>> targets, Body_counts& counts) {
-  const auto holds_all = [&] { return region_ && outside_ == 0 && region_->holds_all(targets); };
-  if (!holds_all()) {
-    renew_region(targets, counts);
-    if (!holds_all()) {
-      note_all_behind();
-      return false;
-    }
+[[gnu::noinline]] bool Body<D>::moves_in_new_region(std::span<const Point<D>> targets,
+                                                    const Body_options& options, Body_counts& counts) {
+  if (!options.clearance) {
+    leave_region(counts);
+    return false;
   }
-  std::copy(targets.begin(), targets.end(), positions_.begin());
-  are_all_behind_ = true;
-  counts.in_region += positions_.size();
+  if (!renew_region(targets, counts)) {
+    note_all_behind();
+    return false;
+  }
+  take_all(targets, counts);
   return true;
 }
 
 /// Moves one vertex, if the region allows it.
 template <int D>
 bool Body<D>::moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
-  if (!region_ || is_outside_[vertex] || !region_->holds(target)) return false;
-  const auto begin = corners_.begin() + corner_begin_[vertex],
-             end = corners_.begin() + corner_begin_[vertex + 1];
-  if (std::any_of(begin, end, [this](const Corner& c) { return is_outside_[c.other]; })) return false;
+  if (!region_ || is_outside_[vertex] || outside_near_[vertex] != 0 || !region_->holds(target)) return false;
   positions_[vertex] = target;
   vertex_behind_[vertex] = true;
-  std::for_each(begin, end, [this](const Corner& c) { edge_behind_[c.edge] = true; });
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    edge_behind_[corners_[i].edge] = true;
   if (!faces_.empty())
     for (std::uint32_t i = face_corner_begin_[vertex]; i < face_corner_begin_[vertex + 1]; ++i)
       rests_[face_corners_[i].face].clear();
@@ -61,13 +68,14 @@ bool Body<D>::moves_in_region(std::uint32_t vertex, const Point<D>& target, Body
   return true;
 }
 
-/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered.
+/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered. True if it holds
+/// all.
 template <int D>
-void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
+bool Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
   std::uint32_t& patience = region_ && outside_ == 0 ? target_patience_ : patience_;
   if (patience > 0) {
     --patience;
-    return;
+    return false;
   }
   note_all_behind();
   catch_up_vertex(anchor_vertex_, counts);
@@ -81,23 +89,23 @@ void Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& count
   counts.region_cells += effort.cells;
   steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_
                                      : std::min(2 * steps_ahead_ + 1, Region_request<D>{}.steps_ahead);
-  outside_ = 0;
+  // What leaves the old region is registered while that is still there.
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    is_outside_[v] = !found || !found->holds(positions_[v]);
-    if (!is_outside_[v]) continue;
-    ++outside_;
-    catch_up_vertex(v, counts);
+    set_outside(v, !found || !found->holds(positions_[v]));
+    if (is_outside_[v]) catch_up_vertex(v, counts);
   }
   region_ = found;
   ++(found ? counts.regions : counts.no_region);
   if (found && outside_ == 0) {
     next_patience_ = least_patience;
-    if (!region_->holds_all(targets)) target_patience_ = patience_with_targets;
-    return;
+    if (region_->holds_all(targets)) return true;
+    target_patience_ = patience_with_targets;
+    return false;
   }
   patience_ = next_patience_;
   next_patience_ = std::min(2 * next_patience_, most_patience);
   anchor_vertex_ = anchor_vertex_ + 1 == positions_.size() ? 0 : anchor_vertex_ + 1;
+  return false;
 }
 
 template <int D>
@@ -112,13 +120,23 @@ void Body<D>::note_all_behind() {
 template <int D>
 void Body<D>::catch_up_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!vertex_behind_[vertex]) return;
-  // Between two points of the region is no wall.
   vertex_behind_[vertex] = false;
+  Particle<D>& particle = particles_[vertex];
+  const Point<D>& position = positions_[vertex];
   // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
-  if (particles_[vertex].position == positions_[vertex]) return;
-  particles_[vertex] = region_->anchor();
-  move(*snapshot_, particles_[vertex], positions_[vertex], counts.edges.walk);
+  if (particle.position == position) return;
   ++counts.catch_ups;
+  // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the region is no wall.
+  Walk_counts& walks = counts.edges.walk;
+  Cell cell = particle.cell;
+  if (!detail::certainly_inside(*snapshot_, cell, position, walks))
+    cell = detail::certain_end(*snapshot_, region_->anchor(), position, walks);
+  if (cell != Cell::none) {
+    particle = {position, cell, D, 0};
+    return;
+  }
+  particle = region_->anchor();
+  move(*snapshot_, particle, position, walks);
 }
 
 template <int D>
@@ -147,23 +165,33 @@ void Body<D>::leave_region(Body_counts& counts) {
 template <int D>
 void Body<D>::place(std::uint32_t vertex, const Point<D>& position) {
   positions_[vertex] = position;
-  if (!region_) return;
-  outside_ -= is_outside_[vertex];
-  is_outside_[vertex] = !region_->holds(position);
-  outside_ += is_outside_[vertex];
+  if (region_) set_outside(vertex, !region_->holds(position));
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                       \
-  template bool Body<D>::moves_at_once(std::span<const Point<D>>, const Body_options&, Body_counts&); \
-  template bool Body<D>::moves_in_region(std::span<const Point<D>>, Body_counts&);                    \
-  template bool Body<D>::moves_in_region(std::uint32_t, const Point<D>&, Body_counts&);               \
-  template void Body<D>::renew_region(std::span<const Point<D>>, Body_counts&);                       \
-  template void Body<D>::note_all_behind();                                                           \
-  template void Body<D>::catch_up_vertex(std::uint32_t, Body_counts&);                                \
-  template void Body<D>::catch_up_edge(std::uint32_t, Body_counts&);                                  \
-  template void Body<D>::catch_up(Body_counts&);                                                      \
-  template void Body<D>::leave_region(Body_counts&);                                                  \
-  template void Body<D>::place(std::uint32_t, const Point<D>&);
+/// Notes that a vertex lies in the region or not.
+template <int D>
+void Body<D>::set_outside(std::uint32_t vertex, bool is_outside) {
+  if (is_outside == static_cast<bool>(is_outside_[vertex])) return;
+  is_outside_[vertex] = is_outside;
+  const std::uint32_t change = is_outside ? 1 : ~std::uint32_t{0};
+  outside_ += change;
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    outside_near_[corners_[i].other] += change;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template bool Body<D>::moves_at_once(std::span<const Point<D>>, const Body_options&, Body_counts&);       \
+  template void Body<D>::take_all(std::span<const Point<D>>, Body_counts&);                                 \
+  template bool Body<D>::moves_in_new_region(std::span<const Point<D>>, const Body_options&, Body_counts&); \
+  template bool Body<D>::moves_in_region(std::uint32_t, const Point<D>&, Body_counts&);                     \
+  template bool Body<D>::renew_region(std::span<const Point<D>>, Body_counts&);                             \
+  template void Body<D>::note_all_behind();                                                                 \
+  template void Body<D>::catch_up_vertex(std::uint32_t, Body_counts&);                                      \
+  template void Body<D>::catch_up_edge(std::uint32_t, Body_counts&);                                        \
+  template void Body<D>::catch_up(Body_counts&);                                                            \
+  template void Body<D>::leave_region(Body_counts&);                                                        \
+  template void Body<D>::place(std::uint32_t, const Point<D>&);                                             \
+  template void Body<D>::set_outside(std::uint32_t, bool);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -8,14 +8,106 @@ namespace cellwalk {
 template <int D>
 void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
                            std::vector<Blocked_move<D>>& blocked, Body_counts& counts) {
-  if (moves_at_once(targets, options, counts)) return;
+  if (!moves_at_once(targets, options, counts)) move_each_or_stay(targets, options, blocked, counts);
+}
+
+/// The same vertex by vertex. Not to be inlined: the step above is short.
+template <int D>
+[[gnu::noinline]] void Body<D>::move_each_or_stay(std::span<const Point<D>> targets,
+                                                  const Body_options& options,
+                                                  std::vector<Blocked_move<D>>& blocked,
+                                                  Body_counts& counts) {
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts)) continue;
+    if (moves_in_region(v, targets[v], counts) || moves_plainly(v, targets[v], options.sweep, counts))
+      continue;
     const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts.contacts += answer.stays();
     blocked.push_back(answer);
   }
+}
+
+/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves outside of regions.
+template <int D>
+bool Body<D>::moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
+                            Body_counts& counts) {
+  catch_up_vertex(vertex, counts);
+  const Particle<D>& from = particles_[vertex];
+  if (!detail::certainly_inside(*snapshot_, from.cell, target, counts.edges.walk)) return false;
+  const Particle<D> to{target, from.cell, D, from.aimed};
+  const bool is_inside = region_ && !is_outside_[vertex] && region_->holds(target);
+  const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
+  // What is given up here is counted where it is decided.
+  Edge_counts& edges = counts.edges;
+  const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell, convex_pair = edges.convex_pair,
+                        same_chain = edges.same_chain, chain_facets = edges.chain_facets] {
+    edges.edges = all;
+    edges.same_cell = same_cell;
+    edges.convex_pair = convex_pair;
+    edges.same_chain = same_chain;
+    edges.chain_facets = chain_facets;
+    return false;
+  };
+  std::uint64_t behind = 0;  // edges whose chain is left to be found when it is asked for
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Corner& corner = corners_[i];
+    if (!is_inside || is_outside_[corner.other]) {
+      catch_up_vertex(corner.other, counts);
+      const Particle<D>& q = particles_[corner.other];
+      if (options.sweep == Sweep::three_segments) {
+        if (!is_free_at_end(to, q, options, edges)) return give_up();
+      } else if (!is_plainly_free(from, to, q, options, edges)) {
+        if (!keeps_chain(from, to, corner, options, edges)) return give_up();
+        continue;
+      }
+    }
+    behind |= std::uint64_t{1} << (i - begin);
+  }
+  for (std::uint32_t i = begin; i < end; ++i)
+    if (behind >> (i - begin) & 1) edge_behind_[corners_[i].edge] = true;
+  are_faces_swept_ = false;
+  particles_[vertex] = to;
+  place(vertex, target);
+  return true;
+}
+
+/// True if an edge certainly meets no wall where it is.
+template <int D>
+bool Body<D>::is_free_at_end(const Particle<D>& p, const Particle<D>& q, const Sweep_options& options,
+                             Edge_counts& counts) const {
+  if (options.certificates.same_cell && q.cell == p.cell)
+    ++counts.same_cell;
+  else if (options.certificates.convex_pair && snapshot_->convex_passage(p.cell, q.cell) != Half_facet::none)
+    ++counts.convex_pair;
+  else if (detail::certain_end(*snapshot_, p, q.position, counts.walk) != q.cell)
+    return false;
+  ++counts.edges;
+  return true;
+}
+
+/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then.
+template <int D>
+bool Body<D>::keeps_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
+                          const Sweep_options& options, Edge_counts& counts) {
+  if (!options.certificates.same_chain) return false;
+  const Particle<D>& q = particles_[corner.other];
+  const auto finds = [&](const Particle<D>& p, Chain& chain) {
+    const Particle<D>&start = corner.is_reversed ? q : p, &end = corner.is_reversed ? p : q;
+    return detail::certain_end(*snapshot_, start, end.position, counts.walk, &chain) == end.cell;
+  };
+  Chain chain;
+  if (!finds(to, chain)) return false;
+  Chain& kept = chains_[corner.edge];
+  if (edge_behind_[corner.edge]) {
+    kept.clear();
+    if (!finds(from, kept)) return false;
+    edge_behind_[corner.edge] = false;
+  }
+  if (chain != kept) return false;
+  ++counts.edges;
+  ++counts.same_chain;
+  counts.chain_facets += chain.size();
+  return true;
 }
 
 template <int D>
@@ -51,7 +143,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
     const bool is_in_region = is_inside && !is_outside_[corners_[i].other];
     moved.is_behind = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options.sweep, moved.chain, answer, counts)
+    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options.sweep, moved, answer, counts)
                                   : meets_at_end(way, i, options.sweep, answer, counts);
     if (is_met) answer.edges |= std::uint64_t{1} << (i - begin);
   }
@@ -69,16 +161,8 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
   Edge_counts& edges = counts.edges;
+  if (is_free_at_end(way.to, q, options, edges)) return false;
   ++edges.edges;
-  if (options.certificates.same_cell && q.cell == way.to.cell) {
-    ++edges.same_cell;
-    return false;
-  }
-  if (options.certificates.convex_pair &&
-      convex_passage(*snapshot_, way.to.cell, q.cell) != Half_facet::none) {
-    ++edges.convex_pair;
-    return false;
-  }
   const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk);
   if (walked.status == Walk_status::arrived && walked.cell == q.cell) return false;
   // Where a wall is passed in its inside, no other way helps.
@@ -92,11 +176,14 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
 bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                                 Chain& moved, Blocked_move<D>& answer, Body_counts& counts) {
+                                 Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts) {
   const Corner& corner = corners_[corner_number];
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
-  if (is_plainly_free(way.from, way.to, q, options, moved, counts.edges)) return false;
+  if (is_plainly_free(way.from, way.to, q, options, counts.edges)) {
+    moved.is_behind = true;
+    return false;
+  }
   catch_up_edge(corner.edge, counts);
   std::optional<Chain> chain = free_chain(*snapshot_, way, q, seen_from(corner), options, counts.edges);
   if (!chain) {
@@ -110,7 +197,7 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
     }
     chain = std::move(anew.chain);
   }
-  moved = *chain;
+  moved.chain = *chain;
   return false;
 }
 
@@ -118,33 +205,35 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
 /// ends inside of them, so that there is but one chain from one to the other.
 template <int D>
 bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
-                              const Sweep_options& options, Chain& chain, Edge_counts& counts) const {
+                              const Sweep_options& options, Edge_counts& counts) const {
   if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
-  if (q.cell == to.cell) {
-    if (!options.certificates.same_cell) return false;
-    ++counts.edges;
+  if (options.certificates.same_cell && q.cell == to.cell)
     ++counts.same_cell;
-    chain.clear();
-    return true;
-  }
-  if (!options.certificates.convex_pair) return false;
-  const Half_facet passage = convex_passage(*snapshot_, to.cell, q.cell);
-  if (passage == Half_facet::none) return false;
+  else if (options.certificates.convex_pair && q.cell != to.cell &&
+           snapshot_->convex_passage(to.cell, q.cell) != Half_facet::none)
+    ++counts.convex_pair;
+  else
+    return false;
   ++counts.edges;
-  ++counts.convex_pair;
-  chain.assign(1, passage);
   return true;
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
+  template void Body<D>::move_each_or_stay(std::span<const Point<D>>, const Body_options&,                  \
+                                           std::vector<Blocked_move<D>>&, Body_counts&);                    \
   template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \
                                       std::vector<Blocked_move<D>>&, Body_counts&);                         \
   template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
-                                         const Sweep_options&, Chain&, Edge_counts&) const;                 \
+                                         const Sweep_options&, Edge_counts&) const;                         \
+  template bool Body<D>::moves_plainly(std::uint32_t, const Point<D>&, const Sweep_options&, Body_counts&); \
+  template bool Body<D>::is_free_at_end(const Particle<D>&, const Particle<D>&, const Sweep_options&,       \
+                                        Edge_counts&) const;                                                \
+  template bool Body<D>::keeps_chain(const Particle<D>&, const Particle<D>&, const Corner&,                 \
+                                     const Sweep_options&, Edge_counts&);                                   \
   template bool Body<D>::meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&, Blocked_move<D>&, \
                                       Body_counts&);                                                        \
-  template bool Body<D>::sweep_meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&, Chain&,     \
-                                            Blocked_move<D>&, Body_counts&);                                \
+  template bool Body<D>::sweep_meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&,             \
+                                            Moved_chain&, Blocked_move<D>&, Body_counts&);                  \
   template Blocked_move<D> Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&,       \
                                                  Body_counts&);
 

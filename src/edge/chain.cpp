@@ -80,19 +80,6 @@ Chain reversed(const Snapshot<D>& snapshot, const Chain& chain) {
 }
 
 template <int D>
-Half_facet convex_passage(const Snapshot<D>& snapshot, Cell from, Cell to) {
-  Half_facet passage = Half_facet::none;
-  const std::size_t facets = snapshot.facet_count(from);
-  for (std::size_t i = 0; i < facets; ++i) {
-    const Half_facet f = Snapshot<D>::half_facet(from, i);
-    if (snapshot.neighbor(f) != to) continue;
-    if (passage != Half_facet::none || !snapshot.is_convex_pair(f)) return Half_facet::none;
-    passage = f;
-  }
-  return passage;
-}
-
-template <int D>
 void walk_start(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed) {
   for (const Half_facet f : crossed) {
     if (!chain.empty() && chain.front() == f)
@@ -122,7 +109,6 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
 #define CELLWALK_INSTANTIATE(D)                                                                      \
   template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
                                          Walk_counts&);                                              \
-  template Half_facet convex_passage<D>(const Snapshot<D>&, Cell, Cell);                             \
   template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
   template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);

@@ -16,7 +16,7 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Chain& before,
     return true;
   }
   if (certificates.convex_pair && chain.size() == 1 &&
-      convex_passage(snapshot, snapshot.cell_of(chain.front()), snapshot.neighbor(chain.front())) !=
+      snapshot.convex_passage(snapshot.cell_of(chain.front()), snapshot.neighbor(chain.front())) !=
           Half_facet::none) {
     ++counts.convex_pair;
     result = {chain, {}, {}};

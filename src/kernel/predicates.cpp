@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace cellwalk {
 namespace {
@@ -54,8 +55,11 @@ std::array<T, 3> normal(const Point<3>& u, const Point<3>& v, const Point<3>& w)
   return {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
 }
 
-/// Components so wide, as a share of the largest, are computed again exactly.
-constexpr double normal_width = 0x1p-50;
+/// Components so wide, as a share of the largest, are computed again, with more care.
+constexpr double normal_width = 0x1p-49;
+
+/// Between these the squares of components neither overflow nor lose anything.
+constexpr double least_plain = 0x1p-300, largest_plain = 0x1p300;
 
 /// Scaled to length 1; 0 stays 0.
 template <std::size_t D>
@@ -63,13 +67,35 @@ std::array<double, D> normalized(std::array<double, D> n) {
   double largest = 0, squares = 0;
   for (const double x : n) largest = std::max(largest, std::abs(x));
   if (largest == 0) return n;
-  const int exponent = std::ilogb(largest);  // keeps the squares in range
-  for (double& x : n) {
-    x = std::ldexp(x, -exponent);
-    squares += x * x;
+  if (!(largest > least_plain && largest < largest_plain)) {
+    const int exponent = std::ilogb(largest);
+    for (double& x : n) x = std::ldexp(x, -exponent);
   }
-  for (double& x : n) x = x / std::sqrt(squares) + 0.0;  // no negative zeros for readers of tables
+  for (const double x : n) squares += x * x;
+  const double norm = std::sqrt(squares);
+  for (double& x : n) x = x / norm + 0.0;  // no negative zeros for readers of tables
   return n;
+}
+
+/// A normal in doubles, and by how much, as a share of the largest component, its components may be wrong: products of
+/// differences are off by less than four roundings of each term.
+inline std::pair<Vector<2>, double> plain_normal(const Point<2>& u, const Point<2>& v) {
+  const Vector<2> n = normal<double>(u, v);
+  const double largest = std::max(std::abs(n[0]), std::abs(n[1]));
+  return {n, largest > least_plain && largest < largest_plain ? 0x1p-53 : 1};
+}
+inline std::pair<Vector<3>, double> plain_normal(const Point<3>& u, const Point<3>& v, const Point<3>& w) {
+  const Vector<3> a = v - u, b = w - u;
+  Vector<3> n;
+  double terms = 0, largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = a[j] * b[k] - a[k] * b[j];
+    terms = std::max(terms, std::abs(a[j] * b[k]) + std::abs(a[k] * b[j]));
+    largest = std::max(largest, std::abs(n[i]));
+  }
+  const bool is_in_range = largest > least_plain && largest < largest_plain;
+  return {n, is_in_range ? 4 * 0x1p-53 * (terms / largest) : 1};
 }
 
 using Interval = CGAL::Interval_nt<false>;
@@ -84,6 +110,8 @@ template <class... P>
 template <class... P>
 std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
   constexpr std::size_t D = sizeof...(P);
+  const auto [plain, error] = plain_normal(points...);
+  if (error <= normal_width) return normalized(plain);
   std::array<double, D> n;
   {
     const auto wide = interval_normal(points...);

@@ -24,6 +24,11 @@ Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
   template Walk_result<D> detail::move_by_walk<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, \
                                                           Walk_counts&, const Walk_options&);
 
+template Cell detail::certain_end<2>(const Snapshot<2>&, const Particle<2>&, const Point<2>&, Walk_counts&,
+                                     boost::container::small_vector_base<Half_facet>*);
+template Cell detail::certain_end<3>(const Snapshot<3>&, const Particle<3>&, const Point<3>&, Walk_counts&,
+                                     boost::container::small_vector_base<Half_facet>*);
+
 CELLWALK_INSTANTIATE(Exact, 2)
 CELLWALK_INSTANTIATE(Exact, 3)
 CELLWALK_INSTANTIATE(Lazy, 2)

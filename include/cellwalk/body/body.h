@@ -130,6 +130,11 @@ class Body {
     std::uint32_t edge, other;
     bool is_reversed;
   };
+  struct Moved_chain {
+    Chain chain;
+    bool is_free = false;
+    bool is_behind = false;  ///< it is not known, but there is one
+  };
   struct Face_corner {  ///< a face as seen from one of its corners, the one at this place
     std::uint32_t face, place;
   };
@@ -143,24 +148,35 @@ class Body {
   /// As move_vertex, where there is no region. If `any` is set, any contact will do.
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
                                           const Body_options& options, Body_counts& counts, bool any = false);
+  bool moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
+                     Body_counts& counts);
+  bool is_free_at_end(const Particle<D>& p, const Particle<D>& q, const Sweep_options& options,
+                      Edge_counts& counts) const;
+  bool keeps_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
+                   const Sweep_options& options, Edge_counts& counts);
+  void move_each_or_stay(std::span<const Point<D>> targets, const Body_options& options,
+                         std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
   Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
                                Body_counts& counts);
   bool meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
                     Blocked_move<D>& answer, Body_counts& counts);
   bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                          Chain& moved, Blocked_move<D>& answer, Body_counts& counts);
+                          Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts);
   bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
-                       const Sweep_options& options, Chain& chain, Edge_counts& counts) const;
+                       const Sweep_options& options, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);
   const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
   bool moves_at_once(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
-  bool moves_in_region(std::span<const Point<D>> targets, Body_counts& counts);
+  void take_all(std::span<const Point<D>> targets, Body_counts& counts);
+  bool moves_in_new_region(std::span<const Point<D>> targets, const Body_options& options,
+                           Body_counts& counts);
   bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
-  void renew_region(std::span<const Point<D>> targets, Body_counts& counts);
+  bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
   void note_all_behind();
   void catch_up_vertex(std::uint32_t vertex, Body_counts& counts);
   void catch_up_edge(std::uint32_t edge, Body_counts& counts);
   void place(std::uint32_t vertex, const Point<D>& position);
+  void set_outside(std::uint32_t vertex, bool is_outside);
   bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
             const Body_options& options, Body_counts& counts);
   Chain seen_from(const Corner& corner) const;
@@ -181,25 +197,21 @@ class Body {
 
   // A region free of walls, and what was moved in it without registering it.
   std::optional<Clear_region<D>> region_;
-  std::uint32_t outside_ = 0;          ///< vertices not in it
-  std::vector<char> is_outside_;       ///< of each vertex
-  bool are_all_behind_ = false;        ///< all of the following
-  std::vector<char> vertex_behind_;    ///< its particle is where it was; it is in the region
-  std::vector<char> edge_behind_;      ///< its chain is not known, but it has one
-  std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
-  std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
-  std::uint32_t next_patience_ = 4;    ///< if that finds none
+  std::uint32_t outside_ = 0;                ///< vertices not in it
+  std::vector<char> is_outside_;             ///< of each vertex
+  std::vector<std::uint32_t> outside_near_;  ///< of each vertex: how many of its neighbours are
+  bool are_all_behind_ = false;              ///< all of the following
+  std::vector<char> vertex_behind_;          ///< its particle is where it was; it is in the region
+  std::vector<char> edge_behind_;            ///< its chain is not known, but it has one
+  std::uint32_t patience_ = 0;               ///< steps until a region is looked for that holds all positions
+  std::uint32_t target_patience_ = 0;        ///< the same for targets, while all positions are held
+  std::uint32_t next_patience_ = 4;          ///< if that finds none
   double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next one is asked to hold
   std::uint32_t anchor_vertex_ = 0;                       ///< about which it is looked for
 
   // Scratch space of move_vertex.
   std::vector<Cell> visited_;
   std::vector<Half_facet> crossed_;
-  struct Moved_chain {
-    Chain chain;
-    bool is_free = false;
-    bool is_behind = false;  ///< it is not known, but there is one
-  };
   std::vector<Moved_chain> moved_chains_;  ///< of the edges of the vertex
   std::vector<std::pair<std::uint32_t, Face_rests>> moved_rests_;
 };

@@ -3,16 +3,12 @@
 #ifndef CELLWALK_BODY_OPEN_BOX_H
 #define CELLWALK_BODY_OPEN_BOX_H
 
-#include <cellwalk/kernel/point.h>
+#include <cellwalk/body/point_box.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace cellwalk {
 
@@ -38,25 +34,17 @@ class Open_box {
     return is_inside;
   }
 
-  /// Cost: about 1 ns a point.
+  /// \pre the points are finite. Cost: about half a nanosecond a point.
   bool holds_all(std::span<const Point<D>> points) const {
-    const double* x = points.empty() ? nullptr : points.front().data();
-    std::size_t left = points.size();
-#if defined(__SSE2__)
+    if (points.size() % 2 != 0 && !holds(points.back())) return false;
+    if (points.size() < 2) return true;
     // Two points at a time: D pairs of coordinates.
-    __m128d outside = _mm_setzero_pd();
-    for (; left >= 2; left -= 2, x += lanes)
-      for (std::size_t k = 0; k < lanes; k += 2) {
-        const __m128d pair = _mm_loadu_pd(x + k);
-        outside = _mm_or_pd(outside, _mm_cmpnlt_pd(_mm_load_pd(low_.data() + k), pair));
-        outside = _mm_or_pd(outside, _mm_cmpnlt_pd(pair, _mm_load_pd(high_.data() + k)));
-      }
-    if (_mm_movemask_pd(outside) != 0) return false;
-#endif
-    bool is_inside = true;
-    for (; left > 0; --left)
-      for (std::size_t k = 0; k < D; ++k, ++x) is_inside &= (low_[k] < *x) & (*x < high_[k]);
-    return is_inside;
+    const detail::Pair_bounds<D> bounds(points.front().data(), points.size() / 2);
+    int inside = 3;
+    for (int k = 0; k < D; ++k)
+      inside &= detail::less_mask(detail::load(low_.data() + 2 * k), bounds.low[k]) &
+                detail::less_mask(bounds.high[k], detail::load(high_.data() + 2 * k));
+    return inside == 3;
   }
 
  private:

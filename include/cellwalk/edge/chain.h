@@ -82,11 +82,6 @@ bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<
 template <int D>
 Chain reversed(const Snapshot<D>& snapshot, const Chain& chain);
 
-/// The facet that all segments between the insides of two cells pass: their union is convex, and they share no other facet.
-/// Half_facet::none if there is no such facet. Seen from the first cell. Cost: a look at each of its facets.
-template <int D>
-Half_facet convex_passage(const Snapshot<D>& snapshot, Cell from, Cell to);
-
 /// Puts the facets that p crossed, as Walk_options::crossed reports them, in front of the chain of pq, and drops those
 /// that are thereby passed there and back. The result leads from the cell of p now to that of q; whether pq passes it is
 /// for passes() to say.

@@ -65,6 +65,15 @@ struct Plane_frame {
   }
 };
 
+/// The larger of each lane. \pre no NaNs
+inline Float4 lane_max(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return std::bit_cast<Float4>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#else
+  return a > b ? a : b;
+#endif
+}
+
 /// One bit a lane that is true.
 inline unsigned lane_mask(Int4 lanes) {
 #if defined(__SSE2__)

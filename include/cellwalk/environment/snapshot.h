@@ -12,8 +12,10 @@
 #include <cellwalk/environment/planes.h>
 #include <cellwalk/records/cell_soup.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -76,6 +78,22 @@ class Snapshot {
   Cell neighbor(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
+  }
+  /// The facet that all segments between the insides of two cells pass: their union is convex, and they share no other facet.
+  /// Half_facet::none if there is no such facet. Seen from the first cell. Cost: a look at the links of its facets.
+  Half_facet convex_passage(Cell from, Cell to) const {
+    Half_facet passage = Half_facet::none;
+    for (std::size_t b = 0; b < block_count(from); ++b) {
+      Int4 block;
+      std::memcpy(&block, links(from) + 4 * b, sizeof(block));
+      // Lanes without a facet link to nothing.
+      const unsigned there =
+          lane_mask((block & static_cast<int>(link_mask)) == static_cast<int>(to_index(to)));
+      if (there == 0) continue;
+      if (passage != Half_facet::none || (there & (there - 1)) != 0) return Half_facet::none;
+      passage = half_facet(from, 4 * b + static_cast<std::size_t>(std::countr_zero(there)));
+    }
+    return passage != Half_facet::none && is_convex_pair(passage) ? passage : Half_facet::none;
   }
   /// The other side of the facet; Half_facet::none on the boundary. Cost: a search over the neighbour's
   /// facets.

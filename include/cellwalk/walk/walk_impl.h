@@ -15,6 +15,42 @@
 namespace cellwalk {
 namespace detail {
 
+/// What the planes of a cell of any number of blocks prove.
+template <int D>
+Certified_exit exit_of_blocks(const Snapshot<D>& snapshot, Cell cell, const Frame_line<D>& line,
+                              bool starts_inside) {
+  const std::size_t blocks = snapshot.block_count(cell);
+  const Plane_block<D>* planes = snapshot.blocks(cell);
+  if (blocks == 2) return certified_exit<D>(planes, 2, line, starts_inside);
+  if (blocks > certified_blocks) return {Certified_exit::unknown, 0};
+  return certified_exit<D>(planes, blocks, line, starts_inside);
+}
+
+template <int D>
+Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
+                 Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed) {
+  Float_point<D> a, b;
+  if (!snapshot.frame().map(from.position, a) || !snapshot.frame().map(target, b)) return Cell::none;
+  const Frame_line<D> line(a, b);
+  Cell cell = from.cell;
+  bool starts_inside = from.dimension == D;
+  std::uint64_t crossings = 0;
+  for (;; ++crossings) {
+    const Certified_exit exit = exit_of_blocks(snapshot, cell, line, starts_inside);
+    counts.plane_blocks += 2 * snapshot.block_count(cell);
+    if (exit.verdict == Certified_exit::inside) break;
+    const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
+    if (exit.verdict != Certified_exit::leaves || snapshot.is_impassable(f)) return Cell::none;
+    cell = snapshot.neighbor(f);
+    starts_inside = true;
+    if (crossed) crossed->push_back(f);
+  }
+  ++counts.walks;
+  counts.stays += crossings == 0;
+  counts.crossings += crossings;
+  return cell;
+}
+
 /// One walk in progress.
 template <class Kernel, int D>
 class Walker {
@@ -154,7 +190,7 @@ class Walker {
           return certified_exit<D>(*snapshot_.blocks(cell), line, starts_inside);
         })
                                         : follow([&](Cell cell, bool starts_inside) {
-                                            return exit_of_blocks(cell, line, starts_inside);
+                                            return exit_of_blocks(snapshot_, cell, line, starts_inside);
                                           });
     switch (exit.verdict) {
       case Certified_exit::inside:
@@ -166,14 +202,6 @@ class Walker {
       default:
         return false;
     }
-  }
-
-  Certified_exit exit_of_blocks(Cell cell, const Frame_line<D>& line, bool starts_inside) const {
-    const std::size_t blocks = snapshot_.block_count(cell);
-    const Plane_block<D>* planes = snapshot_.blocks(cell);
-    if (blocks == 2) return certified_exit<D>(planes, 2, line, starts_inside);
-    if (blocks > certified_blocks) return {Certified_exit::unknown, 0};
-    return certified_exit<D>(planes, blocks, line, starts_inside);
   }
 
   /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The box of many points.
+#ifndef CELLWALK_BODY_POINT_BOX_H
+#define CELLWALK_BODY_POINT_BOX_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace cellwalk::detail {
+
+/// Two numbers at once.
+using Double2 = double __attribute__((vector_size(16)));
+
+inline Double2 load(const double* x) {
+#if defined(__SSE2__)
+  return _mm_loadu_pd(x);
+#else
+  return Double2{x[0], x[1]};
+#endif
+}
+inline Double2 lane_min(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+inline Double2 lane_max(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+/// One bit a lane in which a < b.
+inline int less_mask(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_movemask_pd(_mm_cmplt_pd(a, b));
+#else
+  return (a[0] < b[0]) | (a[1] < b[1]) << 1;
+#endif
+}
+
+/// Bounds of points two by two, as the coordinates of two points lie: lane i is of coordinate i mod D.
+template <int D>
+struct Pair_bounds {
+  Double2 low[D], high[D];
+
+  /// \pre pairs > 0; the 2 D pairs numbers at x are no NaNs
+  Pair_bounds(const double* x, std::size_t pairs) {
+    for (int k = 0; k < D; ++k) low[k] = high[k] = load(x + 2 * k);
+    while (--pairs > 0) {
+      x += 2 * D;
+      for (int k = 0; k < D; ++k) {
+        const Double2 pair = load(x + 2 * k);
+        low[k] = lane_min(low[k], pair);
+        high[k] = lane_max(high[k], pair);
+      }
+    }
+  }
+};
+
+/// The largest scalar product of a vector with points, each rounded as by dot(). -inf if there are none. \pre they are finite
+template <int D>
+double furthest(const Vector<D>& normal, std::span<const Point<D>> points) {
+  double most = -std::numeric_limits<double>::infinity();
+  std::size_t i = 0;
+#if defined(__SSE2__)
+  if constexpr (D == 3) {
+    // Two points at a time, of which x0 y0, z0 x1 and y1 z1 lie side by side.
+    const __m128d xy = _mm_setr_pd(normal[0], normal[1]), zx = _mm_setr_pd(normal[2], normal[0]),
+                  yz = _mm_setr_pd(normal[1], normal[2]);
+    __m128d both = _mm_set1_pd(most);
+    for (; i + 2 <= points.size(); i += 2) {
+      const double* x = points[i].data();
+      const __m128d a = _mm_mul_pd(xy, load(x)), b = _mm_mul_pd(zx, load(x + 2)),
+                    c = _mm_mul_pd(yz, load(x + 4));
+      const __m128d sum = _mm_add_pd(_mm_shuffle_pd(a, b, 2), _mm_shuffle_pd(a, c, 1));
+      both = _mm_max_pd(both, _mm_add_pd(sum, _mm_shuffle_pd(b, c, 2)));
+    }
+    most = std::max(both[0], both[1]);
+  }
+#endif
+  for (; i < points.size(); ++i) most = std::max(most, dot(normal, points[i]));
+  return most;
+}
+
+/// A closed box, and nothing before it is extended.
+template <int D>
+struct Box {
+  Point<D> low, high;
+
+  Box() {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+  }
+  void extend(const Point<D>& x) {
+    for (std::size_t k = 0; k < D; ++k) {
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
+    }
+  }
+  void extend(const Box& other) {
+    for (std::size_t k = 0; k < D; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+  }
+};
+
+/// \pre the points are finite
+template <int D>
+Box<D> box_of(std::span<const Point<D>> points) {
+  Box<D> box;
+  if (const std::size_t pairs = points.size() / 2; pairs > 0) {
+    const Pair_bounds<D> bounds(points.front().data(), pairs);
+    for (std::size_t k = 0; k < D; ++k) {
+      box.low[k] = std::min(bounds.low[k / 2][k % 2], bounds.low[(k + D) / 2][(k + D) % 2]);
+      box.high[k] = std::max(bounds.high[k / 2][k % 2], bounds.high[(k + D) / 2][(k + D) % 2]);
+    }
+  }
+  if (points.size() % 2 != 0) box.extend(points.back());
+  return box;
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_POINT_BOX_H
