@@ -81,7 +81,7 @@ class Region_search {
   bool visit(Cell cell) {
     const std::size_t blocks = snapshot_.block_count(cell);
     for (std::size_t begin = 0; begin < blocks; begin += blocks_at_once) {
-      // A bit a facet; lanes without one are never met.
+      // A bit a facet; lanes without one are met where the planes say nothing.
       std::uint64_t met = 0;
       if (!is_mapped_) map_box();
       const std::size_t end = std::min(blocks, begin + blocks_at_once);
@@ -105,7 +105,7 @@ class Region_search {
   /// Adds the cell behind a passable facet; if there are too many, the facet is cut off. False if that cannot be made.
   bool enter(Cell cell, std::size_t i) {
     const Cell next = snapshot_.neighbor(Snapshot<D>::half_facet(cell, i));
-    if (is_found(next)) return true;
+    if (next == Cell::none || is_found(next)) return true;
     if (found_.size() >= request_.most_cells) {
       effort_.is_exhausted = true;
       return cut_off(snapshot_.view(cell), i, false);

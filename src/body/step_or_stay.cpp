@@ -39,8 +39,9 @@ bool Body<D>::moves_plainly(std::uint32_t vertex, const Point<D>& target, const 
   const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
   // What is given up here is counted where it is decided.
   Edge_counts& edges = counts.edges;
-  const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell, convex_pair = edges.convex_pair,
-                        same_chain = edges.same_chain, chain_facets = edges.chain_facets] {
+  const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell,
+                        convex_pair = edges.convex_pair, same_chain = edges.same_chain,
+                        chain_facets = edges.chain_facets] {
     edges.edges = all;
     edges.same_cell = same_cell;
     edges.convex_pair = convex_pair;

@@ -203,6 +203,28 @@ TEST(Clear_region, IsNotEnlargedByUnderflowOrOverflow) {
   EXPECT_GT(with_planes, 100);
 }
 
+/// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of those without a facet.
+TEST(Clear_region, IsFoundWherePlanesSayNothing) {
+  for (const double scale : {1.0, 0x1p330, 0x1p500}) {
+    Cell_soup<2> soup;
+    for (const Point<2>& x : {Point<2>{0, 0}, {scale, 0}, {0, scale}}) soup.points.push_back(x);
+    for (std::uint32_t k = 0; k < 3; ++k) soup.add_facet({k, (k + 1) % 3}, true);
+    soup.end_cell();
+    const Snapshot<2> snapshot = compile(soup);
+    const std::vector<Point<2>> positions{{0.25 * scale, 0.25 * scale}}, targets{{0.27 * scale, 0.26 * scale}};
+    Region_request<2> request;
+    request.positions = positions;
+    request.targets = targets;
+    Region_effort effort;
+    const auto region =
+        find_clear_region(snapshot, Locator<2>(snapshot).particle_at(positions[0]), request, effort);
+    ASSERT_TRUE(region) << scale;
+    EXPECT_EQ(effort.cells, 1u);
+    EXPECT_TRUE(region->holds_all(targets));
+    EXPECT_FALSE(region->holds({scale, scale}));
+  }
+}
+
 TEST(Open_box, HoldsWhatEachComparisonSays) {
   Random random(5);
   int all = 0, some = 0;

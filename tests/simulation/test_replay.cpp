@@ -123,8 +123,10 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
     EXPECT_EQ(a.same_chain, b.same_chain);
     EXPECT_EQ(a.event_sweeps, b.event_sweeps);
     // Planes in single precision leave other signs in doubt.
-    EXPECT_NEAR(static_cast<double>(a.walk.walks), static_cast<double>(b.walk.walks), 1e-3 * static_cast<double>(a.walk.walks));
-    EXPECT_NEAR(static_cast<double>(a.walk.crossings), static_cast<double>(b.walk.crossings), 1e-3 * static_cast<double>(a.walk.crossings));
+    EXPECT_NEAR(static_cast<double>(a.walk.walks), static_cast<double>(b.walk.walks),
+                1e-3 * static_cast<double>(a.walk.walks));
+    EXPECT_NEAR(static_cast<double>(a.walk.crossings), static_cast<double>(b.walk.crossings),
+                1e-3 * static_cast<double>(a.walk.crossings));
     EXPECT_GT(static_cast<double>(replayed(leaning, moved, true).in_region),
               0.9 * static_cast<double>(replayed(cubes, trace, true).in_region));
   }
