@@ -29,9 +29,10 @@ Spike_tally run_spikes(const Spike_setting& setting) {
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
   const Point<3> tip{0, 0, spike.height}, foot{0, 0, 0};
-  const double step = face_inradius * cone_sharpness / steps_a_bound;
   Random random(setting.seed);
   Spike_tally tally;
+  tally.bound = face_inradius * cone_sharpness;
+  const double step = tally.bound / steps_a_bound;
   for (std::uint64_t i = 0; i < setting.faces; ++i) {
     const Fall face = random_fall(random, setting.aim, tip, step, step);
     const Landing by_edges = fall(snapshot, locator, face, Sweep::triangle, most_steps);

@@ -28,13 +28,15 @@ struct Spike_setting {
 /// What became of one face.
 struct Penetration {
   double depth = 0;  ///< of the tip beyond the plane of the face, when the sweeps of the edges stop it
-  double share = 0;  ///< of the bound: the radius of the greatest circle in the face there, times the sharpness of the cone in the spike
+  double share = 0;  ///< of the bound: of the face as it is then
 };
 
 struct Spike_tally {
-  std::vector<Penetration> by_edges;  ///< faces that the spike was in, when their edges met it
-  std::uint64_t not_pierced = 0;      ///< faces stopped by their edges or corners before the tip came in
-  std::uint64_t not_stopped = 0;      ///< faces that never met anything
+  double bound =
+      0;  ///< of the depth behind a face as it is drawn: its inradius times the sharpness of the cone in the spike
+  std::vector<Penetration> by_edges;     ///< faces that the spike was in, when their edges met it
+  std::uint64_t not_pierced = 0;         ///< faces stopped by their edges or corners before the tip came in
+  std::uint64_t not_stopped = 0;         ///< faces that never met anything
   std::uint64_t pierced_with_faces = 0;  ///< with faces swept: the spike in the face; none
   std::uint64_t stopped_by_face = 0;     ///< with faces swept: by the face itself
 };

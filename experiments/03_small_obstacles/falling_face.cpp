@@ -86,7 +86,8 @@ Fall random_fall(Random& random, Aim aim, const Point<3>& target, double above, 
   return fall;
 }
 
-Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall& fall, Sweep sweep, int most_steps) {
+Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall& fall, Sweep sweep,
+             int most_steps) {
   Body_soup<3> soup;
   soup.points.assign(fall.start.begin(), fall.start.end());
   soup.edges = {{0, 1}, {0, 2}, {1, 2}};

@@ -41,7 +41,8 @@ struct Landing {
 
 /// Lets the face fall.
 /// \throw Error(outside) if it does not start free
-Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall& fall, Sweep sweep, int most_steps);
+Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall& fall, Sweep sweep,
+             int most_steps);
 
 }  // namespace cellwalk::small_obstacles
 

@@ -57,10 +57,12 @@ Rows plan_rows(const Plan& plan) {
     for (const double edge : edges_over_step)
       for (const double size : sizes_over_step)
         rows.sweep_settings.push_back({dimension, 0.5, edge, size,
-                                       part_seed(plan.seed, "sweeps", rows.sweep_settings.size()), lengths.moves});
+                                       part_seed(plan.seed, "sweeps", rows.sweep_settings.size()),
+                                       lengths.moves});
   for (const Aim aim : {Aim::random, Aim::worst})
     for (const double sharpness : sharpnesses)
-      rows.spike_settings.push_back({sharpness, aim, part_seed(plan.seed, "spikes", rows.spike_settings.size()),
+      rows.spike_settings.push_back({sharpness, aim,
+                                     part_seed(plan.seed, "spikes", rows.spike_settings.size()),
                                      aim == Aim::random ? lengths.spike_faces : lengths.worst_faces});
   for (const double size : sizes_over_inradius)
     rows.floating_settings.push_back(
@@ -76,32 +78,34 @@ void run_rows(const std::vector<Setting>& settings, std::vector<Tally>& tallies,
 
 void write_sweeps(const Rows& rows, const std::filesystem::path& folder) {
   io::Csv_writer out(folder / "sweeps.csv",
-                     {"dimension", "edge_over_step", "size_over_step", "draws", "sweeps", "contacts", "expected_contacts",
-                      "vertex_contacts", "edge_contacts", "missed", "late", "false_contacts", "missed_share",
-                      "missed_share_low", "missed_share_high"});
+                     {"dimension", "edge_over_step", "size_over_step", "draws", "sweeps", "contacts",
+                      "expected_contacts", "vertex_contacts", "edge_contacts", "missed", "late",
+                      "false_contacts", "missed_share", "missed_share_low", "missed_share_high"});
   for (std::size_t i = 0; i < rows.sweeps.size(); ++i) {
     const Sweep_setting& s = rows.sweep_settings[i];
     const Sweep_tally& t = rows.sweeps[i];
     const auto [low, high] = confidence_interval(t.missed, t.edge_contacts);
-    out.row(s.dimension, s.edge_over_step, s.size_over_step, s.draws, t.sweeps, t.edge_contacts + t.vertex_contacts,
-            text(t.expected_contacts), t.vertex_contacts, t.edge_contacts, t.missed, t.late, t.false_contacts,
-            t.edge_contacts ? text(static_cast<double>(t.missed) / static_cast<double>(t.edge_contacts)) : "", text(low), text(high));
+    out.row(s.dimension, s.edge_over_step, s.size_over_step, s.draws, t.sweeps,
+            t.edge_contacts + t.vertex_contacts, text(t.expected_contacts), t.vertex_contacts,
+            t.edge_contacts, t.missed, t.late, t.false_contacts,
+            t.edge_contacts ? text(static_cast<double>(t.missed) / static_cast<double>(t.edge_contacts)) : "",
+            text(low), text(high));
   }
   out.commit();
 }
 
 void write_costs(const Rows& rows, const std::filesystem::path& folder) {
   io::Csv_writer out(folder / "costs.csv",
-                     {"dimension", "edge_over_step", "size_over_step", "sweep", "sweeps", "edges", "same_cell", "convex_pair",
-                      "same_chain", "floods", "flooded_cells", "clear", "event_sweeps", "walks", "crossings", "signs",
-                      "exact_signs"});
+                     {"dimension", "edge_over_step", "size_over_step", "sweep", "sweeps", "edges",
+                      "same_cell", "convex_pair", "same_chain", "floods", "flooded_cells", "clear",
+                      "event_sweeps", "walks", "crossings", "signs", "exact_signs"});
   for (std::size_t i = 0; i < rows.sweeps.size(); ++i)
     for (std::size_t k = 0; k < sweep_names.size(); ++k) {
       const Sweep_setting& s = rows.sweep_settings[i];
       const Edge_counts& c = rows.sweeps[i].cost[k].counts;
       out.row(s.dimension, s.edge_over_step, s.size_over_step, sweep_names[k], rows.sweeps[i].sweeps, c.edges,
-              c.same_cell, c.convex_pair, c.same_chain, c.floods, c.flooded_cells, c.clear, c.event_sweeps, c.walk.walks,
-              c.walk.crossings, c.walk.predicates.orientations, c.walk.predicates.fallbacks);
+              c.same_cell, c.convex_pair, c.same_chain, c.floods, c.flooded_cells, c.clear, c.event_sweeps,
+              c.walk.walks, c.walk.crossings, c.walk.predicates.orientations, c.walk.predicates.fallbacks);
     }
   out.commit();
 }
@@ -112,16 +116,17 @@ void write_timings(const Rows& rows, const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < rows.sweeps.size(); ++i)
     for (std::size_t k = 0; k < sweep_names.size(); ++k) {
       const Sweep_setting& s = rows.sweep_settings[i];
-      out.row(s.dimension, s.edge_over_step, s.size_over_step, sweep_names[k], rows.sweeps[i].cost[k].nanoseconds);
+      out.row(s.dimension, s.edge_over_step, s.size_over_step, sweep_names[k],
+              rows.sweeps[i].cost[k].nanoseconds);
     }
   out.commit();
 }
 
 void write_spikes(const Rows& rows, const std::filesystem::path& folder) {
   io::Csv_writer out(folder / "spikes.csv",
-                     {"aim", "sharpness", "faces", "not_stopped", "not_pierced", "pierced", "depth_mean", "depth_median",
-                      "depth_max", "share_of_bound_median", "share_of_bound_max", "beyond_bound", "pierced_with_faces",
-                      "stopped_by_face"});
+                     {"aim", "sharpness", "faces", "not_stopped", "not_pierced", "pierced", "bound",
+                      "depth_mean", "depth_median", "depth_max", "share_of_bound_median",
+                      "share_of_bound_max", "beyond_bound", "pierced_with_faces", "stopped_by_face"});
   for (std::size_t i = 0; i < rows.spikes.size(); ++i) {
     const Spike_setting& s = rows.spike_settings[i];
     const Spike_tally& t = rows.spikes[i];
@@ -136,17 +141,18 @@ void write_spikes(const Rows& rows, const std::filesystem::path& folder) {
     std::sort(shares.begin(), shares.end());
     const std::size_t n = depths.size();
     out.row(s.aim == Aim::random ? "random" : "worst", s.sharpness, s.faces, t.not_stopped, t.not_pierced, n,
-            n ? text(sum / static_cast<double>(n)) : "", n ? text(depths[n / 2]) : "",
+            text(t.bound), n ? text(sum / static_cast<double>(n)) : "", n ? text(depths[n / 2]) : "",
             n ? text(depths.back()) : "", n ? text(shares[n / 2]) : "", n ? text(shares.back()) : "",
-            std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; }), t.pierced_with_faces,
-            t.stopped_by_face);
+            std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; }),
+            t.pierced_with_faces, t.stopped_by_face);
   }
   out.commit();
 }
 
 void write_floating(const Rows& rows, const std::filesystem::path& folder) {
-  io::Csv_writer out(folder / "floating.csv", {"size_over_inradius", "faces", "stopped", "passed", "passed_with_faces",
-                                               "passed_share", "passed_share_low", "passed_share_high"});
+  io::Csv_writer out(folder / "floating.csv",
+                     {"size_over_inradius", "faces", "stopped", "passed", "passed_with_faces", "passed_share",
+                      "passed_share_low", "passed_share_high"});
   for (std::size_t i = 0; i < rows.floating.size(); ++i) {
     const Floating_tally& t = rows.floating[i];
     const std::uint64_t faces = rows.floating_settings[i].faces;

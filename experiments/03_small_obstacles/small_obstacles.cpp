@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", plan.quick, "few trials: what the test compares");
   app.add_option("--threads", plan.threads, "rows at the same time; nothing but times depends on it")
       ->check(CLI::PositiveNumber);
-  app.add_option("--rounds", plan.rounds, "timed rounds of each sweep; 0: no times")->check(CLI::NonNegativeNumber);
+  app.add_option("--rounds", plan.rounds, "timed rounds of each sweep; 0: no times")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--seed", plan.seed, "of everything random");
   app.add_option("--commit", plan.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);

@@ -50,7 +50,8 @@ double inner_radius(const Spike& spike) {
 
 Environment<3> spike_room(const Room& room, const Spike& spike) {
   Cell_soup<3> soup;
-  const Ring below = add_square(soup, room.half_width, 0), above = add_square(soup, room.half_width, room.height);
+  const Ring below = add_square(soup, room.half_width, 0),
+             above = add_square(soup, room.half_width, room.height);
   const auto tip = static_cast<std::uint32_t>(soup.points.size());
   soup.points.push_back({0, 0, spike.height});
   std::array<std::uint32_t, spike_sides> base;
@@ -81,7 +82,8 @@ Environment<3> spike_room(const Room& room, const Spike& spike) {
 Environment<3> floating_room(const Room& room, double side) {
   Cell_soup<3> soup;
   const double low = room.height / 2 - side / 2;
-  const std::array<Ring, 2> outer{add_square(soup, room.half_width, 0), add_square(soup, room.half_width, room.height)},
+  const std::array<Ring, 2> outer{add_square(soup, room.half_width, 0),
+                                  add_square(soup, room.half_width, room.height)},
       inner{add_square(soup, side / 2, low), add_square(soup, side / 2, low + side)};
   const auto add = [&](const Ring& down, const Ring& up) {
     add_hexahedron(soup, {down[0], down[1], down[2], down[3], up[0], up[1], up[2], up[3]});

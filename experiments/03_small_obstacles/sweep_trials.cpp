@@ -15,7 +15,7 @@
 namespace cellwalk::small_obstacles {
 namespace {
 
-constexpr std::uint32_t period = 4;  // cubes along each axis in which edges start
+constexpr std::uint32_t period = 4;         // cubes along each axis in which edges start
 constexpr std::size_t timed_moves = 10000;  // they go through the caches again in each round
 
 template <int D>
@@ -140,7 +140,8 @@ void time(const Sweep_setting& setting, int rounds, Sweep_tally& tally) {
       options.sweep = sweeps_compared[k];
       Edge_counts counts;
       const auto start = std::chrono::steady_clock::now();
-      for (const Move<D>& m : made) sweep_edge<D>(moves.snapshot(), m.p, m.target, m.q, m.chain, options, counts);
+      for (const Move<D>& m : made)
+        sweep_edge<D>(moves.snapshot(), m.p, m.target, m.q, m.chain, options, counts);
       const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
       times[k].push_back(spent.count() / static_cast<double>(made.size()));
     }

@@ -50,11 +50,11 @@ def line_plot(series, xlabel, ylabel, log="", xrange="", yrange="", tics=None, c
         drawn = [p for p in points if p not in zero]
         block = f"$data_{number}"
         script += f"{block} << END\n" + "".join(" ".join(map(repr, p)) + "\n" for p in drawn) + "END\n"
+        bars = [p for p in drawn if len(p) == 4]
+        if bars:  # behind the marks
+            plots.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt {mark} lw 1 ps 0 lc rgb "{grey}" notitle')
         plots.append(f"{block} using 1:2 with linespoints {style} title {quoted(name)}" if drawn
                      else f"NaN with linespoints {style} title {quoted(name)}")
-        bars = [p for p in drawn if len(p) == 4]
-        if bars:
-            plots.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt {mark} lw 1 ps 0 lc rgb "{grey}" notitle')
         bounds = [p for p in zero if len(p) == 4]
         if bounds:
             script += f"$bound_{number} << END\n" + "".join(f"{p[0]!r} {p[3]!r}\n" for p in bounds) + "END\n"
