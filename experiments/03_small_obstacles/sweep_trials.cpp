@@ -5,12 +5,12 @@
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "box_world.h"
+#include "common/processor_time.h"
 
 namespace cellwalk::small_obstacles {
 namespace {
@@ -139,11 +139,10 @@ void time(const Sweep_setting& setting, int rounds, Sweep_tally& tally) {
       Sweep_options options;
       options.sweep = sweeps_compared[k];
       Edge_counts counts;
-      const auto start = std::chrono::steady_clock::now();
+      const double start = experiments::processor_seconds();
       for (const Move<D>& m : made)
         sweep_edge<D>(moves.snapshot(), m.p, m.target, m.q, m.chain, options, counts);
-      const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
-      times[k].push_back(spent.count() / static_cast<double>(made.size()));
+      times[k].push_back(1e9 * (experiments::processor_seconds() - start) / static_cast<double>(made.size()));
     }
   for (std::size_t k = 0; k < times.size(); ++k) {
     std::sort(times[k].begin(), times[k].end());

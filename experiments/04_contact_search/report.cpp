@@ -105,7 +105,7 @@ void write_timings(const Tallies& tallies, const std::vector<Search>& searches,
                    const std::filesystem::path& folder) {
   io::Csv_writer out(folder / "timings.csv", {"world", "search", "tolerance_bits", "us_per_contact"});
   for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
-    out.row(world, name_of(search), bits_of(search), t.microseconds);
+    out.row(world, name_of(search), bits_of(search), text(t.microseconds));
   });
   out.commit();
 }

@@ -7,12 +7,12 @@
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "box_world.h"
+#include "common/processor_time.h"
 
 namespace cellwalk::contact_search {
 namespace {
@@ -170,13 +170,12 @@ void time_all(const Scene<D>& scene, const std::vector<Trial<D>>& trials, const 
     for (std::size_t i = 0; i < searches.size(); ++i) {
       const Sweep_options options = options_of(searches[i]);
       Edge_counts counts;
-      const auto start = std::chrono::steady_clock::now();
+      const double start = experiments::processor_seconds();
       for (std::size_t k = 0; k < n; ++k) {
         const Trial<D>& t = trials[k];
         sweep_edge<D>(scene.environment.snapshot(), t.p, t.target, t.q, t.chain, options, counts);
       }
-      const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - start;
-      times[i].push_back(spent.count() / static_cast<double>(n));
+      times[i].push_back(1e6 * (experiments::processor_seconds() - start) / static_cast<double>(n));
     }
   for (std::size_t i = 0; i < searches.size(); ++i) {
     std::sort(times[i].begin(), times[i].end());

@@ -77,12 +77,11 @@ def across(rows, world, search, value):
 
 def draw_all(folder, errors, costs):
     worlds = list(dict.fromkeys(r["world"] for r in errors))
-    first = dichotomic(errors, worlds[0], tolerance)
-    time = {"the tolerance": [first[0], first[-1]]}
-    for world in worlds:
-        time[f"{world}, most"] = dichotomic(errors, world, lambda r: float(r["early_max"]))
-    for world in worlds:
-        time[f"{world}, mean"] = dichotomic(errors, world, lambda r: float(r["early_mean"]))
+    of_world = [dichotomic(errors, world, lambda r: r) for world in worlds]
+    rows_of = [(points[0][0], [r for _, r in points]) for points in zip(*of_world)]
+    time = {"the tolerance": [(x, x) for x, _ in rows_of],
+            "greatest of all worlds": [(x, max(float(r["early_max"]) for r in rows)) for x, rows in rows_of],
+            "mean of all worlds": [(x, sum(float(r["early_mean"]) for r in rows) / len(rows)) for x, rows in rows_of]}
     done = plots.draw(folder, "time", plots.line_plot(
         time, TOLERANCE, "how early the time is (share of the motion)", "xy", commands="set key inside left top\n"))
     normal = {}
