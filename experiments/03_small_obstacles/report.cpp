@@ -117,7 +117,7 @@ void write_timings(const Rows& rows, const std::filesystem::path& folder) {
     for (std::size_t k = 0; k < sweep_names.size(); ++k) {
       const Sweep_setting& s = rows.sweep_settings[i];
       out.row(s.dimension, s.edge_over_step, s.size_over_step, sweep_names[k],
-              rows.sweeps[i].cost[k].nanoseconds);
+              text(rows.sweeps[i].cost[k].nanoseconds));
     }
   out.commit();
 }

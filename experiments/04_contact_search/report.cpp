@@ -21,7 +21,7 @@ namespace cellwalk::contact_search {
 namespace {
 
 constexpr int least_bits = 2, most_bits = 30, bits_step = 2;
-constexpr std::size_t quick_contacts = 150, full_contacts = 5000;
+constexpr std::size_t quick_contacts = 150, full_contacts = 2000;
 
 std::vector<Search> all_searches() {
   std::vector<Search> searches{{Contact_search::exact},

@@ -4,7 +4,7 @@
 #
 #   experiments/04_contact_search/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
 #
-# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about 5 minutes.
+# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about 3 minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 name=contact_search
@@ -15,7 +15,7 @@ targets=contact_search
 options=(--threads "$threads")
 if $quick; then options+=(--quick); fi
 if ! $counts; then
-  if $quick; then options+=(--rounds 1); else options+=(--rounds 7); fi
+  if $quick; then options+=(--rounds 1); else options+=(--rounds 5); fi
 fi
 "$build/experiments/04_contact_search/contact_search" --out "$out" --commit "$commit" "${options[@]}"
 python3 experiments/04_contact_search/summarize.py "$out" || [ $? -eq 3 ]

@@ -50,7 +50,7 @@ struct Trial_options {
   std::size_t contacts = 0;
   int rounds = 0;  ///< timed, of at most `timed_contacts`
 };
-inline constexpr std::size_t timed_contacts = 1000;
+inline constexpr std::size_t timed_contacts = 300;
 
 /// Draws random moves of an edge until so many of them are stopped by it, before its end is, and locates each of these contacts by
 /// all searches.
