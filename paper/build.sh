@@ -48,7 +48,7 @@ experiment small_obstacles 03_small_obstacles
 experiment contact_search 04_contact_search
 
 mkdir -p "$out"
-python3 paper/numbers.py "$out" "${runs[@]}"
+python3 paper/collect_numbers.py "$out" "${runs[@]}"
 cp paper/report.tex paper/references.bib docs/images/face_3d.png "$out"
 cd "$out"
 # latex COMMAND...: what it says is shown only where it fails.

@@ -115,7 +115,7 @@ def draw_sweeps(folder, sweeps, costs):
         missed, SIZE, "contacts of the edge that three segments miss (%)", "x", xrange="0.025:2", yrange="0:100", tics=tics,
         commands="set key inside right top\n"))
     return plots.draw(folder, "cost", plots.line_plot(
-        cost, SIZE, "signs of orientations a sweep, 3D (count)", "xy", xrange="0.025:2", yrange="1:3000", tics=tics,
+        cost, SIZE, "signs of orientations a sweep, 3D (count)", "xy", xrange="0.025:2", yrange="1:30000", tics=tics,
         commands="set key inside left top\n")) and done
 
 

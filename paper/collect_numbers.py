@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Everything in the report that was measured: macros, tables and figures from the outputs of the experiments.
 
-usage: numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
+usage: collect_numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
 
 NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search), KIND is quick or full, FOLDER what its run.sh
 wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
@@ -17,10 +17,10 @@ from pathlib import Path
 TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus float", "small_obstacles": "03, small obstacles",
           "contact_search": "04, contact searches"}
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
-HALF, WIDE = ("4.1in,2.9in", 0.55), ("6.2in,4.2in", 0.62)
+HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
-           "contact_search": {"time": HALF, "normal": HALF, "cost": HALF}}
+           "contact_search": {"time": HALF, "cost": HALF}}
 METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
            ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
            ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
@@ -90,7 +90,7 @@ def draw(report, name, folder):
     for plot, (size, scale) in FIGURES[name].items():
         script = folder / f"{plot}.gp"
         if not script.exists():
-            sys.exit(f"numbers.py: {script} is missing: run the experiment again")
+            sys.exit(f"collect_numbers.py: {script} is missing: run the experiment again")
         terminal = f'set terminal pdfcairo size {size} fontscale {scale} enhanced\nset output "{name}_{plot}.pdf"\n'
         subprocess.run(["gnuplot", "-"], input=terminal + script.read_text(encoding="utf-8"), text=True, check=True, cwd=report.out)
 
@@ -277,7 +277,7 @@ def main(arguments):
         name, _, rest = argument.partition("=")
         kind, _, folder = rest.partition(":")
         if name not in TITLES or kind not in ("quick", "full"):
-            sys.exit(f"numbers.py: {argument}: use NAME=quick:FOLDER or NAME=full:FOLDER, NAME one of {', '.join(TITLES)}")
+            sys.exit(f"collect_numbers.py: {argument}: use NAME=quick:FOLDER or NAME=full:FOLDER, NAME one of {', '.join(TITLES)}")
         runs[name] = (kind, Path(folder))
     report = Report(Path(arguments[0]))
     report.out.mkdir(parents=True, exist_ok=True)
