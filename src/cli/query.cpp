@@ -129,9 +129,13 @@ void add_move_options(CLI::App& command, Query_options& options) {
   add_choice(command, "--kernel", options.move.kernel,
              {{"exact", Kernel_choice::exact},
               {"lazy", Kernel_choice::lazy},
+              {"rational", Kernel_choice::rational},
               {"double", Kernel_choice::double_precision},
+              {"double_1e-9", Kernel_choice::double_tolerance_9},
+              {"double_1e-6", Kernel_choice::double_tolerance_6},
               {"float", Kernel_choice::float_precision}},
-             "Number policy; double and float may miss walls and are for experiments")
+             "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
+             "determinants up to that count as 0")
       ->group(group);
   add_choice(command, "--strategy", options.strategy,
              {{"certified", std::optional(Walk_strategy::certified)},

@@ -81,8 +81,14 @@ std::vector<Answer<D>> answer_moves(const Snapshot<D>& snapshot, const std::vect
       return answer_all<Exact>(snapshot, moves, options, counts);
     case Kernel_choice::lazy:
       return answer_all<Lazy>(snapshot, moves, options, counts);
+    case Kernel_choice::rational:
+      return answer_all<Unfiltered>(snapshot, moves, options, counts);
     case Kernel_choice::double_precision:
       return answer_all<Double>(snapshot, moves, options, counts);
+    case Kernel_choice::double_tolerance_9:
+      return answer_all<Tolerant<9>>(snapshot, moves, options, counts);
+    case Kernel_choice::double_tolerance_6:
+      return answer_all<Tolerant<6>>(snapshot, moves, options, counts);
     case Kernel_choice::float_precision:
       break;
   }

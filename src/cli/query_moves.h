@@ -11,7 +11,15 @@
 
 namespace cellwalk::cli {
 
-enum class Kernel_choice { exact, lazy, double_precision, float_precision };
+enum class Kernel_choice {
+  exact,
+  lazy,
+  rational,
+  double_precision,
+  double_tolerance_9,
+  double_tolerance_6,
+  float_precision
+};
 
 struct Move_options {
   Kernel_choice kernel = Kernel_choice::exact;
