@@ -73,13 +73,13 @@ Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t m
 
 template <int D>
 Counts walk_at(const Grid_point& point, const Run_options& options) {
-  const std::uint64_t worlds = (options.motions + motions_per_world - 1) / motions_per_world;
+  const std::uint64_t worlds = (options.count + motions_per_world - 1) / motions_per_world;
   std::vector<Counts> counts(worlds);
   tbb::parallel_for(std::uint64_t{0}, worlds, [&](std::uint64_t w) {
     const std::uint64_t seed = experiments::part_seed(
         options.seed, fmt::format("walks {} {} {}", D, point.variable, point.value), w);
     counts[w] = walk_in_world<D>(point.setting, seed,
-                                 std::min(motions_per_world, options.motions - w * motions_per_world));
+                                 std::min(motions_per_world, options.count - w * motions_per_world));
   });
   Counts sum;
   for (const Counts& c : counts) sum += c;
@@ -99,7 +99,7 @@ void walk_dimension(const Run_options& options, io::Csv_writer& table, Exact_sum
                 counts.blocked, wrong(t), interval.low, interval.high, t[1], t[2], t[3], t[4], t[5], t[6],
                 t[7], t[8], t[9], t[10]);
       if (!tested[k].is_exact) continue;
-      summary.walks += total(t);
+      summary.by_exact += total(t);
       summary.wrong += wrong(t);
     }
     fmt::print("walks {}D {} {}: exact {} wrong, double {}, float {} of {}\n", D, point.variable, point.value,
