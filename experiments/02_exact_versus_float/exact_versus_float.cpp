@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // How often kernels go wrong, judged by the oracle of the tests.
 //
-//   exact_versus_float -o DIR [--part walks|sweeps ...] [--motions N] [--sweeps N] [--seed S] [--threads N] [--commit NAME]
+//   exact_versus_float -o DIR [--part walks|sweeps|flights|failures|times ...] [--motions N] [--sweeps N]
+//                            [--moves N] [--timed N] [--seed S] [--threads N] [--commit NAME]
 #include <cellwalk/io/json_file.h>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,10 @@
 #include <vector>
 
 #include "common/manifest.h"
+#include "failures.h"
+#include "flights.h"
 #include "sweeps.h"
+#include "times.h"
 #include "walks.h"
 
 namespace {
@@ -26,8 +30,8 @@ using namespace cellwalk::exact_float;
 
 struct Options {
   std::string folder, commit = "unknown";
-  std::vector<std::string> parts{"walks", "sweeps"};
-  std::uint64_t seed = 1, motions = 1000, sweeps = 500;
+  std::vector<std::string> parts{"walks", "sweeps", "flights", "failures", "times"};
+  std::uint64_t seed = 1, motions = 1000, sweeps = 500, moves = 10000, timed = 20000;
   std::size_t threads = 1;
 
   bool runs(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
@@ -49,6 +53,9 @@ std::uint64_t run(const Options& options) {
   };
   if (options.runs("walks")) note("walks", run_walks(options.with(options.motions)));
   if (options.runs("sweeps")) note("sweeps", run_sweeps(options.with(options.sweeps)));
+  if (options.runs("flights")) note("flights", run_flights(options.with(options.moves)));
+  if (options.runs("failures")) manifest["failures"] = run_failures(options.with(options.motions));
+  if (options.runs("times")) run_times(options.with(options.timed));
   io::write_json(std::filesystem::path(options.folder) / "manifest.json", manifest);
   return wrong;
 }
@@ -64,6 +71,8 @@ int main(int argc, char** argv) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--motions", options.motions, "walked at each point of the grid")->check(CLI::PositiveNumber);
   app.add_option("--sweeps", options.sweeps, "at each distance from a degeneracy")->check(CLI::PositiveNumber);
+  app.add_option("--moves", options.moves, "of each kernel in a long simulation")->check(CLI::PositiveNumber);
+  app.add_option("--timed", options.timed, "motions that are timed")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of everything");
   app.add_option("--threads", options.threads, "tables do not depend on it")->check(CLI::Range(1, 1024));
   app.add_option("--commit", options.commit, "what the manifest names as the source");

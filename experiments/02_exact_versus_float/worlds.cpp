@@ -36,8 +36,10 @@ std::array<Vector<3>, 3> rotation_columns(double t, std::array<Vector<3>, 3>) {
   return columns;
 }
 
+}  // namespace
+
 template <int D>
-Lattice_map<D> make_map(const Setting& setting) {
+Lattice_map<D> lattice_map(const Setting& setting) {
   Lattice_map<D> map;
   map.columns = rotation_columns(setting.turn, map.columns);
   for (int i = 0; i < D; ++i)
@@ -47,12 +49,10 @@ Lattice_map<D> make_map(const Setting& setting) {
   return map;
 }
 
-}  // namespace
-
 template <int D>
 World<D> make_world(const Setting& setting, std::uint64_t seed) {
   auto options = mixed_lattice_world<D>(seed);
-  options.map = make_map<D>(setting);
+  options.map = lattice_map<D>(setting);
   options.cells.fill(4);
   int extent = 4;  // log2 of a bound of coordinates, in cells
   if (setting.is_wide) {
@@ -121,6 +121,8 @@ Motion<D> make_motion(const World<D>& world, const Setting& setting, Random& ran
   return motion;
 }
 
+template Lattice_map<2> lattice_map<2>(const Setting&);
+template Lattice_map<3> lattice_map<3>(const Setting&);
 template World<2> make_world<2>(const Setting&, std::uint64_t);
 template World<3> make_world<3>(const Setting&, std::uint64_t);
 template Motion<2> make_motion(const World<2>&, const Setting&, Random&);

@@ -34,6 +34,10 @@ struct World {
   double unit;  ///< one ulp of the largest coordinates in it
 };
 
+/// Where a setting places the lattice.
+template <int D>
+Lattice_map<D> lattice_map(const Setting& setting);
+
 /// \throw Error(usage) for a setting in which coordinates would be rounded
 template <int D>
 World<D> make_world(const Setting& setting, std::uint64_t seed);
