@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tables and plots of the experiment from its CSV files.
+
+usage: summarize.py DIR        reads DIR/walks.csv, sweeps.csv, flights.csv and, where it is there, times.csv; writes tables.md, plots
+
+Without gnuplot the tables and the scripts of the plots are written, and the program says so and returns 3.
+"""
+
+import csv
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+import plots  # noqa: E402
+
+EXACT = ["exact", "exact_signs", "lazy", "rational"]
+ROUNDED = ["double", "double_1e-9", "double_1e-6", "float"]
+LABELS = {
+    "degeneracy": "distance of the target from a degenerate position (ulp; 0 at the left)",
+    "scale": "size of a cell (units)",
+    "offset": "distance of the world from the origin (cells; 0 at the left)",
+    "aspect": "aspect ratio of the cells",
+    "rotation": "rotation of the lattice (degrees; 0 at the left)",
+    "length": "length of a motion (cells)",
+}
+
+
+def read_rows(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def unique(values):
+    return list(dict.fromkeys(values))
+
+
+def table(header, lines):
+    rule = ["---"] * 2 + ["---:"] * (len(header) - 2)
+    return "\n".join("| " + " | ".join(map(str, cells)) + " |" for cells in [header, rule, *lines]) + "\n"
+
+
+def share(count, total):
+    return "0" if int(count) == 0 else f"{100 * int(count) / int(total):.3g} %"
+
+
+def place(variable, value):
+    """Where a value stands on the axis; 0 stands two powers below the smallest of its variable."""
+    if variable == "rotation":
+        return math.degrees(2 * math.atan(value)) if value else 2.0 ** -8
+    if value == 0:
+        return 2.0 ** (-8 if variable == "degeneracy" else -4)
+    return value
+
+
+def points(rows, kernel):
+    """x, share, low, high; kernels that never fail are drawn at their upper bound."""
+    return [(place(r["variable"], float(r["value"])), int(r["wrong"]) / int(r["motions"]), float(r["low"]), float(r["high"]))
+            for r in rows if r["kernel"] == kernel]
+
+
+def walk_plot(folder, rows, dimension, variable):
+    rows = [r for r in rows if r["dimension"] == dimension and r["variable"] == variable]
+    series = {"exact kernels (upper bound)": [], **{k: points(rows, k) for k in ROUNDED}}
+    # The exact kernels never fail, or the run would have ended with an error: one line for all, at the bound of 0 of N.
+    series["exact kernels (upper bound)"] = [(x, high) for x, wrong, _, high in points(rows, "exact") if wrong == 0]
+    script = plots.line_plot(series, LABELS[variable], "wrong walks (share of all, 95 % interval)", log="xy", yrange=":1.5",
+                             commands=f'set title "walks in {dimension}D"\nset format x "%g"\n' if variable == "rotation"
+                             else f'set title "walks in {dimension}D"\n')
+    return plots.draw(folder, f"walks_{dimension}d_{variable}", script)
+
+
+def sweep_plot(folder, rows, dimension):
+    rows = [r for r in rows if r["dimension"] == dimension]
+    shown = {"triangle": "complete sweep (upper bound)", "three_segments": "three segments, exact",
+             "walks_double": "walks, double", "walks_double_1e-9": "walks, double_1e-9",
+             "walks_double_1e-6": "walks, double_1e-6", "walks_float": "walks, float"}
+    series = {}
+    for method, label in shown.items():
+        series[label] = [(place("degeneracy", float(r["value"])), *(
+            (float(r["high"]),) if method == "triangle" else
+            (int(r["wrong"]) / int(r["sweeps"]), float(r["low"]), float(r["high"]))))
+            for r in rows if r["method"] == method]
+    script = plots.line_plot(series, LABELS["degeneracy"], "wrong sweeps (share of all, 95 % interval)", log="xy",
+                             yrange=":1.5", commands=f'set title "sweeps of edges in {dimension}D"\n')
+    return plots.draw(folder, f"sweeps_{dimension}d", script)
+
+
+def escape_plots(folder):
+    """What the first escape of each kernel in the plane looks like."""
+    drawn = True
+    for path in sorted(folder.glob("escape_2d_*_path.csv")):
+        name = path.stem.removesuffix("_path")
+        walls = "".join(f"{r['ax']} {r['ay']}\n{r['bx']} {r['by']}\n\n" for r in read_rows(folder / f"{name}_walls.csv"))
+        way = [(float(r["x"]), float(r["y"])) for r in read_rows(path)]
+        block = "".join(f"{x!r} {y!r}\n" for x, y in way)
+        script = (f"$walls << END\n{walls}END\n$path << END\n{block}END\n"
+                  f"$last << END\n{way[-2][0]!r} {way[-2][1]!r}\n{way[-1][0]!r} {way[-1][1]!r}\nEND\n"
+                  'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top\n'
+                  'plot $walls with lines lw 3 dt 1 lc rgb "#000000" title "walls", '
+                  '$path with linespoints dt 2 pt 6 lw 1.5 lc rgb "#777777" title "way of the particle", '
+                  '$last with linespoints dt 1 pt 7 lw 2 lc rgb "#555555" title "the move that escapes"\n')
+        drawn = plots.draw(folder, name, script) and drawn
+    return drawn
+
+
+def walk_tables(rows):
+    text = ""
+    for dimension in unique(r["dimension"] for r in rows):
+        here = [r for r in rows if r["dimension"] == dimension]
+        text += f"\n## Walks in {dimension}D: share of wrong ones\n\n"
+        lines = []
+        for variable, value in unique((r["variable"], r["value"]) for r in here):
+            found = {r["kernel"]: r for r in here if (r["variable"], r["value"]) == (variable, value)}
+            any_row = next(iter(found.values()))
+            lines.append([variable, f"{float(value):.6g}", any_row["motions"], share(any_row["degenerate"], any_row["motions"]),
+                          sum(int(found[k]["wrong"]) for k in EXACT)]
+                         + [share(found[k]["wrong"], found[k]["motions"]) for k in ROUNDED])
+        text += table(["variable", "value", "motions", "degenerate", "wrong by exact kernels", *ROUNDED], lines)
+        text += f"\n## Walks in {dimension}D: how they go wrong, of all at the point\n\n"
+        kinds = list(here[0])[10:]
+        sums = []
+        for kernel in EXACT + ROUNDED:
+            mine = [r for r in here if r["kernel"] == kernel]
+            sums.append([kernel, sum(int(r["motions"]) for r in mine), *(sum(int(r[k]) for r in mine) for k in kinds)])
+        text += table(["kernel", "motions", *kinds], sums)
+    return text
+
+
+def plain_table(title, rows):
+    def cell(text):
+        try:
+            return str(int(text))
+        except ValueError:
+            pass
+        try:
+            return f"{float(text):.4g}"
+        except ValueError:
+            return text
+    return f"\n## {title}\n\n" + table(list(rows[0]), [[cell(v) for v in r.values()] for r in rows])
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = Path(sys.argv[1])
+    text = "# Exact versus float: results\n"
+    drawn = True
+    if (folder / "walks.csv").exists():
+        walks = read_rows(folder / "walks.csv")
+        text += walk_tables(walks)
+        for dimension in "23":
+            for variable in LABELS:
+                drawn = walk_plot(folder, walks, dimension, variable) and drawn
+    if (folder / "sweeps.csv").exists():
+        sweeps = read_rows(folder / "sweeps.csv")
+        text += plain_table("Sweeps of edges", sweeps)
+        for dimension in "23":
+            drawn = sweep_plot(folder, sweeps, dimension) and drawn
+    for name, title in [("flights", "Long simulations"), ("times", "Times and memory")]:
+        if (folder / f"{name}.csv").exists():
+            text += plain_table(title, read_rows(folder / f"{name}.csv"))
+    drawn = escape_plots(folder) and drawn
+    (folder / "tables.md").write_text(text, encoding="utf-8")
+    return 0 if drawn else plots.NO_GNUPLOT
+
+
+if __name__ == "__main__":
+    sys.exit(main())
