@@ -73,9 +73,8 @@ void replay(const Motion_record<D>& record) {
       Environment<D>::build(record.soup, {Duplicate_vertices::keep, false, false});
   fmt::print("note: {}\ncells: {}\nfrom:{}\nto:{}\n", record.note, record.soup.cell_count(),
              point_text<D>(record.from), point_text<D>(record.to));
-  with_kernel(kernel, [&](auto policy) {
-    walk_again<decltype(policy)>(record, environment.snapshot(), strategy);
-  });
+  with_kernel(kernel,
+              [&](auto policy) { walk_again<decltype(policy)>(record, environment.snapshot(), strategy); });
 }
 
 }  // namespace
