@@ -10,6 +10,7 @@ Without gnuplot the tables and the scripts of the plots are written, and the pro
 import csv
 import math
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
@@ -102,16 +103,33 @@ def sweep_plot(folder, rows, dimension):
     return plots.draw(folder, f"sweeps_{dimension}d", script)
 
 
+def distance(point, walls):
+    """From a point to the nearest wall: exact but for the last step, as it may be less than an ulp."""
+    best = math.inf
+    for wall in walls:
+        a, b = ((Fraction(wall[f"{end}x"]), Fraction(wall[f"{end}y"])) for end in "ab")
+        p = Fraction(point[0]), Fraction(point[1])
+        along = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+        t = min(1, max(0, ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / along))
+        off = (p[0] - a[0] - t * (b[0] - a[0])) ** 2 + (p[1] - a[1] - t * (b[1] - a[1])) ** 2
+        best = min(best, math.sqrt(off))
+    return best
+
+
 def escape_plots(folder):
     """What the first escape of each kernel in the plane looks like."""
     drawn = True
     for path in sorted(folder.glob("escape_2d_*_path.csv")):
         name = path.stem.removesuffix("_path")
-        walls = "".join(f"{r['ax']} {r['ay']}\n{r['bx']} {r['by']}\n\n" for r in read_rows(folder / f"{name}_walls.csv"))
+        wall_rows = [{k: float(v) for k, v in r.items()} for r in read_rows(folder / f"{name}_walls.csv")]
+        walls = "".join(f"{r['ax']!r} {r['ay']!r}\n{r['bx']!r} {r['by']!r}\n\n" for r in wall_rows)
         way = [(float(r["x"]), float(r["y"])) for r in read_rows(path)]
         block = "".join(f"{x!r} {y!r}\n" for x, y in way)
+        kernel = name.removeprefix("escape_2d_")
+        title = f"the first escape under {kernel}: ends {distance(way[-1], wall_rows):.2g} cells from the nearest wall"
         script = (f"$walls << END\n{walls}END\n$path << END\n{block}END\n"
                   f"$last << END\n{way[-2][0]!r} {way[-2][1]!r}\n{way[-1][0]!r} {way[-1][1]!r}\nEND\n"
+                  f"set title {plots.quoted(title)}\n"
                   'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top Left reverse\n'
                   'plot $walls with lines lw 3 dt 1 lc rgb "#000000" title "walls", '
                   '$path with linespoints dt 2 pt 6 lw 1.5 lc rgb "#777777" title "way of the particle", '
