@@ -69,8 +69,10 @@ int main(int argc, char** argv) {
   app.add_option("--part", options.parts, "what to run")
       ->check(CLI::IsMember(options.parts))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--motions", options.motions, "walked at each point of the grid")->check(CLI::PositiveNumber);
-  app.add_option("--sweeps", options.sweeps, "at each distance from a degeneracy")->check(CLI::PositiveNumber);
+  app.add_option("--motions", options.motions, "walked at each point of the grid")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--sweeps", options.sweeps, "at each distance from a degeneracy")
+      ->check(CLI::PositiveNumber);
   app.add_option("--moves", options.moves, "of each kernel in a long simulation")->check(CLI::PositiveNumber);
   app.add_option("--timed", options.timed, "motions that are timed")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of everything");

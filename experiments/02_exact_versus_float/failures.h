@@ -15,7 +15,7 @@ namespace cellwalk::exact_float {
 template <int D>
 void write_failure(const std::filesystem::path& path, const Scene<D>& scene, const Kernel<D>& kernel,
                    const Particle<D>& particle, const Point<D>& to, const std::string& note) {
-  Motion_record<D> record{scene.world.soup, particle.position, to, scene.snapshot.index(particle.cell),
+  Motion_record<D> record{scene.world.soup, particle.position, to,  scene.snapshot.index(particle.cell),
                           kernel.policy,    "exit_rule",       note};
   if (kernel.strategy == Walk_strategy::certified) record.strategy = "certified";
   io::write_motion(path, record);

@@ -158,12 +158,13 @@ void write_row(io::Csv_writer& table, int dimension, const char* kernel, const F
   constexpr double million = 1e6;
   const auto interval = experiments::confidence_interval(f.escapes, f.moves);
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  table.row(dimension, kernel, f.moves, f.first_escape ? static_cast<double>(f.first_escape) : nothing,
-            f.escapes, million * static_cast<double>(f.escapes) / static_cast<double>(f.moves),
-            million * interval.low, million * interval.high, f.contacts, f.held, total(f.tally), wrong(f.tally),
-            f.tally[static_cast<std::size_t>(Outcome::false_contact)],
-            f.tally[static_cast<std::size_t>(Outcome::stuck)] + f.tally[static_cast<std::size_t>(Outcome::lost)],
-            f.energy);
+  table.row(
+      dimension, kernel, f.moves, f.first_escape ? static_cast<double>(f.first_escape) : nothing, f.escapes,
+      million * static_cast<double>(f.escapes) / static_cast<double>(f.moves), million * interval.low,
+      million * interval.high, f.contacts, f.held, total(f.tally), wrong(f.tally),
+      f.tally[static_cast<std::size_t>(Outcome::false_contact)],
+      f.tally[static_cast<std::size_t>(Outcome::stuck)] + f.tally[static_cast<std::size_t>(Outcome::lost)],
+      f.energy);
 }
 
 }  // namespace
@@ -178,9 +179,10 @@ Exact_summary run_flights(const Run_options& options) {
     else
       flown[i] = Flight_trial<3>(in_space[i - kernel_count], options).run(options.count);
   });
-  io::Csv_writer table(options.folder / "flights.csv",
-                       {"dimension", "kernel", "moves", "first_escape", "escapes", "escapes_per_million", "low",
-                        "high", "contacts", "held", "walks", "wrong", "false_contact", "stuck_or_lost", "energy"});
+  io::Csv_writer table(
+      options.folder / "flights.csv",
+      {"dimension", "kernel", "moves", "first_escape", "escapes", "escapes_per_million", "low", "high",
+       "contacts", "held", "walks", "wrong", "false_contact", "stuck_or_lost", "energy"});
   Exact_summary summary;
   for (std::size_t i = 0; i < flown.size(); ++i) {
     const auto& kernel = in_plane[i % kernel_count];

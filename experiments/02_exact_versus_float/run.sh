@@ -20,7 +20,7 @@ if ! $counts; then parts+=(--part times); fi
 if $quick; then
   sizes=(--motions 300 --sweeps 200 --moves 3000 --timed 5000)
 else
-  sizes=(--motions 100000 --sweeps 42000 --moves 100000 --timed 20000)
+  sizes=(--motions 100000 --sweeps 42000 --moves 100000 --timed 5000)
 fi
 "$build/experiments/02_exact_versus_float/exact_versus_float" "${parts[@]}" "${sizes[@]}" --out "$out" --threads "$threads" \
   --commit "$commit"

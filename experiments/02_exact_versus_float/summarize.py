@@ -10,6 +10,7 @@ Without gnuplot the tables and the scripts of the plots are written, and the pro
 import csv
 import math
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
@@ -18,11 +19,11 @@ import plots  # noqa: E402
 EXACT = ["exact", "exact_signs", "lazy", "rational"]
 ROUNDED = ["double", "double_1e-9", "double_1e-6", "float"]
 LABELS = {
-    "degeneracy": "distance of the target from a degenerate position (ulp; 0 at the left)",
+    "degeneracy": "distance of the target from a degenerate position (ulp)",
     "scale": "size of a cell (units)",
-    "offset": "distance of the world from the origin (cells; 0 at the left)",
+    "offset": "distance of the world from the origin (cells)",
     "aspect": "aspect ratio of the cells",
-    "rotation": "rotation of the lattice (degrees; 0 at the left)",
+    "rotation": "rotation of the lattice (degrees)",
     "length": "length of a motion (cells)",
 }
 
@@ -46,12 +47,26 @@ def share(count, total):
 
 
 def place(variable, value):
-    """Where a value stands on the axis; 0 stands two powers below the smallest of its variable."""
+    """Where a value stands on the logarithmic axis; 0 stands to the left of all others."""
     if variable == "rotation":
         return math.degrees(2 * math.atan(value)) if value else 2.0 ** -8
     if value == 0:
-        return 2.0 ** (-8 if variable == "degeneracy" else -4)
+        return 2.0 ** -4
     return value
+
+
+def tics(variable, values):
+    """Labels of the values on the axis."""
+    labels = {}
+    for value in values:
+        if value == 0:
+            label = "0"
+        elif variable == "rotation":
+            label = f"{place(variable, value):.2g}"
+        else:
+            label = f"2^{{{round(math.log2(value))}}}"
+        labels[label] = place(variable, value)
+    return labels
 
 
 def points(rows, kernel):
@@ -65,9 +80,9 @@ def walk_plot(folder, rows, dimension, variable):
     series = {"exact kernels (upper bound)": [], **{k: points(rows, k) for k in ROUNDED}}
     # The exact kernels never fail, or the run would have ended with an error: one line for all, at the bound of 0 of N.
     series["exact kernels (upper bound)"] = [(x, high) for x, wrong, _, high in points(rows, "exact") if wrong == 0]
+    values = [float(v) for v in unique(r["value"] for r in rows)]
     script = plots.line_plot(series, LABELS[variable], "wrong walks (share of all, 95 % interval)", log="xy", yrange=":1.5",
-                             commands=f'set title "walks in {dimension}D"\nset format x "%g"\n' if variable == "rotation"
-                             else f'set title "walks in {dimension}D"\n')
+                             tics=tics(variable, values), commands=f'set title "walks in {dimension}D"\n')
     return plots.draw(folder, f"walks_{dimension}d_{variable}", script)
 
 
@@ -83,8 +98,22 @@ def sweep_plot(folder, rows, dimension):
             (int(r["wrong"]) / int(r["sweeps"]), float(r["low"]), float(r["high"]))))
             for r in rows if r["method"] == method]
     script = plots.line_plot(series, LABELS["degeneracy"], "wrong sweeps (share of all, 95 % interval)", log="xy",
-                             yrange=":1.5", commands=f'set title "sweeps of edges in {dimension}D"\n')
+                             yrange=":1.5", tics=tics("degeneracy", [float(v) for v in unique(r["value"] for r in rows)]),
+                             commands=f'set title "sweeps of edges in {dimension}D"\n')
     return plots.draw(folder, f"sweeps_{dimension}d", script)
+
+
+def distance(point, walls):
+    """From a point to the nearest wall: exact but for the last step, as it may be less than an ulp."""
+    best = math.inf
+    for wall in walls:
+        a, b = ((Fraction(wall[f"{end}x"]), Fraction(wall[f"{end}y"])) for end in "ab")
+        p = Fraction(point[0]), Fraction(point[1])
+        along = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+        t = min(1, max(0, ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / along))
+        off = (p[0] - a[0] - t * (b[0] - a[0])) ** 2 + (p[1] - a[1] - t * (b[1] - a[1])) ** 2
+        best = min(best, math.sqrt(off))
+    return best
 
 
 def escape_plots(folder):
@@ -92,12 +121,16 @@ def escape_plots(folder):
     drawn = True
     for path in sorted(folder.glob("escape_2d_*_path.csv")):
         name = path.stem.removesuffix("_path")
-        walls = "".join(f"{r['ax']} {r['ay']}\n{r['bx']} {r['by']}\n\n" for r in read_rows(folder / f"{name}_walls.csv"))
+        wall_rows = [{k: float(v) for k, v in r.items()} for r in read_rows(folder / f"{name}_walls.csv")]
+        walls = "".join(f"{r['ax']!r} {r['ay']!r}\n{r['bx']!r} {r['by']!r}\n\n" for r in wall_rows)
         way = [(float(r["x"]), float(r["y"])) for r in read_rows(path)]
         block = "".join(f"{x!r} {y!r}\n" for x, y in way)
+        kernel = name.removeprefix("escape_2d_")
+        title = f"the first escape under {kernel}: ends {distance(way[-1], wall_rows):.2g} cells from the nearest wall"
         script = (f"$walls << END\n{walls}END\n$path << END\n{block}END\n"
                   f"$last << END\n{way[-2][0]!r} {way[-2][1]!r}\n{way[-1][0]!r} {way[-1][1]!r}\nEND\n"
-                  'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top\n'
+                  f"set title {plots.quoted(title)}\n"
+                  'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top Left reverse\n'
                   'plot $walls with lines lw 3 dt 1 lc rgb "#000000" title "walls", '
                   '$path with linespoints dt 2 pt 6 lw 1.5 lc rgb "#777777" title "way of the particle", '
                   '$last with linespoints dt 1 pt 7 lw 2 lc rgb "#555555" title "the move that escapes"\n')

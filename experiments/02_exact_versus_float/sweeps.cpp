@@ -114,20 +114,19 @@ class Sweep_trial {
   }
 
   void judge(const Move<D>& move) {
-    const auto motion =
-        test::motion_of(scene_.world.soup, scene_.snapshot, move.way(), move.q, move.before);
+    const auto motion = test::motion_of(scene_.world.soup, scene_.snapshot, move.way(), move.q, move.before);
     const oracle::Outcomes outcomes = chains_.judge(motion);
     const bool may_be_free = !move.is_blocked && outcomes.may_be_free();
     const bool may_be_blocked = move.is_blocked || !outcomes.blocks.empty();
     ++counts_.sweeps;
     counts_.blocked += !may_be_free;
     Edge_counts counts;
-    const Chain_result<D> triangle =
-        sweep_triangle(scene_.snapshot, move.way(), move.q, move.before, counts);
+    const Chain_result<D> triangle = sweep_triangle(scene_.snapshot, move.way(), move.q, move.before, counts);
     note(0, of_fault(test::fault_of(chains_, motion, outcomes, scene_.snapshot, triangle)));
     const bool is_third_free =
         !move.is_blocked &&
-        !check_third_segment<D>(scene_.snapshot, move.before, move.crossed, move.moved, move.q, counts).contact;
+        !check_third_segment<D>(scene_.snapshot, move.before, move.crossed, move.moved, move.q, counts)
+             .contact;
     note(1, of_answer(is_third_free, may_be_free, may_be_blocked));
     for (std::size_t k = 0; k < kernel_count; ++k) {
       const Walk_status status = walk_both(kernels_[k], move);
@@ -141,8 +140,7 @@ class Sweep_trial {
   Walk_status walk_both(const Kernel<D>& kernel, const Move<D>& move) const {
     Walk_counts counts;
     const Walk_options options{kernel.strategy, nullptr, nullptr};
-    const Walk_result<D> of_p =
-        kernel.walk(scene_.snapshot, move.p, move.moved.position, counts, options);
+    const Walk_result<D> of_p = kernel.walk(scene_.snapshot, move.p, move.moved.position, counts, options);
     if (of_p.status != Walk_status::arrived) return of_p.status;
     const Particle<D> temporary{move.moved.position, of_p.cell, of_p.dimension, 0};
     const Walk_result<D> third = kernel.walk(scene_.snapshot, temporary, move.q.position, counts, options);
@@ -167,8 +165,8 @@ Counts sweep_at(const Grid_point& point, const Run_options& options) {
   const std::uint64_t worlds = (options.count + sweeps_per_world - 1) / sweeps_per_world;
   std::vector<Counts> counts(worlds);
   tbb::parallel_for(std::uint64_t{0}, worlds, [&](std::uint64_t w) {
-    const std::uint64_t seed =
-        experiments::part_seed(options.seed, fmt::format("sweeps {} {} {}", D, point.variable, point.value), w);
+    const std::uint64_t seed = experiments::part_seed(
+        options.seed, fmt::format("sweeps {} {} {}", D, point.variable, point.value), w);
     counts[w] = Sweep_trial<D>(point.setting, seed)
                     .run(std::min(sweeps_per_world, options.count - w * sweeps_per_world));
   });

@@ -52,11 +52,11 @@ class Exact_versus_float(unittest.TestCase):
     def test_threads_make_no_difference(self):
         other = self.out / "one_thread"
         program = self.build / "experiments/02_exact_versus_float/exact_versus_float"
-        few = ["--part", "walks", "--part", "flights", "--motions", "260", "--moves", "500", "--seed", "2"]
+        few = ["--part", "sweeps", "--part", "flights", "--sweeps", "101", "--moves", "500", "--seed", "2"]
         for threads in "12":
             subprocess.run([program, *few, "--out", other / threads, "--threads", threads], check=True,
                            stdout=subprocess.DEVNULL)
-        for name in ["walks.csv", "flights.csv"]:
+        for name in ["sweeps.csv", "flights.csv"]:
             self.assertEqual((other / "1" / name).read_bytes(), (other / "2" / name).read_bytes())
             self.assertNotEqual((other / "1" / name).read_bytes(), (self.out / name).read_bytes())
 

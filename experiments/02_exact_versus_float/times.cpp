@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
+#include <deque>
 #include <new>
 #include <vector>
 
@@ -57,21 +58,21 @@ struct Batch {
 };
 
 template <int D>
-std::vector<Batch<D>> make_batches(bool is_degenerate, const Run_options& options) {
-  // Generic: 2^40 ulp off.
+std::deque<Batch<D>> make_batches(bool is_degenerate, bool is_blocked, const Run_options& options) {
   Setting setting;
   if (is_degenerate)
     setting.on_degeneracy = true;
   else
     setting.ulps = 40;
-  std::vector<Batch<D>> batches;
+  std::deque<Batch<D>> batches;
   for (std::uint64_t w = 0; w * motions_per_world < options.count; ++w) {
     const std::uint64_t seed = experiments::part_seed(options.seed, fmt::format("times {}", D), w);
     Random random(seed);
     Batch<D>& batch = batches.emplace_back(make_world<D>(setting, seed));
     while (batch.motions.size() < motions_per_world) {
       const Motion<D> way = make_motion(batch.scene.world, setting, random);
-      if (const auto particle = batch.scene.particle_at(way.from, random))
+      const auto particle = batch.scene.particle_at(way.from, random);
+      if (particle && batch.scene.motion_of(*particle, way.to).truth.arrivals.empty() == is_blocked)
         batch.motions.emplace_back(*particle, way.to);
     }
   }
@@ -80,8 +81,9 @@ std::vector<Batch<D>> make_batches(bool is_degenerate, const Run_options& option
 
 template <int D>
 void time_dimension(const Run_options& options, io::Csv_writer& table) {
-  for (const bool is_degenerate : {false, true}) {
-    const auto batches = make_batches<D>(is_degenerate, options);
+  for (const int set : {0, 1, 2, 3}) {
+    const bool is_degenerate = set / 2 == 1, is_blocked = set % 2 == 1;
+    const auto batches = make_batches<D>(is_degenerate, is_blocked, options);
     for (const Kernel<D>& kernel : kernels<D>()) {
       Walk_counts counts;
       std::array<double, rounds> seconds;
@@ -98,12 +100,14 @@ void time_dimension(const Run_options& options, io::Csv_writer& table) {
       }
       const auto walks = static_cast<double>(counts.walks);
       const double ns = 1e9 * median(seconds) / walks;
-      table.row(D, is_degenerate ? "degenerate" : "generic", kernel.name, counts.walks, ns,
-                static_cast<double>(bytes) / walks, static_cast<double>(counts.crossings) / walks,
+      table.row(D, is_degenerate ? "degenerate" : "displaced", is_blocked ? "blocked" : "free", kernel.name,
+                counts.walks, ns, static_cast<double>(bytes) / walks,
+                static_cast<double>(counts.crossings) / walks,
                 static_cast<double>(counts.predicates.orientations) / walks,
                 static_cast<double>(counts.predicates.fallbacks) / walks);
-      fmt::print("times {}D {} {}: {:.0f} ns, {:.0f} bytes a walk\n", D,
-                 is_degenerate ? "degenerate" : "generic", kernel.name, ns, static_cast<double>(bytes) / walks);
+      fmt::print("times {}D {} {} {}: {:.0f} ns, {:.0f} bytes a walk\n", D,
+                 is_degenerate ? "degenerate" : "displaced", is_blocked ? "blocked" : "free", kernel.name, ns,
+                 static_cast<double>(bytes) / walks);
     }
   }
 }
@@ -117,7 +121,7 @@ void run_times(const Run_options& options) {
   mp_get_memory_functions(&old_allocate, &old_reallocate, &old_free);
   mp_set_memory_functions(count_and_allocate, count_and_reallocate, old_free);
   io::Csv_writer table(options.folder / "times.csv",
-                       {"dimension", "motions", "kernel", "walks", "ns_per_walk", "bytes_per_walk",
+                       {"dimension", "motions", "end", "kernel", "walks", "ns_per_walk", "bytes_per_walk",
                         "crossings_per_walk", "signs_per_walk", "fallbacks_per_walk"});
   time_dimension<2>(options, table);
   time_dimension<3>(options, table);

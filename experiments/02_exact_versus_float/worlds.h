@@ -30,8 +30,8 @@ template <int D>
 struct World {
   Cell_soup<D> soup;
   Lattice_map<D> map;
-  std::array<std::uint32_t, D> cells;
-  double unit;  ///< one ulp of the largest coordinates in it
+  std::array<std::uint32_t, D> cells{};
+  double unit = 0;  ///< one ulp of the largest coordinates in it
 };
 
 /// Where a setting places the lattice.

@@ -101,8 +101,8 @@ Counts walk_in_world(const Family& family, std::uint64_t seed, std::uint64_t mot
     for (std::size_t k = 0; k < kernel_count; ++k) {
       std::vector<Cell> visited;
       Walk_counts ignored;
-      const auto result = kernels[k].walk(scene.snapshot, *particle, to, ignored,
-                                          {kernels[k].strategy, &visited, nullptr});
+      const auto result =
+          kernels[k].walk(scene.snapshot, *particle, to, ignored, {kernels[k].strategy, &visited, nullptr});
       const auto outcome = exact_float::outcome_of(scene.oracle, scene.snapshot, motion, result, visited);
       ++counts.tallies[k][static_cast<std::size_t>(outcome)];
     }
@@ -143,13 +143,14 @@ void run_dimension(std::uint64_t seed, std::uint64_t motions, Tables& tables) {
     const char* motion = motion_families[family.motion].first;
     tables.motions += counts.motions;
     tables.wrong_touches += counts.wrong_touches;
-    tables.touches.row(D, world, placement, motion, counts.motions, counts.blocked, counts.either, counts.stops,
-                       counts.wrong_touches);
+    tables.touches.row(D, world, placement, motion, counts.motions, counts.blocked, counts.either,
+                       counts.stops, counts.wrong_touches);
     for (std::size_t k = 0; k < kernel_count; ++k) {
       const Tally& t = counts.tallies[k];
       const auto interval = experiments::confidence_interval(wrong(t), total(t));
       tables.walks.row(D, world, placement, motion, kernels[k].name, counts.motions, counts.blocked, wrong(t),
-                       interval.low, interval.high, t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9], t[10]);
+                       interval.low, interval.high, t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9],
+                       t[10]);
       if (!kernels[k].is_exact) continue;
       tables.by_exact += total(t);
       tables.wrong += wrong(t);
@@ -165,8 +166,9 @@ std::uint64_t run(const std::filesystem::path& folder, std::uint64_t seed, std::
                                    "motions",   "blocked", "wrong",     "low",    "high"};
   columns.insert(columns.end(), exact_float::outcome_names.begin() + 1, exact_float::outcome_names.end());
   Tables tables{{folder / "degenerate.csv", columns},
-                {folder / "touches.csv", {"dimension", "world", "placement", "motion", "motions", "blocked",
-                                          "either", "contacts_with_stop", "wrong_with_stop"}}};
+                {folder / "touches.csv",
+                 {"dimension", "world", "placement", "motion", "motions", "blocked", "either",
+                  "contacts_with_stop", "wrong_with_stop"}}};
   run_dimension<2>(seed, motions, tables);
   run_dimension<3>(seed, motions, tables);
   tables.walks.commit();

@@ -15,7 +15,7 @@ targets=degenerate_worlds
 # shellcheck source=experiments/common/run_options.sh
 . experiments/common/run_options.sh
 
-if $quick; then motions=50; else motions=5000; fi
+if $quick; then motions=50; else motions=2500; fi
 "$build/experiments/05_degenerate_worlds/degenerate_worlds" --motions $motions --out "$out" --threads "$threads" \
   --commit "$commit"
 python3 experiments/05_degenerate_worlds/summarize.py "$out" || [ $? -eq 3 ]

@@ -39,22 +39,23 @@ def line_plot(series, xlabel, ylabel, log="", xrange="", yrange="", tics=None, c
 
     The latter have bars from low to high. Axis labels must name their units. `log`: axes with logarithmic scale, of "xy".
     `tics`: {label: x} instead of numbers. An entry without points is named in the key all the same. Where y is logarithmic,
-    points at 0 are drawn at the top of their bar, as a mark alone, with a bar that reaches down to the bottom of the plot.
+    points at 0 interrupt the line, and are drawn as a small mark at the top of their bar.
     """
     script = ""
-    plots = []
+    plots, bars_below = [], []  # marks are drawn over bars
     for number, (name, points) in enumerate(series.items()):
         dash, mark, width, grey = STYLES[number % len(STYLES)]
         style = f'dt {dash} pt {mark} lw {width} ps 1.1 lc rgb "{grey}"'
         zero = [p for p in points if "y" in log and p[1] <= 0]
         drawn = [p for p in points if p not in zero]
         block = f"$data_{number}"
-        script += f"{block} << END\n" + "".join(" ".join(map(repr, p)) + "\n" for p in drawn) + "END\n"
-        bars = [p for p in drawn if len(p) == 4]
-        if bars:  # behind the marks
-            plots.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt {mark} lw 1 ps 0 lc rgb "{grey}" notitle')
+        lines = ("\n" if p in zero else " ".join(map(repr, p)) + "\n" for p in points)
+        script += f"{block} << END\n" + "".join(lines) + "END\n"
         plots.append(f"{block} using 1:2 with linespoints {style} title {quoted(name)}" if drawn
                      else f"NaN with linespoints {style} title {quoted(name)}")
+        bars = [p for p in drawn if len(p) == 4]
+        if bars:
+            bars_below.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt -1 lw 1 lc rgb "{grey}" notitle')
         bounds = [p for p in zero if len(p) == 4]
         if bounds:
             script += f"$bound_{number} << END\n" + "".join(f"{p[0]!r} {p[3]!r}\n" for p in bounds) + "END\n"
@@ -67,4 +68,4 @@ def line_plot(series, xlabel, ylabel, log="", xrange="", yrange="", tics=None, c
     script += f"set yrange [{yrange}]\n" if yrange else ""
     if tics:
         script += "set xtics (" + ", ".join(f'"{label}" {x!r}' for label, x in tics.items()) + ")\n"
-    return script + commands + "plot " + ", \\\n  ".join(plots) + "\n"
+    return script + commands + "plot " + ", \\\n  ".join(bars_below + plots) + "\n"

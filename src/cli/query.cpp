@@ -170,7 +170,8 @@ void add_move_options(CLI::App& command, Query_options& options) {
              "How the exit of a cell is found (default: certified, with other kernels exit_rule)")
       ->group(group);
   command
-      .add_option("--record", options.record, "Write the motion of a row with all that --replay-failure needs")
+      .add_option("--record", options.record,
+                  "Write the motion of a row with all that --replay-failure needs")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--row", options.row, "The row to record, from 0")->type_name("N")->group(group);
@@ -218,16 +219,14 @@ void add_query(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<Query_options>();
   CLI::App* command = app.add_subcommand(
       "query", "Answer every motion of a table, of points or of edges, exactly: free, or a contact");
-  command->add_option("environment", options->environment, "A certified environment")
-      ->type_name("ENV");
+  command->add_option("environment", options->environment, "A certified environment")->type_name("ENV");
   command
       ->add_option(
           "queries", options->queries,
           "A table with a motion in each row; --mode says which columns it has. Numbers are decimal, "
           "hexadecimal, or fractions n/d that are exactly a double")
       ->type_name("QUERIES.csv");
-  command->add_option("-o,--output", options->output, "The answers, a row each")
-      ->type_name("OUT.csv");
+  command->add_option("-o,--output", options->output, "The answers, a row each")->type_name("OUT.csv");
   add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}, {"sweep", Query_mode::sweep}},
              "What moves. move: a point from a to b, columns ax,ay,az,bx,by,bz. sweep: an edge, its end p to "
              "t while "
@@ -238,9 +237,10 @@ void add_query(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   command
-      ->add_option("--replay-failure", options->failure,
-                   "Walk one recorded motion again and print every cell, sign and choice; takes all else from the "
-                   "file")
+      ->add_option(
+          "--replay-failure", options->failure,
+          "Walk one recorded motion again and print every cell, sign and choice; takes all else from the "
+          "file")
       ->type_name("FILE");
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);

@@ -51,7 +51,10 @@ std::vector<Cell> start_cells(const Motion_record<D>& record, const Snapshot<D>&
 template <class Kernel, int D>
 void walk_again(const Motion_record<D>& record, const Snapshot<D>& snapshot, Walk_strategy strategy) {
   const Location<D> start = Locator<D>(snapshot).locate(record.from);
-  for (const Cell cell : start_cells(record, snapshot, start)) {
+  const std::vector<Cell> cells = start_cells(record, snapshot, start);
+  fmt::print("note: {}\ncells: {}\nfrom:{}\nto:{}\n", record.note, record.soup.cell_count(),
+             point_text<D>(record.from), point_text<D>(record.to));
+  for (const Cell cell : cells) {
     const Particle<D> particle{record.from, cell, start.dimension, 0};
     const Logged_walk<D> walked = logged_walk<Kernel>(snapshot, particle, record.to, strategy);
     const Logged_walk<D> exact = logged_walk<Exact>(snapshot, particle, record.to, Walk_strategy::exit_rule);
@@ -71,11 +74,8 @@ void replay(const Motion_record<D>& record) {
     throw Error(Error_code::input, "strategy: certified needs the kernel exact");
   const Environment<D> environment =
       Environment<D>::build(record.soup, {Duplicate_vertices::keep, false, false});
-  fmt::print("note: {}\ncells: {}\nfrom:{}\nto:{}\n", record.note, record.soup.cell_count(),
-             point_text<D>(record.from), point_text<D>(record.to));
-  with_kernel(kernel, [&](auto policy) {
-    walk_again<decltype(policy)>(record, environment.snapshot(), strategy);
-  });
+  with_kernel(kernel,
+              [&](auto policy) { walk_again<decltype(policy)>(record, environment.snapshot(), strategy); });
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ std::string end_of(const Snapshot<D>& snapshot, const Walk_result<D>& result) {
     case Walk_status::arrived:
       return fmt::format("arrives in cell {}, on a cell of dimension {}", cell, result.dimension);
     case Walk_status::contact:
-      return fmt::format("is blocked in cell {} at time {} by a wall of cell {}: {}", cell, result.contact->time,
-                         snapshot.index(snapshot.cell_of(result.contact->facet)),
+      return fmt::format("is blocked in cell {} at time {} by a wall of cell {}: {}", cell,
+                         result.contact->time, snapshot.index(snapshot.cell_of(result.contact->facet)),
                          kind_names[static_cast<std::size_t>(result.contact->kind)]);
     case Walk_status::lost:
       break;
@@ -64,12 +64,14 @@ std::string step_text(const Snapshot<D>& snapshot, const Point<D>& from, const P
   std::string text, passages;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     const Half_facet f = Snapshot<D>::half_facet(cell, i);
-    const int side = detail::side<Kernel>(view, i, to, counts), exact = detail::side<Exact>(view, i, to, counts);
+    const int side = detail::side<Kernel>(view, i, to, counts),
+              exact = detail::side<Exact>(view, i, to, counts);
     const bool is_wall = snapshot.is_impassable(f);
-    text += fmt::format("    facet {}: target {}, {}", i, sign_text(side, exact),
-                        is_wall ? std::string("wall")
-                                : fmt::format("to cell {}", snapshot.index(snapshot.neighbor(f))));
-    if (!is_wall && snapshot.neighbor(f) == next) passages += fmt::format("{}{}", passages.empty() ? "" : ", ", i);
+    text += fmt::format(
+        "    facet {}: target {}, {}", i, sign_text(side, exact),
+        is_wall ? std::string("wall") : fmt::format("to cell {}", snapshot.index(snapshot.neighbor(f))));
+    if (!is_wall && snapshot.neighbor(f) == next)
+      passages += fmt::format("{}{}", passages.empty() ? "" : ", ", i);
     if (side > 0 || exact > 0) {
       text += "; line against its ridges";
       for (std::size_t k = 0; k < view.loop(i).size(); ++k)
@@ -79,8 +81,9 @@ std::string step_text(const Snapshot<D>& snapshot, const Point<D>& from, const P
     text += '\n';
   }
   if (next == Cell::none) return text;
-  return text + fmt::format("    goes on in cell {}, {}\n", snapshot.index(next),
-                            passages.empty() ? "round a ridge or vertex" : "which is behind facet " + passages);
+  return text +
+         fmt::format("    goes on in cell {}, {}\n", snapshot.index(next),
+                     passages.empty() ? "round a ridge or vertex" : "which is behind facet " + passages);
 }
 
 /// All steps of a walk; the first and last ones of a long one.

@@ -57,8 +57,7 @@ Motion_record<D> motion_record(const Json_node& root) {
   if (const auto note = root.find("note")) record.note = note->string();
   record.from = root.at("from").tuple<D>();
   record.to = root.at("to").tuple<D>();
-  for (const Json_node& point : root.at("points").elements())
-    record.soup.points.push_back(point.tuple<D>());
+  for (const Json_node& point : root.at("points").elements()) record.soup.points.push_back(point.tuple<D>());
   if (record.soup.points.empty()) root.at("points").fail("expected points");
   for (const Json_node& cell : root.at("cells").elements()) add_cell(cell, record.soup);
   if (record.soup.cell_count() == 0) root.at("cells").fail("expected cells");
@@ -71,13 +70,9 @@ Motion_record<D> motion_record(const Json_node& root) {
 
 template <int D>
 void write_motion(const std::filesystem::path& path, const Motion_record<D>& record) {
-  nlohmann::ordered_json json{{"format", format_name},
-                              {"dimension", D},
-                              {"note", record.note},
-                              {"kernel", record.kernel},
-                              {"strategy", record.strategy},
-                              {"from", record.from},
-                              {"to", record.to}};
+  nlohmann::ordered_json json{
+      {"format", format_name},       {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
+      {"strategy", record.strategy}, {"from", record.from}, {"to", record.to}};
   if (record.cell) json["cell"] = *record.cell;
   json["points"] = record.soup.points;
   json["cells"] = nlohmann::ordered_json::array();

@@ -72,8 +72,10 @@ TEST_F(Replay_failure, RefusesWhatItCannotReplay) {
 
 TEST_F(Replay_failure, RecordsOnlyRowsThatAreThere) {
   const std::string motions = "ax,ay,bx,by\n0.5,0.5,1,1\nx,0,0,0\n";
+  write("motions.csv", motions);
   for (const char* row : {"1", "2"}) {
-    const Outcome outcome = run(arguments(motions, {"--record", "motion.json", "--row", row}));
+    const Outcome outcome =
+        run({"query", "env.ovm", "motions.csv", "-o", "out.csv", "--record", "motion.json", "--row", row});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find(std::string("--row ") + row), std::string::npos) << outcome.err;
     EXPECT_FALSE(exists("motion.json"));

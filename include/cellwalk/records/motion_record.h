@@ -16,7 +16,8 @@ template <int D>
 struct Motion_record {
   Cell_soup<D> soup;
   Point<D> from, to;
-  std::optional<std::uint32_t> cell;  ///< of the soup, in which the motion starts; none: any that holds the start
+  std::optional<std::uint32_t>
+      cell;  ///< of the soup, in which the motion starts; none: any that holds the start
   std::string kernel = "exact", strategy = "exit_rule";  ///< words of `cellwalk query`
   std::string note;                                      ///< what was remarkable, for people
 };
