@@ -3,21 +3,23 @@
 # Builds the report from the outputs of the experiments: the full ones where they are in build/, else quick ones, which are made where
 # they are missing. Needs LaTeX and gnuplot (scripts/setup.sh --for paper).
 #
-#   paper/build.sh [--quick] [--out DIR] [--build DIR]
+#   paper/build.sh [--quick] [--from DIR] [--out DIR] [--build DIR]
 #
 #   --quick      quick outputs only, even where full ones are
+#   --from DIR   takes outputs from that of a full experiments/run_all.sh first
 #   --out DIR    default: build/paper; receives report.pdf
 #   --build DIR  a build folder of CMake, for experiments that have to be run; default: build/release
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-only_quick=false out=build/paper build=build/release
+only_quick=false from="" out=build/paper build=build/release
 while [ $# -gt 0 ]; do
   case "$1" in
     --quick) only_quick=true ;;
+    --from) from=${2:?build.sh: --from needs a folder}; shift ;;
     --out) out=${2:?build.sh: --out needs a folder}; shift ;;
     --build) build=${2:?build.sh: --build needs a folder}; shift ;;
-    *) echo "build.sh: unknown argument $1; use --quick, --out DIR or --build DIR" >&2; exit 2 ;;
+    *) echo "build.sh: unknown argument $1; use --quick, --from DIR, --out DIR or --build DIR" >&2; exit 2 ;;
   esac
   shift
 done
@@ -31,6 +33,10 @@ done
 runs=()
 # experiment NAME FOLDER: its output, full or quick; NAME is that of the folders in build/.
 experiment() {
+  if [ -n "$from" ] && [ -f "$from/$2/manifest.json" ]; then
+    runs+=("$1=full:$from/$2")
+    return
+  fi
   if ! $only_quick && [ -f "build/$1/manifest.json" ]; then
     runs+=("$1=full:build/$1")
     return
