@@ -32,6 +32,8 @@ SEARCHES = [("exact", ""), ("exhaustive", ""), ("exhaustive_traversed", ""), ("d
 
 
 def read(folder, name):
+    if not has(folder, name):
+        sys.exit(f"collect_numbers.py: {folder / name} is missing: run the experiment again")
     with (folder / name).open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
@@ -258,6 +260,8 @@ def contact_search(report, folder):
 def provenance(report, runs):
     lines = []
     for name, (kind, folder) in runs.items():
+        if not has(folder, "manifest.json"):
+            sys.exit(f"collect_numbers.py: {folder / 'manifest.json'} is missing: run the experiment again")
         manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
         lines.append([TITLES[name], kind, r"\texttt{" + escaped(manifest["commit"][:12]) + "}", escaped(manifest["compiler"]),
                       escaped(manifest["processor"])])

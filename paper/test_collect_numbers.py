@@ -130,6 +130,14 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(len(keys), len(set(keys)))
         self.assertEqual(set(keys), {key for group in re.findall(r"\\cite\{([^}]*)\}", REPORT) for key in group.split(",")})
 
+    def test_a_missing_output_is_named(self):
+        for name in ("walks.csv", "manifest.json"):
+            (self.root / "exact_versus_float" / name).unlink()
+            result = self.collect(*self.runs)
+            self.assertNotEqual(0, result.returncode)
+            self.assertIn(f"{name} is missing", result.stderr)
+            exact_versus_float(self.root / "exact_versus_float")
+
     def test_a_wrong_argument_is_refused(self):
         for argument in ("figure_9=full:x", "figure_8=half:x", "figure_8"):
             result = self.collect(argument)

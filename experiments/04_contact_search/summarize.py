@@ -98,8 +98,8 @@ def draw_all(folder, errors, costs):
         for search in ("exhaustive", "exact"):
             cost[f"{search}, {world}"] = across(costs, world, search, lambda r: int(r["signs"]) / int(r["contacts"]))
     return plots.draw(folder, "cost", plots.line_plot(
-        cost, TOLERANCE, "signs of orientations a contact (count)", "xy", yrange="100:5e6",
-        commands="set key inside center top maxrows 3\n")) and done
+        cost, TOLERANCE, "signs of orientations a contact (count)", "xy", yrange="100:1e6",
+        commands="set key outside center bottom maxrows 3\n")) and done
 
 
 def main():
