@@ -99,7 +99,7 @@ def draw_all(folder, errors, costs):
             cost[f"{search}, {world}"] = across(costs, world, search, lambda r: int(r["signs"]) / int(r["contacts"]))
     return plots.draw(folder, "cost", plots.line_plot(
         cost, TOLERANCE, "signs of orientations a contact (count)", "xy", yrange="100:1e6",
-        commands="set key outside center bottom maxrows 3\n")) and done
+        commands="set key outside center bottom maxrows 3\nset bmargin 8\n")) and done
 
 
 def main():
