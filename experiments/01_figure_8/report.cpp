@@ -7,18 +7,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <string_view>
+
+#include "common/manifest.h"
 
 namespace cellwalk::figure_8 {
 namespace {
-
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
 
 std::string csv(const std::vector<Result>& results, int rounds) {
   std::string text =
@@ -58,11 +52,7 @@ std::string csv(const std::vector<Result>& results, int rounds) {
 void write_report(const std::filesystem::path& folder, const std::vector<Result>& results,
                   const std::vector<Family>& families, const Measure_options& options,
                   const std::string& commit) {
-  nlohmann::ordered_json manifest;
-  manifest["commit"] = commit;
-  manifest["compiler"] = CELLWALK_COMPILER;
-  manifest["flags"] = CELLWALK_FLAGS;
-  manifest["processor"] = processor();
+  nlohmann::ordered_json manifest = experiments::manifest(commit);
   manifest["threads"] = 1;
   manifest["rounds"] = options.rounds;
   for (const Family& family : families)

@@ -9,12 +9,11 @@ Without gnuplot the tables and the plot's script are written, and the program sa
 
 import csv
 import math
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
-NO_GNUPLOT = 3
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+import plots  # noqa: E402
 
 # Method: label in the plot, and style: dash type, point type, line width. None: in the tables only, as it lies beside another
 # line. The styles differ without colours.
@@ -124,7 +123,7 @@ def plot_script(rows):
     # The labels stand in the plot, to the right of the last points.
     room = (sizes[-1] / sizes[0]) ** 0.55
     tics = ", ".join(f'"10^{{{round(math.log10(n))}}}" {n}' for n in sizes)
-    script = "# gnuplot figure_8.gp\n"
+    script = ""
     for name, line in lines.items():
         script += f"${name} << END\n" + "".join(f"{n} {ns}\n" for n, ns in line) + "END\n"
     script += f"""set logscale xyy2
@@ -156,13 +155,6 @@ def shade(name):
     return "#000000" if name.startswith("cellwalk") else "#555555"
 
 
-TERMINALS = {
-    "png": 'pngcairo size 1500,1000 fontscale 1.1 enhanced',
-    "svg": 'svg size 1000,667 enhanced',
-    "pdf": 'pdfcairo size 8in,5.3in enhanced',
-}
-
-
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -173,14 +165,7 @@ def main():
     if script is None:
         print("summarize: no times of two sizes: no plot")
         return 0
-    (folder / "figure_8.gp").write_text(script, encoding="utf-8")
-    if not shutil.which("gnuplot"):
-        print("summarize: gnuplot not found: figure_8.gp is written, but no picture (package gnuplot-nox)", file=sys.stderr)
-        return NO_GNUPLOT
-    for suffix, terminal in TERMINALS.items():
-        subprocess.run(["gnuplot", "-"], input=f'set terminal {terminal}\nset output "figure_8.{suffix}"\n{script}',
-                       text=True, check=True, cwd=folder)
-    return 0
+    return 0 if plots.draw(folder, "figure_8", script) else plots.NO_GNUPLOT
 
 
 if __name__ == "__main__":

@@ -177,25 +177,8 @@ void Body<D>::validate() const {
   }
 }
 
-template Body<2>::Body(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
-template void Body<2>::link_edges();
-template void Body<2>::commit(std::uint32_t, const Particle<2>&);
-template std::vector<std::uint32_t> Body<2>::neighbours(std::uint32_t) const;
-template Chain Body<2>::seen_from(const Corner&) const;
-template std::optional<Body_contact<2>> Body<2>::move_vertex(std::uint32_t, const Point<2>&,
-                                                             const Body_options&, Body_counts&);
-template std::optional<Body_contact<2>> Body<2>::try_move(std::uint32_t, const Point<2>&, const Body_options&,
-                                                          Body_counts&, bool);
-template void Body<2>::validate() const;
-template Body<3>::Body(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
-template void Body<3>::link_edges();
-template void Body<3>::commit(std::uint32_t, const Particle<3>&);
-template std::vector<std::uint32_t> Body<3>::neighbours(std::uint32_t) const;
-template Chain Body<3>::seen_from(const Corner&) const;
-template std::optional<Body_contact<3>> Body<3>::move_vertex(std::uint32_t, const Point<3>&,
-                                                             const Body_options&, Body_counts&);
-template std::optional<Body_contact<3>> Body<3>::try_move(std::uint32_t, const Point<3>&, const Body_options&,
-                                                          Body_counts&, bool);
-template void Body<3>::validate() const;
+// With the accessors of the header, which unoptimised builds need; other members are compiled in files of their own.
+template class Body<2>;
+template class Body<3>;
 
 }  // namespace cellwalk

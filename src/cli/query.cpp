@@ -17,6 +17,7 @@
 #include "cli/environment_file.h"
 #include "cli/query_moves.h"
 #include "cli/query_sweeps.h"
+#include "cli/replay_failure.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -24,6 +25,9 @@ namespace {
 enum class Query_mode { move, sweep };
 struct Query_options {
   std::string environment, queries, output, json;
+  std::string failure;             // if set, a record to replay, and nothing else
+  std::string record;              // if set, where the motion of a row is recorded
+  std::optional<std::size_t> row;  // the row
   Query_mode mode = Query_mode::move;
   Move_options move;
   Sweep_options sweep;                    // its `touch` holds for moves too
@@ -73,6 +77,18 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
                invalid->invalid, tally[static_cast<std::size_t>(Status::invalid)]);
 }
 
+/// Writes the record of the row that is wanted.
+template <int D>
+void record_row(const Query_options& options, const Environment<D>& environment,
+                const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
+  const std::size_t row = *options.row;
+  if (row >= moves.size() || !moves[row].invalid.empty())
+    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", row));
+  const char* status = status_names[static_cast<std::size_t>(answers[row].status)];
+  record_motion(options.record, environment, moves[row].points[0], moves[row].points[1], options.move,
+                fmt::format("row {} of a query: {}", row, status));
+}
+
 template <int D>
 void query_environment(const Query_options& options, const Environment<D>& environment) {
   const Snapshot<D>& snapshot = environment.snapshot();
@@ -81,10 +97,23 @@ void query_environment(const Query_options& options, const Environment<D>& envir
     const auto moves = io::read_moves<D>(options.queries);
     const auto answers = answer_moves(snapshot, moves, options.move, counts);
     report(options, snapshot, moves, answers, cli::to_json(counts.walk));
+    if (options.row) record_row(options, environment, moves, answers);
   } else {
     const auto sweeps = io::read_sweeps<D>(options.queries);
     const auto answers = answer_sweeps(snapshot, sweeps, options.sweep, counts);
     report(options, snapshot, sweeps, answers, to_json(counts));
+  }
+}
+
+/// A record to replay stands alone; otherwise an environment, queries and output are needed.
+void refuse_missing(const Query_options& options, const CLI::App& command) {
+  constexpr std::array<const char*, 3> names{"environment", "queries", "--output"};
+  if (options.failure.empty()) {
+    for (const char* name : names)
+      if (command.count(name) == 0)
+        throw Error(Error_code::usage, fmt::format("{} is required; see cellwalk query --help", name));
+  } else if (command.get_options([](const CLI::Option* option) { return option->count() > 0; }).size() > 1) {
+    throw Error(Error_code::usage, "--replay-failure takes everything from its file: give no other option");
   }
 }
 
@@ -97,6 +126,8 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
                     fmt::format("{} needs {}; see cellwalk query --help", name, condition));
   };
   const bool is_exact = options.move.kernel == Kernel_choice::exact;
+  if (options.row.has_value() != !options.record.empty())
+    throw Error(Error_code::usage, "--record and --row need each other; see cellwalk query --help");
   if (options.mode == Query_mode::move) {
     need({"--sweep", "--contact", "--tolerance", "--search-cells"}, "--mode sweep");
     if (options.strategy == Walk_strategy::certified && !is_exact)
@@ -106,13 +137,15 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
       throw Error(Error_code::usage, "--touch stop needs --kernel exact: touches are found exactly only");
     return;
   }
-  need({"--strategy"}, "--mode move");
+  need({"--strategy", "--record", "--row"}, "--mode move");
   if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
   if (options.sweep.search != Contact_search::dichotomic) need({"--tolerance"}, "--contact dichotomic");
   if (options.sweep.search != Contact_search::exhaustive) need({"--search-cells"}, "--contact exhaustive");
 }
 
 void query(Query_options& options, const CLI::App& command) {
+  refuse_missing(options, command);
+  if (!options.failure.empty()) return replay_failure(options.failure);
   refuse_misfits(options, command);
   options.move.strategy = options.strategy.value_or(
       options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
@@ -126,12 +159,9 @@ void query(Query_options& options, const CLI::App& command) {
 
 void add_move_options(CLI::App& command, Query_options& options) {
   constexpr const char* group = "With --mode move";
-  add_choice(command, "--kernel", options.move.kernel,
-             {{"exact", Kernel_choice::exact},
-              {"lazy", Kernel_choice::lazy},
-              {"double", Kernel_choice::double_precision},
-              {"float", Kernel_choice::float_precision}},
-             "Number policy; double and float may miss walls and are for experiments")
+  add_choice(command, "--kernel", options.move.kernel, kernel_words,
+             "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
+             "determinants up to that count as 0")
       ->group(group);
   add_choice(command, "--strategy", options.strategy,
              {{"certified", std::optional(Walk_strategy::certified)},
@@ -139,6 +169,12 @@ void add_move_options(CLI::App& command, Query_options& options) {
               {"predictive_simplex", std::optional(Walk_strategy::predictive_simplex)}},
              "How the exit of a cell is found (default: certified, with other kernels exit_rule)")
       ->group(group);
+  command
+      .add_option("--record", options.record,
+                  "Write the motion of a row with all that --replay-failure needs")
+      ->type_name("FILE")
+      ->group(group);
+  command.add_option("--row", options.row, "The row to record, from 0")->type_name("N")->group(group);
 }
 
 void add_sweep_options(CLI::App& command, Sweep_options& options) {
@@ -183,19 +219,14 @@ void add_query(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<Query_options>();
   CLI::App* command = app.add_subcommand(
       "query", "Answer every motion of a table, of points or of edges, exactly: free, or a contact");
-  command->add_option("environment", options->environment, "A certified environment")
-      ->required()
-      ->type_name("ENV");
+  command->add_option("environment", options->environment, "A certified environment")->type_name("ENV");
   command
       ->add_option(
           "queries", options->queries,
           "A table with a motion in each row; --mode says which columns it has. Numbers are decimal, "
           "hexadecimal, or fractions n/d that are exactly a double")
-      ->required()
       ->type_name("QUERIES.csv");
-  command->add_option("-o,--output", options->output, "The answers, a row each")
-      ->required()
-      ->type_name("OUT.csv");
+  command->add_option("-o,--output", options->output, "The answers, a row each")->type_name("OUT.csv");
   add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}, {"sweep", Query_mode::sweep}},
              "What moves. move: a point from a to b, columns ax,ay,az,bx,by,bz. sweep: an edge, its end p to "
              "t while "
@@ -205,6 +236,12 @@ void add_query(CLI::App& app, Action& chosen) {
   command->add_option("--threads", options->threads, "Threads; 0: all. The answers do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
+  command
+      ->add_option(
+          "--replay-failure", options->failure,
+          "Walk one recorded motion again and print every cell, sign and choice; takes all else from the "
+          "file")
+      ->type_name("FILE");
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
   add_move_options(*command, *options);

@@ -76,17 +76,9 @@ std::vector<Answer<D>> answer_all(const Snapshot<D>& snapshot, const std::vector
 template <int D>
 std::vector<Answer<D>> answer_moves(const Snapshot<D>& snapshot, const std::vector<Move_query<D>>& moves,
                                     const Move_options& options, Edge_counts& counts) {
-  switch (options.kernel) {
-    case Kernel_choice::exact:
-      return answer_all<Exact>(snapshot, moves, options, counts);
-    case Kernel_choice::lazy:
-      return answer_all<Lazy>(snapshot, moves, options, counts);
-    case Kernel_choice::double_precision:
-      return answer_all<Double>(snapshot, moves, options, counts);
-    case Kernel_choice::float_precision:
-      break;
-  }
-  return answer_all<Float>(snapshot, moves, options, counts);
+  return with_kernel(options.kernel, [&](auto policy) {
+    return answer_all<decltype(policy)>(snapshot, moves, options, counts);
+  });
 }
 
 template std::vector<Answer<2>> answer_moves(const Snapshot<2>&, const std::vector<Move_query<2>>&,

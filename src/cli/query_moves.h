@@ -5,13 +5,59 @@
 
 #include <cellwalk/edge/sweep.h>
 
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "cli/query_answers.h"
 
 namespace cellwalk::cli {
 
-enum class Kernel_choice { exact, lazy, double_precision, float_precision };
+enum class Kernel_choice {
+  exact,
+  lazy,
+  rational,
+  double_precision,
+  double_tolerance_9,
+  double_tolerance_6,
+  float_precision
+};
+
+/// The words of --kernel and --strategy, here and in records of motions.
+inline constexpr std::initializer_list<std::pair<const char*, Kernel_choice>> kernel_words{
+    {"exact", Kernel_choice::exact},
+    {"lazy", Kernel_choice::lazy},
+    {"rational", Kernel_choice::rational},
+    {"double", Kernel_choice::double_precision},
+    {"double_1e-9", Kernel_choice::double_tolerance_9},
+    {"double_1e-6", Kernel_choice::double_tolerance_6},
+    {"float", Kernel_choice::float_precision}};
+inline constexpr std::initializer_list<std::pair<const char*, Walk_strategy>> strategy_words{
+    {"certified", Walk_strategy::certified},
+    {"exit_rule", Walk_strategy::exit_rule},
+    {"predictive_simplex", Walk_strategy::predictive_simplex}};
+
+/// Calls work(policy) with the number policy that a word stands for.
+template <class Work>
+auto with_kernel(Kernel_choice kernel, Work&& work) {
+  switch (kernel) {
+    case Kernel_choice::exact:
+      return work(Exact{});
+    case Kernel_choice::lazy:
+      return work(Lazy{});
+    case Kernel_choice::rational:
+      return work(Unfiltered{});
+    case Kernel_choice::double_precision:
+      return work(Double{});
+    case Kernel_choice::double_tolerance_9:
+      return work(Tolerant<9>{});
+    case Kernel_choice::double_tolerance_6:
+      return work(Tolerant<6>{});
+    case Kernel_choice::float_precision:
+      break;
+  }
+  return work(Float{});
+}
 
 struct Move_options {
   Kernel_choice kernel = Kernel_choice::exact;

@@ -3,6 +3,8 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <array>
 #include <cstddef>
@@ -34,6 +36,7 @@ bool is_plainly_zero(const std::array<double, D>& p, const Others&... others) {
 
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Lazy_exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Rational_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 
 }  // namespace
 
@@ -51,6 +54,14 @@ int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
 
 int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
   return orientation_in<Lazy_exact>(p, q, r, s);
+}
+
+int orientation_rational(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  return orientation_in<Rational_kernel>(p, q, r);
+}
+
+int orientation_rational(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  return orientation_in<Rational_kernel>(p, q, r, s);
 }
 
 }  // namespace cellwalk::detail

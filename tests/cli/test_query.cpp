@@ -102,7 +102,7 @@ TEST_F(Query, RefusesEnvironmentsThatAreNotCertified) {
 
 TEST_F(Query, RefusesCertificatesForKernelsWithoutThem) {
   succeed({"generate", "hexes", "--cells", "2", "-o", "env.ovm"});
-  for (const char* kernel : {"lazy", "double", "float"})
+  for (const char* kernel : {"lazy", "rational", "double", "double_1e-9", "double_1e-6", "float"})
     expect_refused(2, header, {"certified", "exact"}, {"--strategy", "certified", "--kernel", kernel});
 }
 
@@ -137,8 +137,10 @@ TEST_F(Query, ExactKernelsStrategiesAndThreadsGiveTheSameAnswers) {
   EXPECT_EQ(text("out.csv"), expected);
   query(motions, {"--strategy", "exit_rule"});
   EXPECT_EQ(text("out.csv"), expected);
-  query(motions, {"--kernel", "lazy"});
-  EXPECT_EQ(text("out.csv"), expected);
+  for (const char* kernel : {"lazy", "rational"}) {
+    query(motions, {"--kernel", kernel});
+    EXPECT_EQ(text("out.csv"), expected) << kernel;
+  }
 
   const auto reference = query(motions, {"--strategy", "predictive_simplex"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -150,7 +152,8 @@ TEST_F(Query, ExactKernelsStrategiesAndThreadsGiveTheSameAnswers) {
 TEST_F(Query, InexactKernelsAnswerEveryRow) {
   succeed({"generate", "lattice", "--cells", "4", "--rotated", "--scale", "0.125", "-o", "env.ovm"});
   const std::string motions = random_motions(500, 2);
-  for (const char* kernel : {"double", "float"}) EXPECT_EQ(query(motions, {"--kernel", kernel}).size(), 500u);
+  for (const char* kernel : {"double", "double_1e-9", "double_1e-6", "float"})
+    EXPECT_EQ(query(motions, {"--kernel", kernel}).size(), 500u);
 }
 
 #ifdef CELLWALK_TEST_MESHING

@@ -69,6 +69,7 @@ void compare_with_rationals(double scale) {
     ASSERT_EQ(sign<Exact>(counts, p), expected) << "case " << i;
     if (i % 10 == 0) {
       ASSERT_EQ(sign<Lazy>(counts, p), expected) << "case " << i;
+      ASSERT_EQ(sign<Unfiltered>(counts, p), expected) << "case " << i;
     }
     wrong += sign<Double>(rounded, p) != expected;
   }
@@ -84,6 +85,22 @@ TEST(Orientation, FollowsTheSignConventionOfCgal) {
   EXPECT_EQ(Exact::orientation(counts, Point<2>{0, 0}, Point<2>{1, 0}, Point<2>{0, 1}), 1);
   EXPECT_EQ(counts.orientations, 3u);
   EXPECT_EQ(counts.fallbacks, 0u);
+}
+
+TEST(Orientation, ToleranceIsOfTheDeterminant) {
+  Predicate_counts counts;
+  // The determinant is the height times 1/4.
+  const auto sign_at = [&counts](auto kernel, double height) {
+    return decltype(kernel)::orientation(counts, Point<2>{0, 0}, Point<2>{0.25, 0}, Point<2>{0, height});
+  };
+  for (const int side : {1, -1}) {
+    EXPECT_EQ(sign_at(Tolerant<6>{}, side * 4.1e-6), side);
+    EXPECT_EQ(sign_at(Tolerant<6>{}, side * 3.9e-6), 0);
+    EXPECT_EQ(sign_at(Tolerant<9>{}, side * 3.9e-6), side);
+    EXPECT_EQ(sign_at(Tolerant<9>{}, side * 3.9e-9), 0);
+    EXPECT_EQ(sign_at(Unfiltered{}, side * 3.9e-9), side);
+  }
+  EXPECT_EQ(counts.orientations, 10u);
 }
 
 TEST(Orientation, IsExactNearDependence) {

@@ -4,8 +4,10 @@
 //
 //   Exact   double arithmetic with a forward error bound, then interval, then exact arithmetic: always right
 //   Lazy    CGAL's lazy exact kernel: always right, the reference for the cost of exactness
+//   Unfiltered   rational arithmetic for every sign: always right, without any filter
 //   Double  the sign of the rounded determinant: wrong near degeneracies; for experiments only
-//   Float   the same in single precision; for experiments only
+//   Tolerant<n>  the same, but 0 within 10^-n; for experiments only
+//   Float   the rounded sign in single precision; for experiments only
 //
 // Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
 //   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
@@ -28,6 +30,9 @@ int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, co
 /// Exact sign by CGAL's lazy exact kernel.
 int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
+/// Exact sign by rational numbers alone.
+int orientation_rational(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+int orientation_rational(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
 
 /// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075,
 /// which 16u times this allowance covers whatever the outer factor is.
@@ -127,6 +132,19 @@ struct Lazy {
   }
 };
 
+/// Exact signs in rational numbers, each computed in full. Cost: some microseconds a sign.
+struct Unfiltered {
+  static constexpr bool is_exact = true;
+  static constexpr bool uses_certificates = false;
+  static constexpr const char* name = "rational";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    return detail::orientation_rational(points...);
+  }
+};
+
 /// Rounded signs in double precision: misses walls near degeneracies. For experiments.
 struct Double {
   static constexpr bool is_exact = false;
@@ -137,6 +155,24 @@ struct Double {
   static int orientation(Predicate_counts& counts, const P&... points) {
     ++counts.orientations;
     return detail::sign_of(detail::determinant<double>(points...).value);
+  }
+};
+
+/// Rounded signs in double precision that count as 0 up to a fixed tolerance, as is common practice: 10^-Digits, in units of the
+/// area (2D) or volume (3D) of the determinant, so its meaning changes with the scale of the input. For experiments.
+template <int Digits>
+struct Tolerant {
+  static_assert(Digits == 6 || Digits == 9);
+  static constexpr bool is_exact = false;
+  static constexpr bool uses_certificates = false;
+  static constexpr double tolerance = Digits == 6 ? 1e-6 : 1e-9;
+  static constexpr const char* name = Digits == 6 ? "double_1e-6" : "double_1e-9";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    const double value = detail::determinant<double>(points...).value;
+    return std::abs(value) <= tolerance ? 0 : detail::sign_of(value);
   }
 };
 

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tables and plots of the experiment from its CSV files.
+
+usage: summarize.py DIR        reads DIR/walks.csv, sweeps.csv, flights.csv and, where it is there, times.csv; writes tables.md, plots
+
+Without gnuplot the tables and the scripts of the plots are written, and the program says so and returns 3.
+"""
+
+import csv
+import math
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+import plots  # noqa: E402
+
+EXACT = ["exact", "exact_signs", "lazy", "rational"]
+ROUNDED = ["double", "double_1e-9", "double_1e-6", "float"]
+LABELS = {
+    "degeneracy": "distance of the target from a degenerate position (ulp)",
+    "scale": "size of a cell (units)",
+    "offset": "distance of the world from the origin (cells)",
+    "aspect": "aspect ratio of the cells",
+    "rotation": "rotation of the lattice (degrees)",
+    "length": "length of a motion (cells)",
+}
+
+
+def read_rows(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def unique(values):
+    return list(dict.fromkeys(values))
+
+
+def table(header, lines):
+    rule = ["---"] * 2 + ["---:"] * (len(header) - 2)
+    return "\n".join("| " + " | ".join(map(str, cells)) + " |" for cells in [header, rule, *lines]) + "\n"
+
+
+def share(count, total):
+    return "0" if int(count) == 0 else f"{100 * int(count) / int(total):.3g} %"
+
+
+def place(variable, value):
+    """Where a value stands on the logarithmic axis; 0 stands to the left of all others."""
+    if variable == "rotation":
+        return math.degrees(2 * math.atan(value)) if value else 2.0 ** -8
+    if value == 0:
+        return 2.0 ** -4
+    return value
+
+
+def tics(variable, values):
+    """Labels of the values on the axis."""
+    labels = {}
+    for value in values:
+        if value == 0:
+            label = "0"
+        elif variable == "rotation":
+            label = f"{place(variable, value):.2g}"
+        else:
+            label = f"2^{{{round(math.log2(value))}}}"
+        labels[label] = place(variable, value)
+    return labels
+
+
+def points(rows, kernel):
+    """x, share, low, high; kernels that never fail are drawn at their upper bound."""
+    return [(place(r["variable"], float(r["value"])), int(r["wrong"]) / int(r["motions"]), float(r["low"]), float(r["high"]))
+            for r in rows if r["kernel"] == kernel]
+
+
+def walk_plot(folder, rows, dimension, variable):
+    rows = [r for r in rows if r["dimension"] == dimension and r["variable"] == variable]
+    series = {"exact kernels (upper bound)": [], **{k: points(rows, k) for k in ROUNDED}}
+    # The exact kernels never fail, or the run would have ended with an error: one line for all, at the bound of 0 of N.
+    series["exact kernels (upper bound)"] = [(x, high) for x, wrong, _, high in points(rows, "exact") if wrong == 0]
+    values = [float(v) for v in unique(r["value"] for r in rows)]
+    script = plots.line_plot(series, LABELS[variable], "wrong walks (share of all, 95 % interval)", log="xy", yrange=":1.5",
+                             tics=tics(variable, values), commands=f'set title "walks in {dimension}D"\n')
+    return plots.draw(folder, f"walks_{dimension}d_{variable}", script)
+
+
+def sweep_plot(folder, rows, dimension):
+    rows = [r for r in rows if r["dimension"] == dimension]
+    shown = {"triangle": "complete sweep (upper bound)", "three_segments": "three segments, exact",
+             "walks_double": "walks, double", "walks_double_1e-9": "walks, double_1e-9",
+             "walks_double_1e-6": "walks, double_1e-6", "walks_float": "walks, float"}
+    series = {}
+    for method, label in shown.items():
+        series[label] = [(place("degeneracy", float(r["value"])), *(
+            (float(r["high"]),) if method == "triangle" else
+            (int(r["wrong"]) / int(r["sweeps"]), float(r["low"]), float(r["high"]))))
+            for r in rows if r["method"] == method]
+    script = plots.line_plot(series, LABELS["degeneracy"], "wrong sweeps (share of all, 95 % interval)", log="xy",
+                             yrange=":1.5", tics=tics("degeneracy", [float(v) for v in unique(r["value"] for r in rows)]),
+                             commands=f'set title "sweeps of edges in {dimension}D"\n')
+    return plots.draw(folder, f"sweeps_{dimension}d", script)
+
+
+def distance(point, walls):
+    """From a point to the nearest wall: exact but for the last step, as it may be less than an ulp."""
+    best = math.inf
+    for wall in walls:
+        a, b = ((Fraction(wall[f"{end}x"]), Fraction(wall[f"{end}y"])) for end in "ab")
+        p = Fraction(point[0]), Fraction(point[1])
+        along = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+        t = min(1, max(0, ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / along))
+        off = (p[0] - a[0] - t * (b[0] - a[0])) ** 2 + (p[1] - a[1] - t * (b[1] - a[1])) ** 2
+        best = min(best, math.sqrt(off))
+    return best
+
+
+def escape_plots(folder):
+    """What the first escape of each kernel in the plane looks like."""
+    drawn = True
+    for path in sorted(folder.glob("escape_2d_*_path.csv")):
+        name = path.stem.removesuffix("_path")
+        wall_rows = [{k: float(v) for k, v in r.items()} for r in read_rows(folder / f"{name}_walls.csv")]
+        walls = "".join(f"{r['ax']!r} {r['ay']!r}\n{r['bx']!r} {r['by']!r}\n\n" for r in wall_rows)
+        way = [(float(r["x"]), float(r["y"])) for r in read_rows(path)]
+        block = "".join(f"{x!r} {y!r}\n" for x, y in way)
+        kernel = name.removeprefix("escape_2d_")
+        title = f"the first escape under {kernel}: ends {distance(way[-1], wall_rows):.2g} cells from the nearest wall"
+        script = (f"$walls << END\n{walls}END\n$path << END\n{block}END\n"
+                  f"$last << END\n{way[-2][0]!r} {way[-2][1]!r}\n{way[-1][0]!r} {way[-1][1]!r}\nEND\n"
+                  f"set title {plots.quoted(title)}\n"
+                  'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top Left reverse\n'
+                  'plot $walls with lines lw 3 dt 1 lc rgb "#000000" title "walls", '
+                  '$path with linespoints dt 2 pt 6 lw 1.5 lc rgb "#777777" title "way of the particle", '
+                  '$last with linespoints dt 1 pt 7 lw 2 lc rgb "#555555" title "the move that escapes"\n')
+        drawn = plots.draw(folder, name, script) and drawn
+    return drawn
+
+
+def walk_tables(rows):
+    text = ""
+    for dimension in unique(r["dimension"] for r in rows):
+        here = [r for r in rows if r["dimension"] == dimension]
+        text += f"\n## Walks in {dimension}D: share of wrong ones\n\n"
+        lines = []
+        for variable, value in unique((r["variable"], r["value"]) for r in here):
+            found = {r["kernel"]: r for r in here if (r["variable"], r["value"]) == (variable, value)}
+            any_row = next(iter(found.values()))
+            lines.append([variable, f"{float(value):.6g}", any_row["motions"], share(any_row["degenerate"], any_row["motions"]),
+                          sum(int(found[k]["wrong"]) for k in EXACT)]
+                         + [share(found[k]["wrong"], found[k]["motions"]) for k in ROUNDED])
+        text += table(["variable", "value", "motions", "degenerate", "wrong by exact kernels", *ROUNDED], lines)
+        text += f"\n## Walks in {dimension}D: how they go wrong, of all at the point\n\n"
+        kinds = list(here[0])[10:]
+        sums = []
+        for kernel in EXACT + ROUNDED:
+            mine = [r for r in here if r["kernel"] == kernel]
+            sums.append([kernel, sum(int(r["motions"]) for r in mine), *(sum(int(r[k]) for r in mine) for k in kinds)])
+        text += table(["kernel", "motions", *kinds], sums)
+    return text
+
+
+def plain_table(title, rows):
+    def cell(text):
+        try:
+            return str(int(text))
+        except ValueError:
+            pass
+        try:
+            return f"{float(text):.4g}"
+        except ValueError:
+            return text
+    return f"\n## {title}\n\n" + table(list(rows[0]), [[cell(v) for v in r.values()] for r in rows])
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = Path(sys.argv[1])
+    text = "# Exact versus float: results\n"
+    drawn = True
+    if (folder / "walks.csv").exists():
+        walks = read_rows(folder / "walks.csv")
+        text += walk_tables(walks)
+        for dimension in "23":
+            for variable in LABELS:
+                drawn = walk_plot(folder, walks, dimension, variable) and drawn
+    if (folder / "sweeps.csv").exists():
+        sweeps = read_rows(folder / "sweeps.csv")
+        text += plain_table("Sweeps of edges", sweeps)
+        for dimension in "23":
+            drawn = sweep_plot(folder, sweeps, dimension) and drawn
+    for name, title in [("flights", "Long simulations"), ("times", "Times and memory")]:
+        if (folder / f"{name}.csv").exists():
+            text += plain_table(title, read_rows(folder / f"{name}.csv"))
+    drawn = escape_plots(folder) and drawn
+    (folder / "tables.md").write_text(text, encoding="utf-8")
+    return 0 if drawn else plots.NO_GNUPLOT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Runs the experiment at its quick length and compares its tables with expected/, byte by byte.
+
+usage: test_exact_versus_float.py BUILD_DIR
+       test_exact_versus_float.py BUILD_DIR --update      writes expected/ anew
+
+The expected tables were written once; every compiler, build type and number of threads must write them again.
+"""
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TABLES = ["walks.csv", "sweeps.csv", "flights.csv"]
+EXACT = {"exact", "exact_signs", "lazy", "rational"}
+ROUNDED = {"double", "double_1e-9", "double_1e-6", "float"}
+
+
+def quick(build, out, threads):
+    subprocess.run([HERE / "run.sh", "--quick", "--counts", "--no-build", "--build", build, "--out", out, "--threads",
+                    str(threads)], check=True, stdout=subprocess.DEVNULL)
+
+
+def read(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Exact_versus_float(unittest.TestCase):
+    build = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = Path(cls.folder.name)
+        quick(cls.build, cls.out, 2)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_tables_are_as_expected(self):
+        for name in TABLES:
+            self.assertEqual((HERE / "expected" / name).read_bytes(), (self.out / name).read_bytes(), name)
+
+    def test_threads_make_no_difference(self):
+        other = self.out / "one_thread"
+        program = self.build / "experiments/02_exact_versus_float/exact_versus_float"
+        few = ["--part", "sweeps", "--part", "flights", "--sweeps", "101", "--moves", "500", "--seed", "2"]
+        for threads in "12":
+            subprocess.run([program, *few, "--out", other / threads, "--threads", threads], check=True,
+                           stdout=subprocess.DEVNULL)
+        for name in ["sweeps.csv", "flights.csv"]:
+            self.assertEqual((other / "1" / name).read_bytes(), (other / "2" / name).read_bytes())
+            self.assertNotEqual((other / "1" / name).read_bytes(), (self.out / name).read_bytes())
+
+    def test_exact_kernels_are_never_wrong(self):
+        walks = [r for r in read(self.out / "walks.csv") if r["kernel"] in EXACT]
+        self.assertEqual(sum(int(r["wrong"]) for r in walks), 0)
+        self.assertGreater(sum(int(r["motions"]) for r in walks), 100_000)
+        sweeps = [r for r in read(self.out / "sweeps.csv") if r["method"] == "triangle"]
+        self.assertEqual(sum(int(r["wrong"]) for r in sweeps), 0)
+        self.assertGreater(sum(int(r["blocked"]) for r in sweeps), 1000)
+        flights = [r for r in read(self.out / "flights.csv") if r["kernel"] in EXACT]
+        self.assertEqual(sum(int(r["wrong"]) + int(r["escapes"]) for r in flights), 0)
+        self.assertGreater(min(int(r["contacts"]) for r in flights), 100)
+        self.assertEqual(json.loads((self.out / "manifest.json").read_text())["exact"]["walks"]["wrong"], 0)
+
+    def test_rounded_kernels_are_wrong(self):
+        walks = read(self.out / "walks.csv")
+        for kernel in ROUNDED:
+            wrong = [r for r in walks if r["kernel"] == kernel and r["dimension"] == "3"]
+            self.assertGreater(sum(int(r["wrong"]) for r in wrong), 100, kernel)
+        for kind in ["missed_wall", "false_contact", "wrong_cell", "stuck", "wrong_kind"]:
+            self.assertGreater(sum(int(r[kind]) for r in walks), 10, kind)
+        self.assertTrue(any(int(r["degenerate"]) > int(r["motions"]) / 3 for r in walks))
+
+    def test_the_paper_s_sweep_misses_what_the_complete_one_finds(self):
+        sweeps = [r for r in read(self.out / "sweeps.csv") if r["method"] == "three_segments" and r["dimension"] == "3"]
+        self.assertGreater(sum(int(r["missed"]) for r in sweeps), 5)
+
+    def test_failures_can_be_replayed(self):
+        records = sorted((self.out / "failures").glob("*.json"))
+        self.assertGreater(len(records), 10)
+        told = 0
+        for record in records:
+            done = subprocess.run([self.build / "cellwalk", "query", "--replay-failure", record], capture_output=True, text=True,
+                                  check=True)
+            told += "compared with the exact walk: no difference" not in done.stdout
+        self.assertEqual(told, len(records))
+
+
+def update(build):
+    with tempfile.TemporaryDirectory() as folder:
+        quick(build, Path(folder), 1)
+        (HERE / "expected").mkdir(exist_ok=True)
+        for name in TABLES:
+            (HERE / "expected" / name).write_bytes((Path(folder) / name).read_bytes())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    Exact_versus_float.build = Path(sys.argv[1]).resolve()
+    if sys.argv[2:] == ["--update"]:
+        update(Exact_versus_float.build)
+    else:
+        unittest.main(argv=sys.argv[:1])

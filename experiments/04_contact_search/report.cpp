@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "report.h"
+
+#include <cellwalk/io/csv.h>
+#include <cellwalk/io/json_file.h>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/manifest.h"
+#include "common/seeds.h"
+#include "search_trials.h"
+
+namespace cellwalk::contact_search {
+namespace {
+
+constexpr int least_bits = 2, most_bits = 30, bits_step = 2;
+constexpr std::size_t quick_contacts = 150, full_contacts = 2000;
+
+std::vector<Search> all_searches() {
+  std::vector<Search> searches{{Contact_search::exact},
+                               {Contact_search::exhaustive, Search_cells::flooded},
+                               {Contact_search::exhaustive, Search_cells::traversed}};
+  for (int bits = least_bits; bits <= most_bits; bits += bits_step)
+    searches.push_back({Contact_search::dichotomic, Search_cells::flooded, bits});
+  return searches;
+}
+
+std::string name_of(const Search& search) {
+  if (search.kind == Contact_search::exact) return "exact";
+  if (search.kind == Contact_search::dichotomic) return "dichotomic";
+  return search.cells == Search_cells::flooded ? "exhaustive" : "exhaustive_traversed";
+}
+
+/// Six digits: what differs in the last bits between libraries is not written.
+std::string text(double value) { return fmt::format("{:.6g}", value); }
+
+/// Bits of the tolerance, nothing for searches that have none.
+std::string bits_of(const Search& search) {
+  return search.kind == Contact_search::dichotomic ? std::to_string(search.bits) : "";
+}
+
+struct Spread {
+  double mean, median, most;
+};
+
+Spread spread(const Search_tally& tally, double Search_error::*error) {
+  std::vector<double> values;
+  double sum = 0;
+  for (const Search_error& e : tally.errors) {
+    values.push_back(e.*error);
+    sum += e.*error;
+  }
+  std::sort(values.begin(), values.end());
+  return {sum / static_cast<double>(values.size()), values[values.size() / 2], values.back()};
+}
+
+using Tallies = std::vector<std::vector<Search_tally>>;  // of each world
+
+template <class Write>
+void for_each_row(const Tallies& tallies, const std::vector<Search>& searches, Write write) {
+  for (std::size_t w = 0; w < tallies.size(); ++w)
+    for (std::size_t i = 0; i < searches.size(); ++i)
+      write(contact_search::name_of(worlds[w]), searches[i], tallies[w][i]);
+}
+
+void write_errors(const Tallies& tallies, const std::vector<Search>& searches,
+                  const std::filesystem::path& folder) {
+  io::Csv_writer out(folder / "errors.csv",
+                     {"world", "search", "tolerance_bits", "contacts", "same_time", "late", "none_found",
+                      "same_feature", "early_mean", "early_median", "early_max", "late_max", "gap_median",
+                      "gap_max", "point_median", "point_max", "normal_median", "normal_max"});
+  for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
+    const Spread time = spread(t, &Search_error::early), gap = spread(t, &Search_error::gap),
+                 point = spread(t, &Search_error::point), normal = spread(t, &Search_error::normal);
+    double late = 0;
+    for (const Search_error& e : t.errors) late = std::max(late, -e.early);
+    out.row(world, name_of(search), bits_of(search), t.errors.size(), t.same_time, t.late,
+            t.counts.search_misses, t.same_feature, text(time.mean), text(time.median), text(time.most),
+            text(late), text(gap.median), text(gap.most), text(point.median), text(point.most),
+            text(normal.median), text(normal.most));
+  });
+  out.commit();
+}
+
+void write_costs(const Tallies& tallies, const std::vector<Search>& searches,
+                 const std::filesystem::path& folder) {
+  io::Csv_writer out(folder / "costs.csv", {"world", "search", "tolerance_bits", "contacts", "search_sweeps",
+                                            "search_walls", "flooded_cells", "signs", "exact_signs"});
+  for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
+    out.row(world, name_of(search), bits_of(search), t.errors.size(), t.counts.search_sweeps,
+            t.counts.search_walls, t.counts.flooded_cells, t.counts.walk.predicates.orientations,
+            t.counts.walk.predicates.fallbacks);
+  });
+  out.commit();
+}
+
+void write_timings(const Tallies& tallies, const std::vector<Search>& searches,
+                   const std::filesystem::path& folder) {
+  io::Csv_writer out(folder / "timings.csv", {"world", "search", "tolerance_bits", "us_per_contact"});
+  for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
+    out.row(world, name_of(search), bits_of(search), text(t.microseconds));
+  });
+  out.commit();
+}
+
+}  // namespace
+
+void run(const Plan& plan, const std::filesystem::path& folder) {
+  const std::vector<Search> searches = all_searches();
+  Tallies tallies(std::size(worlds));
+  const int threads = plan.rounds > 0 ? 1 : plan.threads;
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::parallel_for(std::size_t{0}, tallies.size(), [&](std::size_t w) {
+      const std::string_view name = contact_search::name_of(worlds[w]);
+      tallies[w] = contact_search::run(worlds[w], searches,
+                                       {experiments::part_seed(plan.seed, name),
+                                        plan.quick ? quick_contacts : full_contacts, plan.rounds});
+    });
+  }
+  write_errors(tallies, searches, folder);
+  write_costs(tallies, searches, folder);
+  if (plan.rounds > 0) write_timings(tallies, searches, folder);
+  auto manifest = experiments::manifest(plan.commit);
+  manifest["quick"] = plan.quick;
+  manifest["seed"] = plan.seed;
+  manifest["rounds"] = plan.rounds;
+  io::write_json(folder / "manifest.json", manifest);
+}
+
+}  // namespace cellwalk::contact_search

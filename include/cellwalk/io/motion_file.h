@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Files of one recorded motion: JSON. The format is described in docs/formats.md.
+#ifndef CELLWALK_IO_MOTION_FILE_H
+#define CELLWALK_IO_MOTION_FILE_H
+
+#include <cellwalk/records/motion_record.h>
+
+#include <filesystem>
+
+namespace cellwalk::io {
+
+/// Coordinates are written so that they read back the same. \throw Error(other) where the file cannot be written
+template <int D>
+void write_motion(const std::filesystem::path& path, const Motion_record<D>& record);
+
+/// Nothing is guessed: unknown and missing keys, wrong types and indices out of range are refused.
+/// \throw Error(input) `FILE: key.path: what is wrong`
+Any_motion_record read_motion(const std::filesystem::path& path);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_MOTION_FILE_H

@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Everything in the report that was measured: macros, tables and figures from the outputs of the experiments.
+
+usage: collect_numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
+
+NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search), KIND is quick or full, FOLDER what its run.sh
+wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
+"""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus float", "small_obstacles": "03, small obstacles",
+          "contact_search": "04, contact searches"}
+# The plots of each experiment that are used, with their width and height in inches and the scale of their type.
+HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
+FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
+           "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
+           "contact_search": {"time": HALF, "cost": HALF}}
+METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
+           ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
+           ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
+           ("embree_packet_robust", "Embree, robust packets"), ("fcl_boxes", "FCL, segments"), ("cgal_segment", "CGAL, segments"),
+           ("cgal_kept_box", "CGAL, box kept a body"), ("double_walk", "walk in doubles"),
+           ("unit_cubes", "bound: unit cubes"), ("read_and_write", "bound: reading and writing")]
+SEARCHES = [("exact", ""), ("exhaustive", ""), ("exhaustive_traversed", ""), ("dichotomic", "10"), ("dichotomic", "20"),
+            ("dichotomic", "30")]
+
+
+def read(folder, name):
+    if not has(folder, name):
+        sys.exit(f"collect_numbers.py: {folder / name} is missing: run the experiment again")
+    with (folder / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def has(folder, name):
+    return (folder / name).exists()
+
+
+def count(value):
+    return f"{int(value):,}".replace(",", r"\,")
+
+
+def percent(value):
+    value = 100 * float(value)
+    return f"{value:.1f}" if value < 99.95 else "100"
+
+
+def decimal(value, digits=3):
+    """A number as TeX has it: 1.2e-06 becomes a power of ten."""
+    text = f"{float(value):.{digits}g}"
+    if "e" not in text:
+        return text
+    mantissa, exponent = text.split("e")
+    return rf"${mantissa}\cdot 10^{{{int(exponent)}}}$"
+
+
+def escaped(text):
+    return text.replace("_", r"\_").replace("&", r"\&").replace("%", r"\%").replace("#", r"\#")
+
+
+def table(columns, header, lines):
+    text = rf"\begin{{tabular}}{{{columns}}}\toprule" + "\n" + " & ".join(header) + r" \\\midrule" + "\n"
+    text += "".join((r"\midrule" if line is None else " & ".join(line) + r" \\") + "\n" for line in lines)
+    return text + r"\bottomrule\end{tabular}" + "\n"
+
+
+class Report:
+    def __init__(self, out):
+        self.out = out
+        self.macros = {}
+
+    def define(self, name, value):
+        assert name.isalpha() and name not in self.macros, name
+        self.macros[name] = str(value)
+
+    def table(self, name, columns, header, lines):
+        (self.out / f"table_{name}.tex").write_text(table(columns, header, lines), encoding="utf-8")
+
+    def write(self):
+        text = "".join(rf"\newcommand{{\{name}}}{{{value}}}" + "\n" for name, value in self.macros.items())
+        (self.out / "numbers.tex").write_text(text, encoding="utf-8")
+
+
+def draw(report, name, folder):
+    """The plots of an experiment as NAME_PLOT.pdf."""
+    for plot, (size, scale) in FIGURES[name].items():
+        script = folder / f"{plot}.gp"
+        if not script.exists():
+            sys.exit(f"collect_numbers.py: {script} is missing: run the experiment again")
+        terminal = f'set terminal pdfcairo size {size} fontscale {scale} enhanced\nset output "{name}_{plot}.pdf"\n'
+        subprocess.run(["gnuplot", "-"], input=terminal + script.read_text(encoding="utf-8"), text=True, check=True, cwd=report.out)
+
+
+def power_of_ten(n):
+    return f"$10^{{{len(str(n)) - 1}}}$" if str(n).strip("0") == "1" else count(n)
+
+
+def figure_8(report, folder):
+    rows = [r for r in read(folder, "figure_8.csv") if r["trace"].startswith("n_")]
+    sizes = sorted({int(r["cells"]) for r in rows})
+    found = {(r["method"], int(r["cells"])): r for r in rows}
+
+    def time(method, n):
+        return float(found[method, n]["ns_per_vertex_move"])
+    present = [(m, title) for m, title in METHODS if (m, sizes[-1]) in found and found[m, sizes[-1]]["ns_per_vertex_move"]]
+    lines = []
+    for method, title in present:
+        row = found[method, sizes[-1]]
+        lines.append([title, *(f"{time(method, n):.1f}" if time(method, n) < 99.95 else f"{time(method, n):,.0f}".replace(",", r"\,")
+                               for n in sizes), f'{count(row["missed"])} / {count(row["false"])}'])
+    report.table("figure_8", "l" + "r" * (len(sizes) + 1),
+                 ["method", *(f"$n={power_of_ten(n).strip('$')}$" for n in sizes), "missed / false"], lines)
+    ours = [r for r in rows if r["method"].startswith("cellwalk")]
+    report.define("FigEightHits", count(sum(int(r["hits"]) for r in ours)))
+    report.define("FigEightWrong", count(sum(int(r["missed"]) + int(r["false"]) for r in ours)))
+    report.define("FigEightSizes", f"{power_of_ten(sizes[0])} to {power_of_ten(sizes[-1])}")
+    report.define("FigEightGrowth", decimal(time("cellwalk_triangle", sizes[-1]) / time("cellwalk_triangle", sizes[0]), 2))
+    report.define("FigEightTriangle", decimal(time("cellwalk_triangle", sizes[-1])))
+    report.define("FigEightSegments", decimal(time("cellwalk_three_segments", sizes[-1])))
+    report.define("FigEightExtra", decimal(time("cellwalk_triangle", sizes[-1]) / time("cellwalk_three_segments", sizes[-1]), 2))
+    report.define("FigEightMoves", count(found["cellwalk_triangle", sizes[-1]]["moves"]))
+    sentence = "Bullet was not installed where this was run, so the comparison of the original paper is missing."
+    if any(m == "bullet_swept_box" for m, _ in present):
+        paper = [time("bullet_swept_box", n) / time("cellwalk_three_segments", n) for n in sizes]
+        kept = [time("bullet_kept_box", n) / time("cellwalk_three_segments", n) for n in sizes]
+        sentence = (f"The box query for each edge that the original paper compares with takes {decimal(min(paper), 2)} to "
+                    f"{decimal(max(paper), 2)} times as long as three segments here. Bullet with the triangles of an enlarged box kept "
+                    f"for each body takes {decimal(min(kept), 2)} to {decimal(max(kept), 2)} times as long.")
+    report.define("FigEightBullet", sentence)
+
+
+def exact_versus_float(report, folder):
+    walks, sweeps = read(folder, "walks.csv"), read(folder, "sweeps.csv")
+    lines = []
+    for dimension in ("2", "3"):
+        if lines:
+            lines.append(None)
+        of = [r for r in walks if r["dimension"] == dimension]
+        for kernel in dict.fromkeys(r["kernel"] for r in of):
+            rows = [r for r in of if r["kernel"] == kernel]
+
+            def total(*columns):
+                return sum(int(r[c]) for r in rows for c in columns)
+            lines.append([f"{dimension}D", r"\texttt{" + escaped(kernel) + "}", count(total("motions")), count(total("wrong")),
+                          percent(total("wrong") / total("motions")), count(total("missed_wall")), count(total("false_contact")),
+                          count(total("stuck", "lost"))])
+    report.table("walks", "llrrrrrr", ["", "kernel", "walks", "wrong", r"\%", "missed walls", "false contacts", "no end"], lines)
+    exact = ("exact", "exact_signs", "lazy", "rational")
+    certain = [r for r in walks if r["kernel"] in exact]
+    report.define("ExactWalks", count(sum(int(r["motions"]) for r in certain)))
+    report.define("ExactWalksWrong", count(sum(int(r["wrong"]) for r in certain)))
+
+    def share(kernel):
+        rows = [r for r in walks if r["kernel"] == kernel]
+        return percent(sum(int(r["wrong"]) for r in rows) / sum(int(r["motions"]) for r in rows))
+    report.define("DoubleWrong", share("double"))
+    report.define("TolerantWrong", share("double_1e-9"))
+    lines = []
+    for dimension in ("2", "3"):
+        if lines:
+            lines.append(None)
+        of = [r for r in sweeps if r["dimension"] == dimension]
+        for method in dict.fromkeys(r["method"] for r in of):
+            if method in ("walks_exact_signs", "walks_lazy", "walks_rational"):
+                continue  # the same signs as walks_exact
+            rows = [r for r in of if r["method"] == method]
+            lines.append([f"{dimension}D", r"\texttt{" + escaped(method) + "}",
+                          *(count(sum(int(r[c]) for r in rows)) for c in ("sweeps", "blocked", "wrong", "missed", "false_contact"))])
+    report.table("sweeps", "llrrrrr", ["", "method", "sweeps", "blocked", "wrong", "missed", "false"], lines)
+    triangle = [r for r in sweeps if r["method"] == "triangle"]
+    report.define("ExactSweeps", count(sum(int(r["sweeps"]) for r in triangle)))
+    report.define("ExactSweepsWrong", count(sum(int(r["wrong"]) for r in triangle)))
+
+
+def small_obstacles(report, folder):
+    sweeps, costs = read(folder, "sweeps.csv"), read(folder, "costs.csv")
+    spikes, floating = read(folder, "spikes.csv"), read(folder, "floating.csv")
+    sizes = list(dict.fromkeys(r["size_over_step"] for r in sweeps))
+    lines = []
+    for dimension in ("2", "3"):
+        for edge in dict.fromkeys(r["edge_over_step"] for r in sweeps):
+            of = {r["size_over_step"]: r for r in sweeps if r["dimension"] == dimension and r["edge_over_step"] == edge}
+            lines.append([f"{dimension}D, {edge}", *(percent(of[s]["missed_share"]) for s in sizes)])
+    report.table("missed", "l" + "r" * len(sizes),
+                 ["edge / step", *(f"1/{round(1 / float(s))}" if float(s) < 1 else s for s in sizes)], lines)
+    report.define("SweepMoves", count(sum(int(r["sweeps"]) for r in sweeps)))
+    report.define("SweepContacts", count(sum(int(r["edge_contacts"]) for r in sweeps)))
+    report.define("SweepMissed", count(sum(int(r["missed"]) for r in sweeps)))
+    report.define("SweepFalse", count(sum(int(r["false_contacts"]) for r in sweeps)))
+    rare = [r for r in sweeps if r["dimension"] == "3" and float(r["size_over_step"]) <= 0.125]
+    report.define("RareContacts", count(sum(int(r["contacts"]) for r in rare)))
+    report.define("RareExpected", count(round(sum(float(r["expected_contacts"]) for r in rare))))
+    signs = {(r["dimension"], r["edge_over_step"], r["size_over_step"], r["sweep"]): int(r["signs"]) for r in costs}
+    ratios = [signs[(*k[:3], "complete")] / signs[k] for k in signs if k[0] == "3" and k[3] == "three_segments"]
+    report.define("SignRatioLeast", decimal(min(ratios), 2))
+    report.define("SignRatioMost", decimal(max(ratios), 2))
+    sentence = "Times were not taken in this run."
+    if has(folder, "timings.csv"):
+        timings = [r for r in read(folder, "timings.csv") if r["dimension"] == "3" and float(r["size_over_step"]) <= 1]
+
+        def times(sweep):
+            values = [float(r["ns_per_sweep"]) / 1000 for r in timings if r["sweep"] == sweep]
+            return f"{min(values):.1f} to {max(values):.1f}"
+        sentence = (rf"In space a move takes {times('complete')} \textmu s instead of {times('three_segments')} \textmu s, "
+                    "for obstacles up to the size of the step.")
+    report.define("SweepTimes", sentence)
+    report.define("Falls", count(sum(int(r["faces"]) for r in spikes)))
+    report.define("FallsPierced", count(sum(int(r["pierced"]) for r in spikes)))
+    report.define("FallsBeyond", count(sum(int(r["beyond_bound"]) for r in spikes)))
+    report.define("FallsShare", percent(max(float(r["share_of_bound_max"]) for r in spikes)))
+    report.define("FallsWithFaces", count(sum(int(r["pierced_with_faces"]) for r in spikes)))
+    report.define("FloatingFaces", count(sum(int(r["faces"]) for r in floating)))
+    report.define("FloatingWithFaces", count(sum(int(r["passed_with_faces"]) for r in floating)))
+    report.define("FloatingSmallest", floating[0]["size_over_inradius"])
+    report.define("FloatingSmallestShare", percent(floating[0]["passed_share"]))
+    deepest = next(r for r in reversed(spikes) if r["aim"] == "worst")
+    report.define("DeepestSharpness", deepest["sharpness"])
+    report.define("DeepestInradii", decimal(2 * float(deepest["depth_max"]), 3))
+
+
+def contact_search(report, folder):
+    errors, costs = read(folder, "errors.csv"), read(folder, "costs.csv")
+    times = {}
+    if has(folder, "timings.csv"):
+        times = {(r["world"], r["search"], r["tolerance_bits"]): float(r["us_per_contact"]) for r in read(folder, "timings.csv")}
+    found = {(r["world"], r["search"], r["tolerance_bits"]): r for r in errors}
+    spent = {(r["world"], r["search"], r["tolerance_bits"]): r for r in costs}
+    worlds = list(dict.fromkeys(r["world"] for r in errors))
+    lines = []
+    for world in worlds:
+        if lines:
+            lines.append(None)
+        for search, bits in SEARCHES:
+            row, cost = found[world, search, bits], spent[world, search, bits]
+            n = int(row["contacts"])
+            name = {"exhaustive_traversed": "exhaustive, end cells"}.get(search, search) + (f", $2^{{-{bits}}}$" if bits else "")
+            time = times.get((world, search, bits))
+            lines.append([world, name, percent(int(row["late"]) / n), decimal(max(0, float(row["early_max"])), 2), decimal(row["gap_max"], 2),
+                          decimal(row["normal_median"], 2), count(int(cost["signs"]) / n), f"{time:.0f}" if time else ""])
+    report.table("searches", "llrrrrrr", ["world", "search", r"late, \%", "early, most", "gap, most", "normal", "signs",
+                                          r"\textmu s"], lines)
+    report.define("SearchContacts", count(sum(int(r["contacts"]) for r in errors if r["search"] == "exact")))
+    late = [int(r["late"]) / int(r["contacts"]) for r in errors if r["search"] == "exhaustive_traversed"]
+    report.define("SearchLateLeast", percent(min(late)))
+    report.define("SearchLateMost", percent(max(late)))
+    normals = [float(r["normal_median"]) for r in errors if r["search"] == "dichotomic"]
+    report.define("SearchNormalLeast", decimal(min(normals), 2))
+    report.define("SearchNormalMost", decimal(max(normals), 2))
+    ratio = [int(spent[w, "dichotomic", "20"]["signs"]) / int(spent[w, "exact", ""]["signs"]) for w in worlds]
+    report.define("SearchRatioLeast", decimal(min(ratio), 2))
+    report.define("SearchRatioMost", decimal(max(ratio), 2))
+
+
+def provenance(report, runs):
+    lines = []
+    for name, (kind, folder) in runs.items():
+        if not has(folder, "manifest.json"):
+            sys.exit(f"collect_numbers.py: {folder / 'manifest.json'} is missing: run the experiment again")
+        manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+        lines.append([TITLES[name], kind, r"\texttt{" + escaped(manifest["commit"][:12]) + "}", escaped(manifest["compiler"]),
+                      escaped(manifest["processor"])])
+    report.table("runs", "lllll", ["experiment", "length", "commit", "compiler", "processor"], lines)
+    kinds = {kind for kind, _ in runs.values()}
+    report.define("RunKinds", {frozenset(["quick"]): "quick runs of all experiments", frozenset(["full"]): "full runs of all experiments"}.get(
+        frozenset(kinds), "full runs of some experiments and quick runs of others"))
+
+
+def main(arguments):
+    draws = "--no-figures" not in arguments
+    arguments = [a for a in arguments if a != "--no-figures"]
+    if len(arguments) < 2:
+        sys.exit(__doc__)
+    runs = {}
+    for argument in arguments[1:]:
+        name, _, rest = argument.partition("=")
+        kind, _, folder = rest.partition(":")
+        if name not in TITLES or kind not in ("quick", "full"):
+            sys.exit(f"collect_numbers.py: {argument}: use NAME=quick:FOLDER or NAME=full:FOLDER, NAME one of {', '.join(TITLES)}")
+        runs[name] = (kind, Path(folder))
+    report = Report(Path(arguments[0]))
+    report.out.mkdir(parents=True, exist_ok=True)
+    for name, (_, folder) in runs.items():
+        SECTIONS[name](report, folder)
+        if draws:
+            draw(report, name, folder)
+    provenance(report, runs)
+    report.write()
+
+
+SECTIONS = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
+            "contact_search": contact_search}
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Checks that the report takes its numbers from the outputs of the experiments; these are made up for that."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import collect_numbers
+
+HERE = Path(__file__).resolve().parent
+REPORT = (HERE / "report.tex").read_text(encoding="utf-8")
+MANIFEST = {"commit": "0123456789abcdef", "compiler": "GNU 12", "processor": "some_processor"}
+
+
+def write(folder, name, rows):
+    with (folder / name).open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def figure_8(folder, peers=True):
+    methods = {"cellwalk_three_segments": 10, "cellwalk_triangle": 15}
+    if peers:
+        methods |= {"bullet_swept_box": 200, "bullet_kept_box": 8}
+    write(folder, "figure_8.csv", [
+        {"trace": f"n_{n}", "cells": n, "method": m, "ns_per_vertex_move": ns * (1 if n == 1000 else 1.5), "missed": 0, "false": 0,
+         "hits": 300, "moves": 72000} for n in (1000, 10000) for m, ns in methods.items()])
+
+
+def exact_versus_float(folder):
+    verdicts = {"missed_wall": 1, "false_contact": 2, "stuck": 3, "lost": 4}
+    write(folder, "walks.csv", [
+        {"dimension": d, "kernel": k, "motions": 1000, "wrong": wrong, **(verdicts if wrong else dict.fromkeys(verdicts, 0))}
+        for d in (2, 3) for k, wrong in (("exact", 0), ("double", 10), ("double_1e-9", 20))])
+    write(folder, "sweeps.csv", [
+        {"dimension": d, "method": m, "sweeps": 500, "blocked": 100, "wrong": wrong, "missed": wrong, "false_contact": 0}
+        for d in (2, 3) for m, wrong in (("triangle", 0), ("three_segments", 7), ("walks_lazy", 99))])
+
+
+def small_obstacles(folder):
+    settings = [{"dimension": d, "edge_over_step": 1, "size_over_step": s} for d in (2, 3) for s in (0.125, 1)]
+    write(folder, "sweeps.csv", [{**s, "sweeps": 100, "contacts": 12, "expected_contacts": 12.4, "edge_contacts": 10, "missed": 5,
+                                  "false_contacts": 0, "missed_share": 0.5} for s in settings])
+    write(folder, "costs.csv", [{**s, "sweep": k, "signs": n} for s in settings for k, n in (("three_segments", 10), ("complete", 40))])
+    write(folder, "spikes.csv", [{"aim": a, "sharpness": g, "faces": 50, "pierced": 40, "beyond_bound": 0, "share_of_bound_max": 0.98,
+                                  "depth_max": 0.5 * g, "pierced_with_faces": 0} for a in ("random", "worst") for g in (1, 8)])
+    write(folder, "floating.csv", [{"size_over_inradius": s, "faces": 50, "passed_share": 0.6, "passed_with_faces": 0} for s in (0.25, 2)])
+
+
+def contact_search(folder):
+    kinds = [("exact", ""), ("exhaustive", ""), ("exhaustive_traversed", ""), *(("dichotomic", k) for k in (10, 20, 30))]
+    rows = [{"world": w, "search": s, "tolerance_bits": k} for w in ("room", "vessel") for s, k in kinds]
+    write(folder, "errors.csv", [{**r, "contacts": 50, "late": 10, "early_max": 1e-6, "gap_max": 1e-6, "normal_median": 9} for r in rows])
+    write(folder, "costs.csv", [{**r, "signs": 1000 * (20 if r["search"] == "dichotomic" else 1)} for r in rows])
+
+
+MADE_UP = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
+           "contact_search": contact_search}
+
+
+class CollectNumbers(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.runs = []
+        for name, make in MADE_UP.items():
+            folder = self.root / name
+            folder.mkdir()
+            make(folder)
+            (folder / "manifest.json").write_text(json.dumps(MANIFEST), encoding="utf-8")
+            self.runs.append(f"{name}={'full' if name == 'figure_8' else 'quick'}:{folder}")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def collect(self, *runs):
+        return subprocess.run([sys.executable, HERE / "collect_numbers.py", "--no-figures", self.root / "out", *runs],
+                              capture_output=True, text=True, check=False)
+
+    def macros(self):
+        self.assertEqual("", self.collect(*self.runs).stderr)
+        text = (self.root / "out" / "numbers.tex").read_text(encoding="utf-8")
+        return dict(re.findall(r"\\newcommand\{\\(\w+)\}\{(.*)\}\n", text))
+
+    def test_macros_have_the_numbers_of_the_outputs(self):
+        macros = self.macros()
+        self.assertEqual("1.5", macros["FigEightGrowth"])
+        self.assertIn("takes 20 to 20 times as long", macros["FigEightBullet"])
+        self.assertEqual(("2\\,000", "0"), (macros["ExactWalks"], macros["ExactWalksWrong"]))
+        self.assertEqual(("1.0", "2.0"), (macros["DoubleWrong"], macros["TolerantWrong"]))
+        self.assertEqual(("40", "20", "4"), (macros["SweepContacts"], macros["SweepMissed"], macros["SignRatioMost"]))
+        self.assertEqual(("98.0", "8"), (macros["FallsShare"], macros["DeepestInradii"]))
+        self.assertEqual(("20.0", "20"), (macros["SearchLateMost"], macros["SearchRatioMost"]))
+        self.assertEqual("full runs of some experiments and quick runs of others", macros["RunKinds"])
+
+    def test_tables_show_the_outputs(self):
+        self.macros()
+        out = self.root / "out"
+        self.assertIn(r"Bullet, a box an edge & 200 & 300 & 0 / 0 \\", (out / "table_figure_8.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"3D & \texttt{double} & 1\,000 & 10 & 1.0 & 1 & 2 & 7 \\", (out / "table_walks.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"\texttt{0123456789ab} & GNU 12 & some\_processor", (out / "table_runs.tex").read_text(encoding="utf-8"))
+        self.assertNotIn("lazy", (out / "table_sweeps.tex").read_text(encoding="utf-8"))
+
+    def test_report_uses_what_is_written_and_nothing_else(self):
+        macros = self.macros()
+        used = set(re.findall(r"\\([A-Z][A-Za-z]+)", REPORT))
+        self.assertEqual(set(macros), used)
+        tables = set(re.findall(r"\\input\{(table_\w+\.tex)\}", REPORT))
+        self.assertEqual({p.name for p in (self.root / "out").glob("table_*.tex")}, tables)
+
+    def test_report_shows_the_plots_that_are_drawn(self):
+        drawn = {f"{name}_{plot}.pdf" for name, plots in collect_numbers.FIGURES.items() for plot in plots}
+        shown = set(re.findall(r"\\includegraphics(?:\[[^\]]*\])?\{([^}]*)\}", REPORT))
+        self.assertEqual(drawn | {"face_3d.png"}, shown)
+        self.assertTrue((HERE.parent / "docs" / "images" / "face_3d.png").exists())
+
+    def test_without_bullet_the_report_says_so(self):
+        figure_8(self.root / "figure_8", peers=False)
+        self.assertIn("Bullet was not installed", self.macros()["FigEightBullet"])
+
+    def test_citations_resolve_and_all_references_are_cited(self):
+        keys = re.findall(r"@\w+\{(\w+),", (HERE / "references.bib").read_text(encoding="utf-8"))
+        self.assertEqual(len(keys), len(set(keys)))
+        self.assertEqual(set(keys), {key for group in re.findall(r"\\cite\{([^}]*)\}", REPORT) for key in group.split(",")})
+
+    def test_a_missing_output_is_named(self):
+        for name in ("walks.csv", "manifest.json"):
+            (self.root / "exact_versus_float" / name).unlink()
+            result = self.collect(*self.runs)
+            self.assertNotEqual(0, result.returncode)
+            self.assertIn(f"{name} is missing", result.stderr)
+            exact_versus_float(self.root / "exact_versus_float")
+
+    def test_a_wrong_argument_is_refused(self):
+        for argument in ("figure_9=full:x", "figure_8=half:x", "figure_8"):
+            result = self.collect(argument)
+            self.assertNotEqual(0, result.returncode)
+            self.assertIn(argument, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
