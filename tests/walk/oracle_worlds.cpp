@@ -250,7 +250,8 @@ Point<D> Motion_source<D>::target(Motion_kind kind, const Point<D>& from, const 
       // Along a combination of two edges of the wall on which it starts.
       const Vector<D> u = point(support_[1]) - point(support_[0]);
       const Vector<D> v = point(support_.back()) - point(support_[0]);
-      return from + (between(-16, 16) / 8.0) * u + (between(-16, 16) / 8.0) * v;
+      const int of_v = between(-16, 16), of_u = between(-16, 16);  // drawn in this order by every compiler
+      return from + (of_u / 8.0) * u + (of_v / 8.0) * v;
     }
     case Motion_kind::along_edge:
       return from + (between(-32, 32) / 8.0) * (point(support_[1]) - point(support_[0]));
