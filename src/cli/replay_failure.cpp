@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "cli/replay_failure.h"
 
-#include <cellwalk/io/motion_file.h>
+#include <cellwalk/io/motion_record_file.h>
 #include <cellwalk/io/numbers.h>
 #include <cellwalk/walk/locate.h>
 

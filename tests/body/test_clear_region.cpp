@@ -211,7 +211,8 @@ TEST(Clear_region, IsFoundWherePlanesSayNothing) {
     for (std::uint32_t k = 0; k < 3; ++k) soup.add_facet({k, (k + 1) % 3}, true);
     soup.end_cell();
     const Snapshot<2> snapshot = compile(soup);
-    const std::vector<Point<2>> positions{{0.25 * scale, 0.25 * scale}}, targets{{0.27 * scale, 0.26 * scale}};
+    const std::vector<Point<2>> positions{{0.25 * scale, 0.25 * scale}},
+        targets{{0.27 * scale, 0.26 * scale}};
     Region_request<2> request;
     request.positions = positions;
     request.targets = targets;

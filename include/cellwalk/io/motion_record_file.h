@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Files of one recorded motion: JSON. The format is described in docs/formats.md.
-#ifndef CELLWALK_IO_MOTION_FILE_H
-#define CELLWALK_IO_MOTION_FILE_H
+#ifndef CELLWALK_IO_MOTION_RECORD_FILE_H
+#define CELLWALK_IO_MOTION_RECORD_FILE_H
 
 #include <cellwalk/records/motion_record.h>
 
@@ -19,4 +19,4 @@ Any_motion_record read_motion(const std::filesystem::path& path);
 
 }  // namespace cellwalk::io
 
-#endif  // CELLWALK_IO_MOTION_FILE_H
+#endif  // CELLWALK_IO_MOTION_RECORD_FILE_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/motion_file.h>
+#include <cellwalk/io/motion_record_file.h>
 
 #include "io_fixture.h"
 

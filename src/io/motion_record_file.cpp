@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/io/json_file.h>
-#include <cellwalk/io/motion_file.h>
+#include <cellwalk/io/motion_record_file.h>
 
 #include <nlohmann/json.hpp>
 
