@@ -23,6 +23,7 @@ void add_generate(CLI::App& app, Action& chosen);
 void add_query(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
+void add_view(CLI::App& app, Action& chosen);
 
 /// What `cellwalk --version` prints: the version, and which optional parts this build has.
 std::string version_text();

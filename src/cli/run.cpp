@@ -23,6 +23,7 @@
 #include "cli/progress.h"
 #include "cli/run_bodies.h"
 #include "cli/run_files.h"
+#include "cli/run_motion.h"
 #include "cli/run_picture.h"
 #include "cli/run_record.h"
 #include "cli/scene_source.h"
@@ -88,8 +89,8 @@ struct Run {
   World<D> make_world() const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
-  ordered_json report(const World<D>& world, const Run_files<D>& files) const;
-  void summary(const World<D>& world, const Run_files<D>& files, bool picture) const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_motion<D>* motion) const;
+  void summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
 };
 
 template <int D>
@@ -111,6 +112,9 @@ void Run<D>::operator()() const {
   Output_folder folder(options.folder, options.force);
   const Interruption interruption;
   Run_files<D> files(folder.path(), soup, world, scene);
+  std::optional<Run_motion<D>> motion;
+  if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
+    motion.emplace(folder.path() / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world);
   {
@@ -118,6 +122,7 @@ void Run<D>::operator()() const {
     for (std::uint32_t i = 1; i <= steps(); ++i) {
       world.step();
       files.record(world, i == steps());
+      if (motion) motion->record(world, i == steps());
       if (record) record->record(world);
       if (picture) picture->record(world);
       progress.update(i);
@@ -126,6 +131,7 @@ void Run<D>::operator()() const {
   }
   world.validate();
   files.finish();
+  if (motion) motion->commit();
   if (picture) {
     const Progress progress("drawing");
     const std::uint64_t contacts = files.contacts()[0] + files.contacts()[1] + files.contacts()[2];
@@ -142,12 +148,12 @@ void Run<D>::operator()() const {
     const io::Image image = io::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
     io::write_file(folder.path() / "picture.png", io::encode_png(image));
   }
-  io::write_json(folder.path() / "run.json", report(world, files));
+  io::write_json(folder.path() / "run.json", report(world, files, motion ? &*motion : nullptr));
   if (record) record->write();
   interruption.check();
   folder.commit();
   if (record) record->commit();
-  summary(world, files, picture.has_value());
+  summary(world, files, motion.has_value(), picture.has_value());
 }
 
 template <int D>
@@ -170,7 +176,8 @@ ordered_json Run<D>::scene_text() const {
 }
 
 template <int D>
-ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) const {
+ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
+                            const Run_motion<D>* motion) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
   result["particles"] = {{"free", world.particles().size()}};
@@ -181,6 +188,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
   result["frames"] = files.frame_count();
+  if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->record_count()}};
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
   if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());
@@ -193,7 +201,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
 }
 
 template <int D>
-void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool picture) const {
+void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const {
   const auto line = [](const char* name, const std::string& value) {
     fmt::print("  {:<12}{}\n", name, value);
   };
@@ -222,6 +230,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
+  if (motion) written += ", motion.gz";
   if (picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
   if (!options.record.empty()) line("recorded", options.record);
