@@ -22,11 +22,16 @@ function(cellwalk_viewer_modules problem)
   endif()
   set(folder ${PROJECT_BINARY_DIR}/viewer)
   file(SHA256 ${PROJECT_SOURCE_DIR}/viewer/package-lock.json lock)
-  set(stamp ${folder}/installed-${lock})
+  set(omitted "")
+  if(NOT CELLWALK_BUILD_TESTS)
+    set(omitted --omit=dev)
+  endif()
+  set(stamp ${folder}/installed-${lock}${omitted})
   if(NOT EXISTS ${stamp})
     message(STATUS "Viewer: installing the packages of viewer/package-lock.json")
     file(COPY ${PROJECT_SOURCE_DIR}/viewer/package.json ${PROJECT_SOURCE_DIR}/viewer/package-lock.json DESTINATION ${folder})
-    execute_process(COMMAND ${CELLWALK_NPM} ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-timeout=60000
+    execute_process(COMMAND ${CELLWALK_NPM} ci ${omitted} --ignore-scripts --no-audit --no-fund --prefer-offline
+        --fetch-retries=1 --fetch-timeout=60000
       WORKING_DIRECTORY ${folder} RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
     if(NOT result EQUAL 0)
       file(WRITE ${folder}/npm.log "${said}")

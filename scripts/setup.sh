@@ -4,7 +4,7 @@
 #
 #   scripts/setup.sh [--for demo|test|dev|peers] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, the test tools and clang-format (default)
+#   demo  build and run the program            test   also Gmsh, VTK, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
 #   --print  only name the packages
 set -euo pipefail
@@ -14,7 +14,8 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format chromium)
+node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 tools=(clang clang-tidy ccache)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 
@@ -38,6 +39,10 @@ case "$purpose" in
   peers) packages+=("${peers[@]}") ;;
   *) echo "setup.sh: --for takes demo, test, dev or peers, not '$purpose'" >&2; exit 2 ;;
 esac
+
+if [ "$purpose" = test ] || [ "$purpose" = dev ]; then
+  command -v npm >/dev/null || packages+=("${node[@]}")
+fi
 
 if $only_print; then
   printf '%s\n' "${packages[@]}"

@@ -114,7 +114,8 @@ void Run<D>::operator()() const {
   Run_files<D> files(folder.path(), soup, world, scene);
   std::optional<Run_motion<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
-    motion.emplace(folder.path() / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
+    motion.emplace(folder.path() / "motion.gz", environment.snapshot(), world, scene.time_step, steps(),
+                   every);
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world);
   {

@@ -66,8 +66,8 @@ void add_bodies(const World<D>& world, Motion_scene& scene) {
 }
 
 template <int D>
-Motion_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, double time_step, std::uint32_t steps,
-                      std::uint32_t every) {
+Motion_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, double time_step,
+                      std::uint32_t steps, std::uint32_t every) {
   Motion_scene scene;
   scene.dimension = D;
   scene.time_step = time_step;

@@ -28,7 +28,8 @@ struct View_options {
 void check_build() {
   if (viewer_page.empty())
     throw Error(Error_code::other,
-                "this build cannot make pages: install Node.js 18 or later with npm (Debian: apt-get install nodejs npm), then "
+                "this build cannot make pages: install Node.js 18 or later with npm (Debian: apt-get install "
+                "nodejs npm), then "
                 "configure with -DCELLWALK_WITH_VIEWER=ON and build again");
 }
 
@@ -74,7 +75,8 @@ void view(const View_options& options) {
                             {"every", scene.every},
                             {"contacts", results.contact_count}});
   fmt::print("{}: {} records of {} steps, {} contacts, {:.1f} MB; open it in a browser\n", options.output,
-             scene.record_count(), scene.steps, results.contact_count, static_cast<double>(page.size()) / 1e6);
+             scene.record_count(), scene.steps, results.contact_count,
+             static_cast<double>(page.size()) / 1e6);
 }
 
 }  // namespace
@@ -83,8 +85,12 @@ void add_view(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<View_options>();
   CLI::App* command =
       app.add_subcommand("view", "Make a page of a run that replays it in a browser, without network");
-  command->add_option("run", options->folder, "The folder that cellwalk run wrote")->required()->type_name("DIR");
-  command->add_option("-o,--output", options->output, "The page to write")->required()->type_name("PAGE.html");
+  command->add_option("run", options->folder, "The folder that cellwalk run wrote")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("-o,--output", options->output, "The page to write")
+      ->required()
+      ->type_name("PAGE.html");
   add_json(*command, options->json);
   command->callback([options, &chosen] { chosen = [options] { view(*options); }; });
 }

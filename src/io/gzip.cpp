@@ -19,8 +19,8 @@ class Deflater {
  public:
   Deflater() {
     constexpr int largest_window_with_gzip_frame = 15 + 16, memory_level = 8;  // zlib's default
-    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, largest_window_with_gzip_frame, memory_level,
-                     Z_DEFAULT_STRATEGY) != Z_OK)
+    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, largest_window_with_gzip_frame,
+                     memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
       throw Error(Error_code::other, "zlib cannot be started: out of memory");
   }
   ~Deflater() { deflateEnd(&stream_); }

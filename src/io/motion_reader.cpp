@@ -71,11 +71,12 @@ class Motion_parser {
       damaged("the counts of its head do not fit each other");
     const std::uint64_t arrays =
         sizeof(Point<3>) * count("points") +
-        sizeof(std::uint32_t) * (count("walls") + count("wall_corners") + count("floor") + count("floor_corners") +
-                                 2 * count("lines") + 2 * edges + 3 * faces);
+        sizeof(std::uint32_t) * (count("walls") + count("wall_corners") + count("floor") +
+                                 count("floor_corners") + 2 * count("lines") + 2 * edges + 3 * faces);
     const std::uint64_t expected = arrays + scene_.record_count() * motion_record_size(scene_);
     if (bytes_.size() != expected)
-      damaged(fmt::format("after its head there are {} bytes, and {} were announced", bytes_.size(), expected));
+      damaged(
+          fmt::format("after its head there are {} bytes, and {} were announced", bytes_.size(), expected));
   }
 
   void read_arrays() {
@@ -136,7 +137,8 @@ Motion_file read_motion(const std::filesystem::path& path) {
   const std::string name = path.string();
   Motion_file result;
   result.packed = load_packed(path);
-  if (!is_gzip(result.packed)) fail(name, "is no motion: it is not compressed with gzip; run the scene again");
+  if (!is_gzip(result.packed))
+    fail(name, "is no motion: it is not compressed with gzip; run the scene again");
   const std::string bytes = unpack(name, result.packed);
   result.scene = Motion_parser(name, bytes).parse();
   return result;

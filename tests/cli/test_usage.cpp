@@ -9,19 +9,19 @@ using Usage = Program;
 TEST_F(Usage, VersionNamesTheOptionalParts) {
   const std::string version = succeed({"--version"});
   EXPECT_TRUE(version.starts_with("cellwalk 0.")) << version;
-  for (const char* part : {"cgal", "meshing", "tetgen", "gmsh", "vtk"})
+  for (const char* part : {"cgal", "meshing", "tetgen", "gmsh", "vtk", "viewer"})
     EXPECT_NE(version.find("\n  " + std::string(part) + " "), std::string::npos) << version;
 }
 
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
   for (const char* text :
-       {"import", "check", "generate", "query", "replay", "run", "4 environment not certified"})
+       {"import", "check", "generate", "query", "replay", "run", "view", "4 environment not certified"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"import", "check", "generate", "query", "replay", "run"})
+  for (const char* command : {"import", "check", "generate", "query", "replay", "run", "view"})
     EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
               std::string::npos);
 }

@@ -91,7 +91,7 @@ test('contacts are the rows of the table', () => {
     const rows = readFileSync(folder.file(`${name}/contacts.csv`), 'utf8').trim().split('\n').slice(1).map(row => row.split(','));
     const contacts = parseContacts(bytes(Buffer.from(embedded(name, 'contact-data'), 'base64')));
     assert.equal(contacts.count, rows.length);
-    assert.ok(rows.length > 30, `${rows.length} contacts`);
+    assert.ok(rows.length > 20, `${rows.length} contacts`);
     rows.forEach((row, i) => {
       assert.equal(contacts.step[i], Number(row[0]));
       assert.equal(['vertex', 'edge', 'facet'][contacts.kind[i]], row[6]);

@@ -50,7 +50,8 @@ struct Motion_scene {
   std::vector<std::vector<std::uint32_t>> walls;
   std::vector<std::vector<std::uint32_t>> floor;    ///< in the plane only: free cells as loops of points
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< in the plane only: passable edges
-  std::vector<std::array<std::uint32_t, 2>> edges;  ///< of all bodies; vertices are counted through all bodies
+  std::vector<std::array<std::uint32_t, 2>>
+      edges;  ///< of all bodies; vertices are counted through all bodies
   std::vector<std::array<std::uint32_t, 3>> faces;
 
   /// Records of a run: at the start, after every `every` steps, and at the end.
@@ -65,9 +66,10 @@ struct Motion_scene {
 
 /// One record: views of the caller's arrays.
 struct Motion_record {
-  std::span<const Point<3>> positions;     ///< of all that moves
-  std::span<const std::uint32_t> cells;    ///< for each a cell in whose closure it lies, by its number in the input
-  std::span<const Decision> decisions;     ///< of each body
+  std::span<const Point<3>> positions;  ///< of all that moves
+  std::span<const std::uint32_t>
+      cells;  ///< for each a cell in whose closure it lies, by its number in the input
+  std::span<const Decision> decisions;  ///< of each body
 };
 
 }  // namespace cellwalk
