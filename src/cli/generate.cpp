@@ -67,6 +67,7 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
   add_environment_output(*command, options->environment);
   for (const Generator_option& option : generator.options) add_option(*command, option, options->values);
   add_json(*command, options->json);
+  add_examples(*command, {"cellwalk generate vessel -o vessel.ovm", "cellwalk generate hexes --cells 20 20 10 --solid 0.1 --seed 3 -o grid.ovm"});
   command->callback([options, &chosen, name = generator.name] {
     chosen = [options, name] {
       std::visit([&](auto&& soup) { write_environment(std::move(soup), *options); },

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   add_replay(app, action);
   add_run(app, action);
   add_view(app, action);
+  add_completion(app, action);
 
   try {
     app.parse(argc, argv);

@@ -36,6 +36,7 @@ using nlohmann::ordered_json;
 struct Run_options {
   std::string scene, folder;
   std::string record;  ///< a trace to write; empty: none
+  std::string json;    ///< where the report goes as well; empty: nowhere
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
@@ -149,11 +150,13 @@ void Run<D>::operator()() const {
     const io::Image image = io::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
     io::write_file(folder.path() / "picture.png", io::encode_png(image));
   }
-  io::write_json(folder.path() / "run.json", report(world, files, motion ? &*motion : nullptr));
+  const ordered_json said = report(world, files, motion ? &*motion : nullptr);
+  io::write_json(folder.path() / "run.json", said);
   if (record) record->write();
   interruption.check();
   folder.commit();
   if (record) record->commit();
+  write_json(options.json, said);
   summary(world, files, motion.has_value(), picture.has_value());
 }
 
@@ -296,7 +299,9 @@ void add_run(CLI::App& app, Action& chosen) {
           "Record the motion with its exact answers, for cellwalk replay: of hexahedra in a grid of unit "
           "cubes. A vertex that meets a wall stays where it is, and edges are checked by three segments")
       ->type_name("TRACE");
+  add_json(*command, options->json);
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
+  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100", "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
   command->callback([options, sweep, &chosen] {
     const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
     chosen = [options, other_sweep] {

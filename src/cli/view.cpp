@@ -92,6 +92,7 @@ void add_view(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("PAGE.html");
   add_json(*command, options->json);
+  add_examples(*command, {"cellwalk view out -o run.html"});
   command->callback([options, &chosen] { chosen = [options] { view(*options); }; });
 }
 
