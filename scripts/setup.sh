@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev|peers] [--print]
+#   scripts/setup.sh [--for demo|test|dev|peers|docs] [--print]
 #
 #   demo  build and run the program            test   also Gmsh, VTK, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
+#   docs  Doxygen and Graphviz, for scripts/docs.sh
 #   --print  only name the packages
 set -euo pipefail
 
@@ -17,6 +18,7 @@ io=(libgmsh-dev libvtk9-dev)
 tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format chromium)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 tools=(clang clang-tidy ccache)
+documentation=(doxygen graphviz)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 
 purpose=test
@@ -26,7 +28,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers|docs or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -37,7 +39,8 @@ case "$purpose" in
   test) packages+=("${io[@]}" "${tests[@]}") ;;
   dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
   peers) packages+=("${peers[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test, dev or peers, not '$purpose'" >&2; exit 2 ;;
+  docs) packages=("${documentation[@]}") ;;
+  *) echo "setup.sh: --for takes demo, test, dev, peers or docs, not '$purpose'" >&2; exit 2 ;;
 esac
 
 if [ "$purpose" = test ] || [ "$purpose" = dev ]; then

@@ -21,7 +21,8 @@ struct Known_command {
 
 void collect(const CLI::App& app, const std::string& path, std::vector<Known_command>& commands) {
   commands.push_back({path, &app});
-  for (const CLI::App* child : app.get_subcommands(nullptr)) collect(*child, path + "/" + child->get_name(), commands);
+  for (const CLI::App* child : app.get_subcommands(nullptr))
+    collect(*child, path + "/" + child->get_name(), commands);
 }
 
 std::vector<std::string> options_of(const CLI::App& app) {
@@ -68,9 +69,6 @@ std::string for_bash(const std::vector<Known_command>& commands) {
 {}    *) case "$path" in
 {}    esac ;;
   esac
-  case "$words,$current" in
-    -*,[!-]*|*,[!-]*[./]*) words= ;;
-  esac
   COMPREPLY=($(compgen -W "$words" -- "$current"))
 }}
 complete -o default -F _cellwalk cellwalk
@@ -82,14 +80,14 @@ std::string for_fish(const std::vector<Known_command>& commands) {
   std::string script;
   for (const Known_command& command : commands) {
     const std::string name = command.path.empty() ? "" : command.app->get_name();
-    const std::string when =
-        name.empty() ? "__fish_use_subcommand" : "__fish_seen_subcommand_from " + name;
+    const std::string when = name.empty() ? "__fish_use_subcommand" : "__fish_seen_subcommand_from " + name;
     for (const CLI::App* child : command.app->get_subcommands(nullptr))
       script += fmt::format("complete -c cellwalk -n '{}' -a {}\n", when, child->get_name());
     for (const std::string& option : options_of(*command.app))
       script += fmt::format("complete -c cellwalk -n '{}' -l {}\n", when, option);
     for_choices(*command.app, [&](const std::string& option, const std::vector<std::string>& choices) {
-      script += fmt::format("complete -c cellwalk -n '{}' -l {} -x -a '{}'\n", when, option, fmt::join(choices, " "));
+      script += fmt::format("complete -c cellwalk -n '{}' -l {} -x -a '{}'\n", when, option,
+                            fmt::join(choices, " "));
     });
   }
   return script;
@@ -112,13 +110,14 @@ std::string script_for(Shell shell, const CLI::App& app) {
 
 void add_completion(CLI::App& app, Action& chosen) {
   const auto shell = std::make_shared<Shell>(Shell::bash);
-  CLI::App* command = app.add_subcommand("completion", "Print a script that completes command lines in a shell");
+  CLI::App* command =
+      app.add_subcommand("completion", "Print a script that completes command lines in a shell");
   add_choice(*command, "shell", *shell, {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}},
              "The shell that reads it");
-  add_examples(*command, {"source <(cellwalk completion)", "cellwalk completion fish > ~/.config/fish/completions/cellwalk.fish"});
-  command->callback([shell, &app, &chosen] {
-    chosen = [shell, &app] { fmt::print("{}", script_for(*shell, app)); };
-  });
+  add_examples(*command, {"source <(cellwalk completion)",
+                          "cellwalk completion fish > ~/.config/fish/completions/cellwalk.fish"});
+  command->callback(
+      [shell, &app, &chosen] { chosen = [shell, &app] { fmt::print("{}", script_for(*shell, app)); }; });
 }
 
 }  // namespace cellwalk::cli

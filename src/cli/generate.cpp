@@ -67,7 +67,6 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
   add_environment_output(*command, options->environment);
   for (const Generator_option& option : generator.options) add_option(*command, option, options->values);
   add_json(*command, options->json);
-  add_examples(*command, {"cellwalk generate vessel -o vessel.ovm", "cellwalk generate hexes --cells 20 20 10 --solid 0.1 --seed 3 -o grid.ovm"});
   command->callback([options, &chosen, name = generator.name] {
     chosen = [options, name] {
       std::visit([&](auto&& soup) { write_environment(std::move(soup), *options); },
@@ -82,6 +81,8 @@ void add_generate(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("generate", "Make an environment that needs no file");
   command->require_subcommand(1);
   for (const Generator& generator : generators()) add_kind(*command, generator, chosen);
+  add_examples(*command, {"cellwalk generate vessel -o vessel.ovm",
+                          "cellwalk generate hexes --cells 20 20 10 --solid 0.1 --seed 3 -o grid.ovm"});
 }
 
 }  // namespace cellwalk::cli

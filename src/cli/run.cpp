@@ -301,7 +301,8 @@ void add_run(CLI::App& app, Action& chosen) {
       ->type_name("TRACE");
   add_json(*command, options->json);
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
-  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100", "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
+  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
+                          "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
   command->callback([options, sweep, &chosen] {
     const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
     chosen = [options, other_sweep] {
