@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev|peers|paper] [--print]
+#   scripts/setup.sh [--for demo|test|dev|peers|paper|docs] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, the test tools and clang-format (default)
+#   demo  build and run the program            test   also Gmsh, VTK, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
-#   paper peers and LaTeX
+#   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
 #   --print  only name the packages
 set -euo pipefail
 
@@ -15,8 +15,10 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format chromium)
+node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 tools=(clang clang-tidy ccache)
+documentation=(doxygen graphviz)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 latex=(texlive-latex-recommended texlive-fonts-recommended lmodern)
 
@@ -27,7 +29,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers|paper or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers|paper|docs or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -39,8 +41,13 @@ case "$purpose" in
   dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test, dev, peers or paper, not '$purpose'" >&2; exit 2 ;;
+  docs) packages=("${documentation[@]}") ;;
+  *) echo "setup.sh: --for takes demo, test, dev, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
 esac
+
+if [ "$purpose" = test ] || [ "$purpose" = dev ]; then
+  command -v npm >/dev/null || packages+=("${node[@]}")
+fi
 
 if $only_print; then
   printf '%s\n' "${packages[@]}"

@@ -39,6 +39,8 @@ void add_check(CLI::App& app, Action& chosen) {
       ->type_name("ENV");
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
+  add_examples(*command, {"cellwalk check vessel.ovm",
+                          "cellwalk check mesh.vtu --duplicates merge --json report.json"});
   command->callback([options, &chosen] { chosen = [options] { check(*options); }; });
 }
 

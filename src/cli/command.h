@@ -23,6 +23,17 @@ void add_generate(CLI::App& app, Action& chosen);
 void add_query(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
+void add_view(CLI::App& app, Action& chosen);
+
+/// Prints what a shell needs to complete command lines of `app`.
+void add_completion(CLI::App& app, Action& chosen);
+
+/// Puts examples at the end of a command's help, before what the program says for all commands.
+inline void add_examples(CLI::App& command, std::initializer_list<const char*> lines) {
+  std::string text = "Examples:\n";
+  for (const char* line : lines) text += "  " + std::string(line) + "\n";
+  command.footer(text + "\n" + command.get_footer());
+}
 
 /// What `cellwalk --version` prints: the version, and which optional parts this build has.
 std::string version_text();

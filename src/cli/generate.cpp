@@ -81,6 +81,8 @@ void add_generate(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("generate", "Make an environment that needs no file");
   command->require_subcommand(1);
   for (const Generator& generator : generators()) add_kind(*command, generator, chosen);
+  add_examples(*command, {"cellwalk generate vessel -o vessel.ovm",
+                          "cellwalk generate hexes --cells 20 20 10 --solid 0.1 --seed 3 -o grid.ovm"});
 }
 
 }  // namespace cellwalk::cli

@@ -176,6 +176,10 @@ void add_import(CLI::App& app, Action& chosen) {
                     "Refuse cells that are not exactly convex instead of splitting");
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
+  add_examples(*command,
+               {"cellwalk import vessel.stl -o vessel.ovm",
+                "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
+                "cellwalk import floor.wkt -o floor.ovm --json report.json"});
   command->callback([options, &chosen] { chosen = [options] { import(*options); }; });
 }
 

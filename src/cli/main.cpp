@@ -75,6 +75,8 @@ int main(int argc, char** argv) {
   add_query(app, action);
   add_replay(app, action);
   add_run(app, action);
+  add_view(app, action);
+  add_completion(app, action);
 
   try {
     app.parse(argc, argv);

@@ -246,6 +246,8 @@ void add_query(CLI::App& app, Action& chosen) {
   add_json(*command, options->json);
   add_move_options(*command, *options);
   add_sweep_options(*command, options->sweep);
+  add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
+                          "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv"});
   command->callback(
       [options, command, &chosen] { chosen = [options, command] { query(*options, *command); }; });
 }

@@ -185,6 +185,9 @@ void add_replay(CLI::App& app, Action& chosen) {
   command->add_flag("--shear", options->sheared,
                     "Shear the grid and all motion: cells are no cubes then, and cost the same");
   add_json(*command, options->json);
+  add_examples(*command,
+               {"cellwalk replay motion.trace",
+                "cellwalk replay motion.trace --sweep three_segments --repeat 21 --json times.json"});
   command->callback([options, &chosen] { chosen = [options] { replay(*options); }; });
 }
 

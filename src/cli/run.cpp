@@ -23,6 +23,7 @@
 #include "cli/progress.h"
 #include "cli/run_bodies.h"
 #include "cli/run_files.h"
+#include "cli/run_motion.h"
 #include "cli/run_picture.h"
 #include "cli/run_record.h"
 #include "cli/scene_source.h"
@@ -35,6 +36,7 @@ using nlohmann::ordered_json;
 struct Run_options {
   std::string scene, folder;
   std::string record;  ///< a trace to write; empty: none
+  std::string json;    ///< where the report goes as well; empty: nowhere
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
   std::uint32_t steps = 0;  ///< 0: as many as the scene says
@@ -88,8 +90,8 @@ struct Run {
   World<D> make_world() const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
-  ordered_json report(const World<D>& world, const Run_files<D>& files) const;
-  void summary(const World<D>& world, const Run_files<D>& files, bool picture) const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_motion<D>* motion) const;
+  void summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
 };
 
 template <int D>
@@ -111,6 +113,10 @@ void Run<D>::operator()() const {
   Output_folder folder(options.folder, options.force);
   const Interruption interruption;
   Run_files<D> files(folder.path(), soup, world, scene);
+  std::optional<Run_motion<D>> motion;
+  if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
+    motion.emplace(folder.path() / "motion.gz", environment.snapshot(), world, scene.time_step, steps(),
+                   every);
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world);
   {
@@ -118,6 +124,7 @@ void Run<D>::operator()() const {
     for (std::uint32_t i = 1; i <= steps(); ++i) {
       world.step();
       files.record(world, i == steps());
+      if (motion) motion->record(world, i == steps());
       if (record) record->record(world);
       if (picture) picture->record(world);
       progress.update(i);
@@ -126,6 +133,7 @@ void Run<D>::operator()() const {
   }
   world.validate();
   files.finish();
+  if (motion) motion->commit();
   if (picture) {
     const Progress progress("drawing");
     const std::uint64_t contacts = files.contacts()[0] + files.contacts()[1] + files.contacts()[2];
@@ -142,12 +150,14 @@ void Run<D>::operator()() const {
     const io::Image image = io::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
     io::write_file(folder.path() / "picture.png", io::encode_png(image));
   }
-  io::write_json(folder.path() / "run.json", report(world, files));
+  const ordered_json said = report(world, files, motion ? &*motion : nullptr);
+  io::write_json(folder.path() / "run.json", said);
   if (record) record->write();
   interruption.check();
   folder.commit();
   if (record) record->commit();
-  summary(world, files, picture.has_value());
+  write_json(options.json, said);
+  summary(world, files, motion.has_value(), picture.has_value());
 }
 
 template <int D>
@@ -170,7 +180,8 @@ ordered_json Run<D>::scene_text() const {
 }
 
 template <int D>
-ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) const {
+ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
+                            const Run_motion<D>* motion) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
   result["particles"] = {{"free", world.particles().size()}};
@@ -181,6 +192,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
   result["frames"] = files.frame_count();
+  if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->record_count()}};
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
   if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());
@@ -193,7 +205,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files) co
 }
 
 template <int D>
-void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool picture) const {
+void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const {
   const auto line = [](const char* name, const std::string& value) {
     fmt::print("  {:<12}{}\n", name, value);
   };
@@ -222,6 +234,7 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool pict
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
+  if (motion) written += ", motion.gz";
   if (picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
   if (!options.record.empty()) line("recorded", options.record);
@@ -286,7 +299,10 @@ void add_run(CLI::App& app, Action& chosen) {
           "Record the motion with its exact answers, for cellwalk replay: of hexahedra in a grid of unit "
           "cubes. A vertex that meets a wall stays where it is, and edges are checked by three segments")
       ->type_name("TRACE");
+  add_json(*command, options->json);
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
+  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
+                          "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
   command->callback([options, sweep, &chosen] {
     const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
     chosen = [options, other_sweep] {

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/mesher.h"
+#include "cli/viewer_page.h"
 
 namespace cellwalk::cli {
 
@@ -22,6 +23,7 @@ std::string version_text() {
   part("tetgen", parts.tetgen, "", "tetrahedra that keep a surface exactly (AGPL)");
   for (const io::Build_feature& feature : io::build_features())
     part(feature.name, feature.present, feature.version, feature.purpose);
+  part("viewer", !viewer_page.empty(), "", "pages that replay a run (three.js)");
   text.pop_back();
   return text;
 }

@@ -107,10 +107,12 @@ Picture_request picture(const Json_node& node) {
 }
 
 Scene_output output(const Json_node& node) {
-  node.expect_keys({"frame_every", "picture"});
+  node.expect_keys({"frame_every", "picture", "motion_every"});
   Scene_output result;
   if (const auto every = node.find("frame_every"))
     result.frame_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+  if (const auto every = node.find("motion_every"))
+    result.motion_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
   if (const auto request = node.find("picture")) {
     if (request->is_object())
       result.picture = picture(*request);

@@ -24,7 +24,9 @@ std::string shown(std::string_view word) {
   return word.size() <= shown_length ? std::string(word) : std::string(word.substr(0, shown_length)) + "...";
 }
 
-std::string inflate_all(const std::string& file, const std::string& packed) {
+}  // namespace
+
+std::string unpack(const std::string& file, const std::string& packed) {
   z_stream stream{};
   constexpr int gzip_only = 15 + 16;  // the largest window, gzip framing
   if (inflateInit2(&stream, gzip_only) != Z_OK) fail(file, "zlib cannot be started");
@@ -49,11 +51,9 @@ std::string inflate_all(const std::string& file, const std::string& packed) {
   return out;
 }
 
-}  // namespace
-
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
-std::string load(const std::filesystem::path& path) {
+std::string load_packed(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) fail(path.string(), "is a directory: name a file");
   std::ifstream in(path, std::ios::binary);
@@ -67,7 +67,12 @@ std::string load(const std::filesystem::path& path) {
     bytes.assign(std::istreambuf_iterator<char>(in), {});
   }
   if (in.bad()) fail(path.string(), "reading failed");
-  return is_gzip(bytes) ? inflate_all(path.string(), bytes) : bytes;
+  return bytes;
+}
+
+std::string load(const std::filesystem::path& path) {
+  std::string bytes = load_packed(path);
+  return is_gzip(bytes) ? unpack(path.string(), bytes) : bytes;
 }
 
 void fail(const std::string& file, const std::string& what) {

@@ -15,6 +15,11 @@ namespace cellwalk::io {
 /// \throw Error(input) if it cannot be read, or its gzip stream is damaged
 std::string load(const std::filesystem::path& path);
 
+/// The bytes of a file as they are. \throw Error(input) if it cannot be read
+std::string load_packed(const std::filesystem::path& path);
+/// What a gzip stream holds; `file` stands for it in errors. \throw Error(input) if it is damaged
+std::string unpack(const std::string& file, const std::string& packed);
+
 /// True if the bytes begin like a gzip stream.
 bool is_gzip(std::string_view bytes);
 

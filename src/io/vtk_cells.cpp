@@ -140,6 +140,7 @@ class Reader {
   }
 
   void grid(vtkUnstructuredGrid& grid) {
+    if (!grid.GetCells()) fail(name_, "has no list of cells: it is cut short, or holds points only");
     const Rows rows(name_, grid.GetCells(), soup().points.size());
     vtkUnsignedCharArray* types = grid.GetCellTypesArray();
     const std::size_t n = rows.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/gzip.h>
 #include <cellwalk/io/vtu.h>
 #include <cellwalk/kernel/error.h>
 
@@ -20,19 +21,6 @@ constexpr std::string_view type_name() {
   if constexpr (std::is_same_v<T, double>) return "Float64";
   if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-}
-
-void append_base64(std::string& out, std::span<const unsigned char> bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const unsigned group =
-        bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
-    out.push_back(digits[group >> 18]);
-    out.push_back(digits[group >> 12 & 63]);
-    out.push_back(left > 1 ? digits[group >> 6 & 63] : '=');
-    out.push_back(left > 2 ? digits[group & 63] : '=');
-  }
 }
 
 std::string escaped(std::string_view text) {

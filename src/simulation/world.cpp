@@ -71,6 +71,11 @@ Body_counts World<D>::body_counts() const {
 }
 
 template <int D>
+Body_counts World<D>::body_counts(std::size_t body) const {
+  return body < body_steps_.size() ? body_steps_[body].counts : Body_counts{};  // empty before the first step
+}
+
+template <int D>
 void World<D>::validate() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle<D>& p = particles_[i];
@@ -102,12 +107,14 @@ template void World<2>::step();
 template void World<2>::step_free();
 template void World<2>::step_bodies();
 template Body_counts World<2>::body_counts() const;
+template Body_counts World<2>::body_counts(std::size_t) const;
 template void World<2>::report(std::size_t);
 template void World<2>::validate();
 template void World<3>::step();
 template void World<3>::step_free();
 template void World<3>::step_bodies();
 template Body_counts World<3>::body_counts() const;
+template Body_counts World<3>::body_counts(std::size_t) const;
 template void World<3>::report(std::size_t);
 template void World<3>::validate();
 

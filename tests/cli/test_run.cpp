@@ -176,7 +176,7 @@ TEST_F(Run, ReadsAnEnvironmentBesideTheScene) {
   std::vector<std::string> written;
   for (const std::string& file : files())
     if (file.starts_with("out/")) written.push_back(file);
-  EXPECT_EQ(written, (std::vector<std::string>{"out/contacts.csv", "out/run.json"}))
+  EXPECT_EQ(written, (std::vector<std::string>{"out/contacts.csv", "out/motion.gz", "out/run.json"}))
       << "neither frames nor picture";
 }
 

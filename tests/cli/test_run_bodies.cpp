@@ -140,7 +140,7 @@ TEST_F(Run_bodies, GiveTheSameBytesEveryTime) {
       EXPECT_EQ(text(file), read_text(path("b") / file.substr(2))) << file;
       ++compared;
     }
-    EXPECT_EQ(compared, scene == grid ? 20u : 3u);
+    EXPECT_EQ(compared, scene == grid ? 21u : 4u);
   }
 }
 

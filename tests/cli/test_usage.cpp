@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cstdlib>
+
 #include "cli/program.h"
 
 namespace cellwalk::test {
@@ -9,19 +11,19 @@ using Usage = Program;
 TEST_F(Usage, VersionNamesTheOptionalParts) {
   const std::string version = succeed({"--version"});
   EXPECT_TRUE(version.starts_with("cellwalk 0.")) << version;
-  for (const char* part : {"cgal", "meshing", "tetgen", "gmsh", "vtk"})
+  for (const char* part : {"cgal", "meshing", "tetgen", "gmsh", "vtk", "viewer"})
     EXPECT_NE(version.find("\n  " + std::string(part) + " "), std::string::npos) << version;
 }
 
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
   for (const char* text :
-       {"import", "check", "generate", "query", "replay", "run", "4 environment not certified"})
+       {"import", "check", "generate", "query", "replay", "run", "view", "4 environment not certified"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"import", "check", "generate", "query", "replay", "run"})
+  for (const char* command : {"import", "check", "generate", "query", "replay", "run", "view"})
     EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
               std::string::npos);
 }
@@ -48,6 +50,39 @@ TEST_F(Usage, ReportsThatCannotBeWrittenAreErrors) {
 
 TEST_F(Usage, AFullDeviceIsAnError) {
   expect_failure(1, {"generate", "squares", "--cells", "2", "-o", "/dev/full"}, {"/dev/full"});
+}
+
+TEST_F(Usage, HelpEndsWithExamples) {
+  for (const char* command :
+       {"import", "check", "generate", "query", "replay", "run", "view", "completion"}) {
+    const std::string help = succeed({command, "--help"});
+    const std::size_t at = help.find("Examples:\n  ");
+    ASSERT_NE(at, std::string::npos) << help;
+    EXPECT_NE(help.find("cellwalk " + std::string(command), at), std::string::npos) << help;
+    EXPECT_NE(help.find("Exit codes:", at), std::string::npos) << help;
+  }
+}
+
+TEST_F(Usage, ShellsCompleteCommandsOptionsAndChoices) {
+  write("complete.bash", succeed({"completion", "bash"}));
+  write("try.bash",
+        "source complete.bash; COMP_WORDS=(cellwalk \"$@\"); COMP_CWORD=$#; _cellwalk; echo ${COMPREPLY[*]} "
+        "> answer");
+  const auto answer = [this](const std::string& words) {
+    EXPECT_EQ(std::system(("cd '" + path("").string() + "' && bash try.bash " + words).c_str()), 0);
+    return text("answer");
+  };
+  EXPECT_EQ(answer("im"), "import\n");
+  EXPECT_EQ(answer("generate ro"), "room2d\n");
+  EXPECT_EQ(answer("generate hexes --so"), "--solid\n");
+  EXPECT_EQ(answer("query env.ovm q.csv --mode s"), "sweep\n");
+  EXPECT_EQ(answer("import --mesher ''"), "tetgen mesh3\n");
+  EXPECT_EQ(answer("check data/x"), "\n") << "files are for the shell";
+  const std::string fish = succeed({"completion", "fish"});
+  EXPECT_NE(fish.find("__fish_seen_subcommand_from query' -l mode -x -a 'move sweep'"), std::string::npos)
+      << fish;
+  EXPECT_TRUE(succeed({"completion", "zsh"}).starts_with("autoload -U +X bashcompinit"));
+  expect_failure(2, {"completion", "tcsh"}, {"bash|zsh|fish", "tcsh"});
 }
 
 }  // namespace

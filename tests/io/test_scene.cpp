@@ -18,7 +18,7 @@ constexpr const char* complete = R"({  // everything
                "steering": "twist", "tip": {"length": 2, "degrees": 45}, "twist": 5,
                "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0]]},
   "gravity": [0, 0, -9.81], "restitution": 0.5, "friction": 0.25, "time_step": 0.5, "steps": 12,
-  "output": {"frame_every": 3, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
+  "output": {"frame_every": 3, "motion_every": 4, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
 })";
 
 TEST(Scene, ReadsEveryKey) {
@@ -54,6 +54,7 @@ TEST(Scene, ReadsEveryKey) {
   EXPECT_EQ(scene.time_step, 0.5);
   EXPECT_EQ(scene.steps, 12u);
   EXPECT_EQ(scene.output.frame_every, 3u);
+  EXPECT_EQ(scene.output.motion_every, 4u);
   ASSERT_TRUE(scene.output.picture);
   EXPECT_EQ(scene.output.picture->width, 320);
   EXPECT_EQ(scene.output.picture->height, 200);

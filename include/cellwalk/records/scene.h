@@ -98,6 +98,8 @@ struct Picture_request {
 struct Scene_output {
   std::uint32_t frame_every = 10;          ///< steps from one VTU frame to the next; 0: none
   std::optional<Picture_request> picture;  ///< a PNG of the last step
+  /// Steps from one record of the motion to the next, for `cellwalk view`; 0: none; nothing: as many as make a page of bearable size.
+  std::optional<std::uint32_t> motion_every;
 };
 
 template <int D>

@@ -60,6 +60,8 @@ class World {
   const Walk_counts& counts() const { return counts_; }
   /// What the moves of bodies did.
   Body_counts body_counts() const;
+  /// Those of one body.
+  Body_counts body_counts(std::size_t body) const;
 
   /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are caught up first (see
   /// Body::catch_up), which moves nothing and shows in the counts only.

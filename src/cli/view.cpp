@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk view DIR -o run.html: one page that replays a run in a browser, without network.
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/motion_file.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "cli/command.h"
+#include "cli/environment_file.h"
+#include "cli/run_results.h"
+#include "cli/viewer_page.h"
+
+namespace cellwalk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct View_options {
+  std::string folder, output, json;
+};
+
+void check_build() {
+  if (viewer_page.empty())
+    throw Error(Error_code::other,
+                "this build cannot make pages: install Node.js 18 or later with npm (Debian: apt-get install "
+                "nodejs npm), then "
+                "configure with -DCELLWALK_WITH_VIEWER=ON and build again");
+}
+
+std::string base64(std::string_view bytes) {
+  std::string text;
+  io::append_base64(text, {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  return text;
+}
+
+/// JSON within a script element: nothing in it may end the element.
+std::string embedded(const nlohmann::ordered_json& value) {
+  std::string text;
+  for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))
+    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return text;
+}
+
+/// The page, with each piece of data in the place of its mark.
+std::string page_of(const Run_results& results) {
+  std::string page;
+  std::string_view rest = viewer_page;
+  const auto put = [&](std::string_view mark, const std::string& data) {
+    const std::size_t at = rest.find(mark);
+    page.append(rest.substr(0, at)).append(data);
+    rest.remove_prefix(at + mark.size());
+  };
+  put("/*RUN*/", embedded(results.report));
+  put("/*CONTACTS*/", base64(io::gzip(results.contacts)));
+  put("/*MOTION*/", base64(results.motion.packed));
+  return page.append(rest);
+}
+
+void view(const View_options& options) {
+  check_build();
+  const Run_results results = read_run(options.folder);
+  const Motion_scene& scene = results.motion.scene;
+  const std::string page = page_of(results);
+  io::write_file(options.output, page);
+  write_json(options.json, {{"run", options.folder},
+                            {"page", options.output},
+                            {"bytes", page.size()},
+                            {"records", scene.record_count()},
+                            {"every", scene.every},
+                            {"contacts", results.contact_count}});
+  fmt::print("{}: {} records of {} steps, {} contacts, {:.1f} MB; open it in a browser\n", options.output,
+             scene.record_count(), scene.steps, results.contact_count,
+             static_cast<double>(page.size()) / 1e6);
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<View_options>();
+  CLI::App* command =
+      app.add_subcommand("view", "Make a page of a run that replays it in a browser, without network");
+  command->add_option("run", options->folder, "The folder that cellwalk run wrote")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("-o,--output", options->output, "The page to write")
+      ->required()
+      ->type_name("PAGE.html");
+  add_json(*command, options->json);
+  add_examples(*command, {"cellwalk view out -o run.html"});
+  command->callback([options, &chosen] { chosen = [options] { view(*options); }; });
+}
+
+}  // namespace cellwalk::cli

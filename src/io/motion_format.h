@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: what reader and writer of motion files agree on.
+#ifndef CELLWALK_IO_MOTION_FORMAT_H
+#define CELLWALK_IO_MOTION_FORMAT_H
+
+#include <cellwalk/records/motion.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace cellwalk::io {
+
+inline constexpr std::string_view motion_magic = "CWMOTN01";
+
+/// Bytes of one record: 16 bits a coordinate, 32 a cell, 8 a decision.
+inline std::uint64_t motion_record_size(const Motion_scene& scene) {
+  const auto axes = static_cast<std::uint64_t>(scene.dimension);
+  return scene.moving_count() * (2 * axes + sizeof(std::uint32_t)) + scene.bodies.size();
+}
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_MOTION_FORMAT_H

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Checks README.md and all pages of docs/: relative links and their anchors, the commands they name, and what commands print.
+
+usage: test_pages.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]
+
+- Links lead to files of the repository, and to headings where they have an anchor.
+- `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
+- A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
+  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there. A block after <!-- needs PART --> is left out where
+  the part is missing; one after <!-- not run --> always. data/ is that of the repository.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
+CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
+NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
+FEWEST = {"links": 60, "options": 15, "commands": 8}  # so that a test that finds nothing does not pass
+
+
+def anchor(heading):
+    """The anchor that GitHub gives a heading."""
+    text = re.sub(r"<!--.*?-->", "", heading)
+    text = re.sub(r"[`*_]|\[([^\]]*)\]\([^)]*\)", r"\1", text).strip().lower()
+    return re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", text))
+
+
+def anchors_of(page):
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return {anchor(heading) for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
+
+
+def check_links(page, counts):
+    for target in LINK.findall(CODE.sub("", page.read_text(encoding="utf-8"))):
+        if re.match(r"[a-z]+:", target):
+            continue
+        counts["links"] += 1
+        name, _, fragment = target.partition("#")
+        file = (page.parent / name).resolve() if name else page
+        if not file.exists():
+            yield f"{page.name}: leads to {target}, which does not exist"
+        elif fragment and fragment not in anchors_of(file):
+            yield f"{page.name}: {target}: there is no such heading"
+
+
+class Help:
+    def __init__(self, program):
+        self.program, self.known = program, {}
+
+    def of(self, words):
+        if words not in self.known:
+            done = subprocess.run([self.program, *words, "--help"], capture_output=True, text=True)
+            self.known[words] = done.stdout if done.returncode == 0 else None
+        return self.known[words]
+
+
+def check_options(name, pieces_of_code, help_texts, counts):
+    for code in pieces_of_code:
+        for command, rest in NAMED.findall(code.replace("\\\n", " ")):
+            help_text = help_texts.of((command,))
+            if help_text is None:
+                yield f"{name}: cellwalk {command}: there is no such command"
+                continue
+            kind = re.match(r" ([a-z]\w*)", rest)
+            if command == "generate" and kind:
+                help_text = help_texts.of((command, kind[1])) or ""
+            for option in re.findall(r"(?<=[\s\[])--[a-z][\w-]*", rest):
+                counts["options"] += 1
+                if option not in help_text and option != "--help":
+                    yield f"{name}: cellwalk {command} has no option {option}"
+
+
+def steps_of(block):
+    """(command, lines that it prints) of a block."""
+    steps = []
+    for line in block.splitlines():
+        if line.startswith("$ "):
+            steps.append((line[2:], []))
+        elif line.startswith("> "):
+            steps[-1] = (steps[-1][0] + "\n" + line[2:], steps[-1][1])
+        else:
+            steps[-1][1].append(line)
+    return steps
+
+
+def is_printed(expected, said):
+    pattern = "".join(r"(?:.*\n)*?" if line.strip() == "..." else re.escape(line.rstrip()) + r"[ ]*\n" for line in expected)
+    return re.fullmatch(pattern, said) is not None
+
+
+def run_blocks(page, root, program, missing, counts):
+    environment = dict(os.environ, PATH=f"{program.parent}:{os.environ['PATH']}")
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "data").symlink_to(root / "data")
+        for mark, block in CONSOLE.findall(page.read_text(encoding="utf-8")):
+            if mark == "not run" or mark.removeprefix("needs ") in missing:
+                continue
+            for command, expected in steps_of(block):
+                words = shlex.split(command, comments=True)
+                if words[0] == "cat" and not Path(folder, words[1]).exists():
+                    Path(folder, words[1]).write_text("".join(line + "\n" for line in expected))
+                    continue
+                counts["commands"] += 1
+                done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True)
+                if done.returncode != 0 or not is_printed(expected, done.stdout):
+                    yield f"{page.name}: $ {command}\n  exit code {done.returncode}, and prints\n{done.stdout}{done.stderr}"
+
+
+def main():
+    root, program, missing = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), set(sys.argv[3:])
+    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    help_texts, problems, counts = Help(program), [], dict.fromkeys(FEWEST, 0)
+    for page in pages:
+        problems += check_links(page, counts)
+        if page.name != "errors.md":  # which has wrong ones on purpose
+            problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
+        problems += run_blocks(page, root, program, missing, counts)
+    for command in re.findall(r"^  (\w+)  ", help_texts.of(()).partition("Subcommands:")[2], re.MULTILINE):
+        examples = help_texts.of((command,)).partition("Examples:")[2].partition("\n\n")[0].splitlines()
+        problems += check_options(f"cellwalk {command} --help", examples, help_texts, counts)
+    problems += [f"only {counts[what]} {what} were found" for what, fewest in FEWEST.items() if counts[what] < fewest]
+    print("\n".join(problems))
+    print(f"pages: {len(pages)} pages, {', '.join(f'{n} {what}' for what, n in counts.items())}, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What colours mean. Components are linear, as shaders take them.
+import { Color } from 'three';
+
+/** How a body's moves were decided, as in docs/formats.md; costlier ones are warmer. */
+export const decisions = [
+  { name: 'at rest', colour: '#8a94a6' },
+  { name: 'region free of walls', colour: '#2a9d63' },
+  { name: 'same cell', colour: '#4ab3c9' },
+  { name: 'convex pair', colour: '#2f6fd0' },
+  { name: 'same chain', colour: '#7a55c7' },
+  { name: 'clear of walls', colour: '#d9a400' },
+  { name: 'events', colour: '#e8731a' },
+  { name: 'contact', colour: '#d02746' },
+];
+
+/** Features of the environment that were met, by kind. */
+export const kinds = [
+  { name: 'vertex', colour: '#9b1d8a' },
+  { name: 'edge', colour: '#1d4ed8' },
+  { name: 'facet', colour: '#d02746' },
+];
+
+const goldenRatio = 0.618033988749895;
+const shades = [0.36, 0.43, 0.29];
+
+/** A colour for a number: neighbours in number look different. */
+export function ofNumber(number) {
+  return new Color().setHSL((0.58 + number * goldenRatio) % 1, 0.68, shades[number % shades.length]);
+}
+
+export function tableOf(count, colourOf) {
+  const table = new Float32Array(3 * count);
+  for (let i = 0; i < count; ++i) colourOf(i).toArray(table, 3 * i);
+  return table;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Many segments of a width in pixels, moved every frame.
+import { DynamicDrawUsage, InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+
+/** `count` segments; they have one colour, or with `colours` one at each end. */
+export function fatLines(count, { width, colour = '#ffffff', colours = false, depth = true }) {
+  const geometry = new LineSegmentsGeometry();
+  const buffer = () => new InstancedInterleavedBuffer(new Float32Array(6 * count), 6, 1).setUsage(DynamicDrawUsage);
+  const places = buffer(), tints = colours ? buffer() : null;
+  const bind = (name, data, offset) => geometry.setAttribute(name, new InterleavedBufferAttribute(data, 3, offset));
+  bind('instanceStart', places, 0);
+  bind('instanceEnd', places, 3);
+  if (tints) {
+    bind('instanceColorStart', tints, 0);
+    bind('instanceColorEnd', tints, 3);
+  }
+  geometry.instanceCount = count;
+  const material = new LineMaterial({ color: colour, linewidth: width, vertexColors: colours, depthTest: depth });
+  const object = new LineSegments2(geometry, material);
+  object.frustumCulled = false;
+  const fill = (data, from, source) => {
+    const out = data.array;
+    for (let i = 0; i < count; ++i)
+      for (let end = 0; end < 2; ++end) {
+        const at = from(i, end);
+        for (let k = 0; k < 3; ++k) out[6 * i + 3 * end + k] = source[at + k];
+      }
+    data.needsUpdate = true;
+  };
+  return {
+    object, material, geometry,
+    /** `from(i, end)` is where the place of an end of segment i stands in `source`. */
+    setEnds: (from, source) => fill(places, from, source),
+    setColours: (from, source) => fill(tints, from, source),
+    setResolution: (w, h) => material.resolution.set(w, h),
+    places: places.array,
+    /** After writing to `places`. */
+    touch(shown) {
+      places.needsUpdate = true;
+      geometry.instanceCount = shown;
+    },
+  };
+}

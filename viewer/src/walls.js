@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The environment: walls one can see through, in the plane also free cells and the edges between them.
+import * as THREE from 'three';
+import { fatLines } from './lines.js';
+
+const loopsToMesh = (points, loops) => {
+  const index = [];
+  for (const loop of loops)
+    for (let i = 2; i < loop.length; ++i) index.push(loop[0], loop[i - 1], loop[i]);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(points, 3));
+  geometry.setIndex(index);
+  return geometry;
+};
+
+/** Edges at which walls meet at an angle, or where only one wall ends. */
+function creases(points, loops) {
+  const fewestDegrees = 50, mostLoops = 60000;
+  if (loops.length > mostLoops) return null;
+  return new THREE.EdgesGeometry(loopsToMesh(points, loops), fewestDegrees);
+}
+
+/** Walls seen from free space are drawn; those seen through from outside only hinted at, so that one looks in. */
+function wallsInSpace(motion, points) {
+  const geometry = loopsToMesh(points, motion.walls).toNonIndexed();
+  geometry.computeVertexNormals();
+  const material = (side, opacity) => new THREE.MeshLambertMaterial(
+    { color: '#8fa5c4', transparent: true, opacity, side, depthWrite: false });
+  const group = new THREE.Group();
+  const inside = new THREE.Mesh(geometry, material(THREE.BackSide, 0.36));
+  const outside = new THREE.Mesh(geometry, material(THREE.FrontSide, 0.07));
+  inside.renderOrder = 1;
+  outside.renderOrder = 3;
+  group.add(inside, outside);
+  const edges = creases(points, motion.walls);
+  if (edges) {
+    const lines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial(
+      { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
+    lines.renderOrder = 2;
+    group.add(lines);
+  }
+  return group;
+}
+
+function wallsInPlane(motion, points) {
+  const group = new THREE.Group();
+  const flat = (loops, colour) => {
+    const mesh = new THREE.Mesh(loopsToMesh(points, loops), new THREE.MeshBasicMaterial(
+      { color: colour, side: THREE.DoubleSide, depthWrite: false }));
+    group.add(mesh);
+    return mesh;
+  };
+  flat(motion.floor, '#ffffff').renderOrder = -3;
+  const thin = new THREE.BufferGeometry();
+  thin.setAttribute('position', new THREE.BufferAttribute(points, 3));
+  thin.setIndex(Array.from(motion.lines));
+  const grid = new THREE.LineSegments(thin, new THREE.LineBasicMaterial({ color: '#e3e8ef', depthWrite: false }));
+  grid.renderOrder = -2;
+  const walls = fatLines(motion.walls.length, { width: 2.5, colour: '#334155', depth: false });
+  walls.setEnds((i, end) => 3 * motion.walls[i][end], points);
+  walls.object.renderOrder = -1;
+  group.add(grid, walls.object);
+  return { group, lines: [walls] };
+}
+
+export function makeWalls(motion) {
+  const points = Float32Array.from(motion.points);
+  return motion.dimension === 2 ? wallsInPlane(motion, points) : { group: wallsInSpace(motion, points), lines: [] };
+}
