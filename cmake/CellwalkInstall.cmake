@@ -3,6 +3,7 @@
 #   core     LGPL  kernel to simulation                 target cellwalk::core
 #   io       LGPL  readers and writers (GPL with Gmsh)  target cellwalk::io
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
+#   loading  LGPL  environments from files (GPL where it is built with meshing or Gmsh)  target cellwalk::loading
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cellwalk)
 
@@ -16,7 +17,7 @@ set_target_properties(cellwalk_core PROPERTIES EXPORT_NAME core)
 install(TARGETS cellwalk_options cellwalk_core EXPORT cellwalk_core)
 
 set(CELLWALK_COMPONENTS core)
-foreach(component io meshing)
+foreach(component io meshing loading)
   get_property(layers GLOBAL PROPERTY CELLWALK_LAYERS_${component})
   if(layers)
     list(APPEND CELLWALK_COMPONENTS ${component})
