@@ -82,15 +82,10 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
       [&]<int D>(const World<D>& world) {
         const auto from = points_of<D>(starts, "starts"), to = points_of<D>(targets, "targets");
         need_equal(to.size(), "targets", from.size(), "starts");
-        return run_batch<Edge_counts>(
-            self.world, world.snapshot(), from.size(), threads,
-            [&](Motion_filler<D, Edge_counts>& filler, std::size_t chunk, std::size_t row) {
-              if (is_finite(from[row]) && is_finite(to[row]))
-                filler.set_answer(chunk, row,
-                                  answer_move(world.snapshot(), world.locator, from[row], to[row], options,
-                                              filler.counts(chunk)));
-              else
-                filler.fail(row, Motion_status::invalid);
+        return run_questions<D>(
+            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
+              if (!is_usable(from[row]) || !is_usable(to[row])) return {};
+              return answer_move(world.snapshot(), world.locator, from[row], to[row], options, counts);
             });
       },
       *self.world);
@@ -108,16 +103,11 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
                    other = points_of<D>(q, "q");
         need_equal(to.size(), "targets", from.size(), "p");
         need_equal(other.size(), "q", from.size(), "p");
-        return run_batch<Edge_counts>(
-            self.world, world.snapshot(), from.size(), threads,
-            [&](Motion_filler<D, Edge_counts>& filler, std::size_t chunk, std::size_t row) {
-              if (is_finite(from[row]) && is_finite(to[row]) && is_finite(other[row]))
-                filler.set_answer(chunk, row,
-                                  answer_sweep(world.snapshot(), world.locator,
-                                               Edge_motion<D>{from[row], to[row], other[row]}, options,
-                                               filler.counts(chunk)));
-              else
-                filler.fail(row, Motion_status::invalid);
+        return run_questions<D>(
+            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
+              if (!is_usable(from[row]) || !is_usable(to[row]) || !is_usable(other[row])) return {};
+              return answer_sweep(world.snapshot(), world.locator,
+                                  Edge_motion<D>{from[row], to[row], other[row]}, options, counts);
             });
       },
       *self.world);

@@ -48,85 +48,69 @@ struct Motions {
   const py::object& cell_numbers();
 };
 
+/// True if all coordinates are finite, without a branch: x - x is 0 or not a number.
+template <std::size_t D>
+bool is_usable(const std::array<double, D>& x) {
+  double sum = 0;
+  for (const double coordinate : x) sum += coordinate - coordinate;
+  return sum == 0;
+}
+
 /// The number of a cell in the file, or -1 for none.
 template <int D>
 std::int32_t number_of(const Snapshot<D>& snapshot, Cell cell) {
   return cell == Cell::none ? -1 : static_cast<std::int32_t>(snapshot.index(cell));
 }
 
-/// The arrays of a batch while they are filled, which needs no interpreter.
-template <int D, class Counts>
-class Motion_filler {
- public:
-  Motion_filler(const Snapshot<D>& snapshot, Motions& motions, std::size_t rows)
-      : snapshot_(snapshot),
-        status_(motions.status.mutable_data()),
-        time_(motions.time.mutable_data()),
-        cells_(motions.cells.mutable_data()),
-        handles_(motions.handles.mutable_data()),
-        contacts_(chunk_count(rows)),
-        counts_(chunk_count(rows)) {}
+/// Where the rows of a batch are written; needs no interpreter. To be copied into loops, so that the compiler can see that nothing
+/// else changes it.
+template <int D>
+struct Motion_rows {
+  Motion_status* status;  // not bytes, which the compiler takes to change anything else when they are written
+  double* time;
+  std::uint32_t *cells, *handles;
 
-  Counts& counts(std::size_t chunk) { return counts_[chunk]; }
-
-  void arrive(std::size_t row, Cell cell, std::uint32_t cells) {
-    set(row, Motion_status::free, 1, cell, cells);
+  void arrive(std::size_t row, Cell cell, std::uint32_t visited) const {
+    set(row, Motion_status::free, 1, cell, visited);
+  }
+  void meet(std::size_t row, const Wall_contact<D>& contact, std::uint32_t visited) const {
+    set(row, Motion_status::contact, contact.time, contact.cell, visited);
   }
   /// Outside, invalid or lost.
-  void fail(std::size_t row, Motion_status status) {
-    set(row, status, std::numeric_limits<double>::quiet_NaN(), Cell::none, 0);
-  }
-  void meet(std::size_t chunk, std::size_t row, const Wall_contact<D>& contact, Body_feature body,
-            std::uint32_t cells) {
-    set(row, Motion_status::contact, contact.time, contact.cell, cells);
-    contacts_[chunk].push_back({contact.time, contact.point, contact.normal, static_cast<std::uint32_t>(row),
-                                number_of(snapshot_, snapshot_.cell_of(contact.facet)),
-                                static_cast<std::uint16_t>(snapshot_.facet_of(contact.facet)),
-                                static_cast<std::uint8_t>(contact.kind), static_cast<std::uint8_t>(body)});
-  }
-  void set_answer(std::size_t chunk, std::size_t row, const Answer<D>& answer) {
-    if (answer.contact)
-      meet(chunk, row, *answer.contact, answer.contact->body, answer.cells);
-    else if (answer.status == Motion_status::free)
-      arrive(row, answer.cell, answer.cells);
-    else
-      fail(row, answer.status);
-  }
-
-  std::vector<Contact_row<D>> take_contacts() {
-    std::vector<Contact_row<D>> all;
-    for (const auto& chunk : contacts_) all.insert(all.end(), chunk.begin(), chunk.end());
-    return all;
-  }
-  Counts total() const {
-    Counts total;
-    for (const Counts& counts : counts_) total += counts;
-    return total;
+  void fail(std::size_t row, Motion_status why) const {
+    set(row, why, std::numeric_limits<double>::quiet_NaN(), Cell::none, 0);
   }
 
  private:
-  void set(std::size_t row, Motion_status status, double time, Cell cell, std::uint32_t cells) {
-    status_[row] = static_cast<std::uint8_t>(status);
-    time_[row] = time;
-    handles_[row] = to_index(cell);
-    cells_[row] = cells;
+  void set(std::size_t row, Motion_status what, double when, Cell cell, std::uint32_t visited) const {
+    status[row] = what;
+    time[row] = when;
+    handles[row] = to_index(cell);
+    cells[row] = visited;
   }
+};
 
-  const Snapshot<D>& snapshot_;
-  std::uint8_t* status_;
-  double* time_;
-  std::uint32_t *cells_, *handles_;
-  std::vector<std::vector<Contact_row<D>>> contacts_;  // of each chunk
-  std::vector<Counts> counts_;
+/// What a chunk of a batch adds.
+template <int D, class Counts>
+struct Chunk {
+  std::vector<Contact_row<D>> contacts;
+  Counts counts;
+
+  void add(const Snapshot<D>& snapshot, std::size_t row, const Wall_contact<D>& contact, Body_feature body) {
+    contacts.push_back({contact.time, contact.point, contact.normal, static_cast<std::uint32_t>(row),
+                        number_of(snapshot, snapshot.cell_of(contact.facet)),
+                        static_cast<std::uint16_t>(snapshot.facet_of(contact.facet)),
+                        static_cast<std::uint8_t>(contact.kind), static_cast<std::uint8_t>(body)});
+  }
 };
 
 py::dict to_dict(const Walk_counts& counts);
 py::dict to_dict(const Edge_counts& counts);
 
-/// Works a batch off: work(filler, chunk, row) answers a row. The interpreter is free meanwhile.
+/// Works a batch off: work(rows, chunk, first row, row after the last) answers a chunk. The interpreter is free meanwhile.
 template <class Counts, int D, class Work>
-Motions run_batch(const std::shared_ptr<const Any_world>& world, const Snapshot<D>& snapshot,
-                  std::size_t rows, int threads, const Work& work) {
+Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
+                  const Work& work) {
   const auto n = static_cast<py::ssize_t>(rows);
   Motions motions{py::array_t<std::uint8_t>(n),
                   py::array_t<double>(n),
@@ -136,16 +120,47 @@ Motions run_batch(const std::shared_ptr<const Any_world>& world, const Snapshot<
                   world,
                   py::array_t<std::uint32_t>(n),
                   py::none()};
-  Motion_filler<D, Counts> filler(snapshot, motions, rows);
+  const Motion_rows<D> out{reinterpret_cast<Motion_status*>(motions.status.mutable_data()),
+                           motions.time.mutable_data(), motions.cells.mutable_data(),
+                           motions.handles.mutable_data()};
+  std::vector<Contact_row<D>> contacts;
+  Counts counts;
   {
     const py::gil_scoped_release released;
+    std::vector<Chunk<D, Counts>> chunks(chunk_count(rows));
     for_each_chunk(rows, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) work(filler, chunk, row);
+      work(out, chunks[chunk], begin, end);
     });
+    for (const Chunk<D, Counts>& chunk : chunks) {
+      contacts.insert(contacts.end(), chunk.contacts.begin(), chunk.contacts.end());
+      counts += chunk.counts;
+    }
   }
-  motions.contacts = to_array(filler.take_contacts());
-  motions.counts = to_dict(filler.total());
+  motions.contacts = to_array(std::move(contacts));
+  motions.counts = to_dict(counts);
   return motions;
+}
+
+/// A batch of questions: answer(row, counts) answers one.
+template <int D, class Answer_row>
+Motions run_questions(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
+                      const Answer_row& answer_row) {
+  const Snapshot<D>& snapshot = std::get<World<D>>(*world).snapshot();
+  return run_batch<Edge_counts, D>(
+      world, rows, threads,
+      [&](const Motion_rows<D>& out, Chunk<D, Edge_counts>& chunk, std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+          const Answer<D> answer = answer_row(row, chunk.counts);
+          if (answer.contact) {
+            out.meet(row, *answer.contact, answer.cells);
+            chunk.add(snapshot, row, *answer.contact, answer.contact->body);
+          } else if (answer.status == Motion_status::free) {
+            out.arrive(row, answer.cell, answer.cells);
+          } else {
+            out.fail(row, answer.status);
+          }
+        }
+      });
 }
 
 }  // namespace cellwalk::python

@@ -28,7 +28,7 @@ class Particles {
           const py::gil_scoped_release released;
           for_each_chunk(at.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-              particles[i] = is_finite(at[i]) ? world.locator.particle_at(at[i]) : Particle<D>{at[i]};
+              particles[i] = is_usable(at[i]) ? world.locator.particle_at(at[i]) : Particle<D>{at[i]};
           });
         },
         *world_);
@@ -91,18 +91,28 @@ class Particles {
   template <bool stops, int D>
   Motions move_all(const Snapshot<D>& snapshot, std::vector<Particle<D>>& particles,
                    std::span<const Point<D>> targets, int threads) {
-    return run_batch<Walk_counts>(
-        world_, snapshot, particles.size(), threads,
-        [&](Motion_filler<D, Walk_counts>& filler, std::size_t chunk, std::size_t row) {
-          Particle<D>& particle = particles[row];
-          const Point<D>& target = targets[row];
-          if (particle.cell == Cell::none) return filler.fail(row, Motion_status::outside);
-          if (!is_finite(target)) return filler.fail(row, Motion_status::invalid);
-          Walk_counts& counts = filler.counts(chunk);
-          const Walk_result<D> result = cellwalk::move(snapshot, particle, target, counts);
-          if (!result.contact) return filler.arrive(row, result.cell, result.cells);
-          filler.meet(chunk, row, *result.contact, Body_feature::vertex, result.cells);
-          if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+    return run_batch<Walk_counts, D>(
+        world_, particles.size(), threads,
+        [&snapshot, from = particles.data(), to = targets.data()](
+            Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
+          Walk_counts counts;
+          for (std::size_t row = begin; row < end; ++row) {
+            Particle<D>& particle = from[row];
+            const Point<D>& target = to[row];
+            if (particle.cell == Cell::none || !is_usable(target)) {
+              out.fail(row, particle.cell == Cell::none ? Motion_status::outside : Motion_status::invalid);
+              continue;
+            }
+            const Walk_result<D> result = cellwalk::move(snapshot, particle, target, counts);
+            if (!result.contact) {
+              out.arrive(row, result.cell, result.cells);
+              continue;
+            }
+            out.meet(row, *result.contact, result.cells);
+            chunk.add(snapshot, row, *result.contact, Body_feature::vertex);
+            if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+          }
+          chunk.counts = counts;
         });
   }
 
