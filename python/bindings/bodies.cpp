@@ -26,9 +26,11 @@ struct Body_contact_row {
   std::array<double, D> point, normal;
   std::uint32_t vertex, feature;
   std::int32_t cell;
-  std::uint16_t facet;
-  std::uint8_t kind, body;
+  std::uint32_t facet, kind, body;
 };
+// No padding: equal rows are equal bytes.
+static_assert(sizeof(Body_contact_row<2>) == 5 * sizeof(double) + 24 &&
+              sizeof(Body_contact_row<3>) == 7 * sizeof(double) + 24);
 using Body_contact_row_2 = Body_contact_row<2>;
 using Body_contact_row_3 = Body_contact_row<3>;
 
@@ -41,9 +43,9 @@ Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& m
           met.vertex,
           met.feature,
           number_of(snapshot, snapshot.cell_of(contact.facet)),
-          static_cast<std::uint16_t>(snapshot.facet_of(contact.facet)),
-          static_cast<std::uint8_t>(contact.kind),
-          static_cast<std::uint8_t>(contact.body)};
+          static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
+          static_cast<std::uint32_t>(contact.kind),
+          static_cast<std::uint32_t>(contact.body)};
 }
 
 template <int D>

@@ -27,9 +27,12 @@ struct Contact_row {
   std::array<double, D> point, normal;
   std::uint32_t row;
   std::int32_t cell;
-  std::uint16_t facet;
-  std::uint8_t kind, body;
+  std::uint32_t facet;
+  std::uint16_t kind, body;
 };
+// No padding: equal rows are equal bytes.
+static_assert(sizeof(Contact_row<2>) == 5 * sizeof(double) + 16 &&
+              sizeof(Contact_row<3>) == 7 * sizeof(double) + 16);
 using Contact_row_2 = Contact_row<2>;
 using Contact_row_3 = Contact_row<3>;
 
@@ -99,8 +102,8 @@ struct Chunk {
   void add(const Snapshot<D>& snapshot, std::size_t row, const Wall_contact<D>& contact, Body_feature body) {
     contacts.push_back({contact.time, contact.point, contact.normal, static_cast<std::uint32_t>(row),
                         number_of(snapshot, snapshot.cell_of(contact.facet)),
-                        static_cast<std::uint16_t>(snapshot.facet_of(contact.facet)),
-                        static_cast<std::uint8_t>(contact.kind), static_cast<std::uint8_t>(body)});
+                        static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
+                        static_cast<std::uint16_t>(contact.kind), static_cast<std::uint16_t>(body)});
   }
 };
 
