@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev|peers] [--print]
+#   scripts/setup.sh [--for demo|test|dev|package|peers] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, the test tools and clang-format (default)
+#   demo  build and run the program            test   also Gmsh, VTK, Python, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
+#   package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -14,7 +15,8 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format)
+python=(pybind11-dev python3-dev python3-numpy)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev clang-format)
 tools=(clang clang-tidy ccache)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 
@@ -25,7 +27,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|package|peers or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -33,10 +35,11 @@ done
 packages=("${core[@]}" "${meshing[@]}" "${pictures[@]}")
 case "$purpose" in
   demo) ;;
-  test) packages+=("${io[@]}" "${tests[@]}") ;;
-  dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
+  test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
+  dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${tools[@]}") ;;
+  package) packages+=("${io[@]}" "${python[@]}" dpkg-dev debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test, dev or peers, not '$purpose'" >&2; exit 2 ;;
+  *) echo "setup.sh: --for takes demo, test, dev, package or peers, not '$purpose'" >&2; exit 2 ;;
 esac
 
 if $only_print; then
