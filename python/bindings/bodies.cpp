@@ -70,6 +70,11 @@ Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, c
   return make_body(std::move(parts)).body;
 }
 
+template <std::size_t D>
+void need_finite(const std::array<double, D>& target, std::size_t vertex) {
+  if (!is_usable(target)) throw py::value_error(fmt::format("the target of vertex {} is not finite", vertex));
+}
+
 /// A body of either dimension, and what its moves did.
 class Any_body {
  public:
@@ -175,12 +180,6 @@ class Any_body {
           return Body<D>(world.snapshot(), world.locator, make(std::integral_constant<int, D>{}));
         },
         any);
-  }
-
-  template <std::size_t D>
-  static void need_finite(const std::array<double, D>& target, std::size_t vertex) {
-    if (!is_finite(target))
-      throw py::value_error(fmt::format("the target of vertex {} is not finite", vertex));
   }
 
   template <std::size_t N>
