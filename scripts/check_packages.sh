@@ -15,10 +15,15 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 root=$(mktemp -d)
 log=$(mktemp)
-trap 'rm -rf "$root" "$log"' EXIT
+clean() {
+  if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
+  rm -rf --one-file-system "$root" "$log"
+}
+trap clean EXIT
 mirror=${CELLWALK_DEBIAN_MIRROR:-http://deb.debian.org/debian}
 echo "packages: making a clean Debian in $root"
 debootstrap --variant=minbase bookworm "$root" "$mirror" >"$log" 2>&1 || { tail -20 "$log" >&2; exit 1; }
+mount -t proc proc "$root/proc"  # Java, on which libvtk9-dev depends, is not configured without it
 cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
 mkdir "$root/packages" "$root/examples"
 cp "$packages"/*.deb "$root/packages/"
