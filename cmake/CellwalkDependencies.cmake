@@ -23,3 +23,20 @@ if(CELLWALK_WITH_VTK)
   find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOLegacy IOXML)  # BSD: .vtk, .vtu
   message(STATUS "VTK: ${VTK_FOUND} ${VTK_VERSION}")
 endif()
+
+# The system's Python is the one whose packages the system's pybind11 and NumPy belong to.
+if(CELLWALK_WITH_PYTHON)
+  if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Interpreter that the Python module is built for")
+  endif()
+  find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)
+  if(Python3_FOUND)
+    set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})  # as pybind11 calls it
+    find_package(pybind11 2.10 QUIET)         # BSD: the Python module
+  endif()
+  if(NOT pybind11_FOUND AND NOT CELLWALK_WITH_PYTHON STREQUAL "AUTO")
+    message(FATAL_ERROR "CELLWALK_WITH_PYTHON needs pybind11, NumPy and the headers of Python 3.9 or newer "
+                        "(packages pybind11-dev python3-numpy python3-dev); AUTO does without them")
+  endif()
+  message(STATUS "Python module: ${pybind11_FOUND} ${Python3_VERSION}")
+endif()

@@ -3,6 +3,7 @@
 #   core     LGPL  kernel to simulation                 target cellwalk::core
 #   io       LGPL  readers and writers (GPL with Gmsh)  target cellwalk::io
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
+#   loading  LGPL  environments from files (GPL where it is built with meshing or Gmsh)  target cellwalk::loading
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cellwalk)
 
@@ -13,18 +14,19 @@ add_library(cellwalk_core INTERFACE)
 add_library(cellwalk::core ALIAS cellwalk_core)
 target_link_libraries(cellwalk_core INTERFACE ${core_layers})
 set_target_properties(cellwalk_core PROPERTIES EXPORT_NAME core)
-install(TARGETS cellwalk_options cellwalk_core EXPORT cellwalk_core)
+install(TARGETS cellwalk_options cellwalk_core EXPORT cellwalk_core COMPONENT dev)
 
 set(CELLWALK_COMPONENTS core)
-foreach(component io meshing)
+foreach(component io meshing loading)
   get_property(layers GLOBAL PROPERTY CELLWALK_LAYERS_${component})
   if(layers)
     list(APPEND CELLWALK_COMPONENTS ${component})
   endif()
 endforeach()
 foreach(component ${CELLWALK_COMPONENTS})
+  cellwalk_package_of(package ${component})
   install(EXPORT cellwalk_${component} NAMESPACE cellwalk:: DESTINATION ${package_dir}
-          FILE cellwalk-${component}.cmake)
+          FILE cellwalk-${component}.cmake COMPONENT ${package})
 endforeach()
 
 set(CELLWALK_HAS_TETGEN ${TetGen_FOUND})
@@ -36,11 +38,18 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cma
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT dev)
 
-set(not_installed PATTERN cli EXCLUDE)
-if(NOT "meshing" IN_LIST CELLWALK_COMPONENTS)
-  list(APPEND not_installed PATTERN meshing EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
+        FILES_MATCHING PATTERN *.h PATTERN cli EXCLUDE PATTERN meshing EXCLUDE PATTERN loading EXCLUDE)
+set(loading_headers loading)
+if("meshing" IN_LIST CELLWALK_COMPONENTS)
+  list(APPEND loading_headers meshing)
 endif()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN *.h ${not_installed})
+foreach(folder ${loading_headers})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk
+          COMPONENT meshing FILES_MATCHING PATTERN *.h)
+endforeach()
+
+include(CellwalkPkgConfig)
+include(CellwalkPackages)

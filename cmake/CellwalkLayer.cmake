@@ -26,6 +26,17 @@ function(cellwalk_layer name)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   add_library(cellwalk::${name} ALIAS ${target})
-  install(TARGETS ${target} EXPORT cellwalk_${LAYER_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  cellwalk_package_of(package ${LAYER_COMPONENT})
+  install(TARGETS ${target} EXPORT cellwalk_${LAYER_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          COMPONENT ${package})
   set_property(GLOBAL APPEND PROPERTY CELLWALK_LAYERS_${LAYER_COMPONENT} ${name})
+endfunction()
+
+# The package (a component of install rules and of CPack) that holds a component of the library: what needs the GPL part is apart.
+function(cellwalk_package_of out component)
+  if(component STREQUAL meshing OR component STREQUAL loading)
+    set(${out} meshing PARENT_SCOPE)
+  else()
+    set(${out} dev PARENT_SCOPE)
+  endif()
 endfunction()

@@ -58,6 +58,8 @@ if(CELLWALK_WITH_VIEWER)
         ${CELLWALK_NODE} ${PROJECT_SOURCE_DIR}/viewer/build.mjs ${CELLWALK_VIEWER_PAGE}
       DEPENDS ${viewer_sources} ${PROJECT_SOURCE_DIR}/viewer/package-lock.json
       COMMENT "Making the page of cellwalk view" VERBATIM)
+    # The program is made in another folder, which sees targets of this one, but no rules.
+    add_custom_target(cellwalk_viewer_page DEPENDS ${CELLWALK_VIEWER_PAGE})
     message(STATUS "Viewer: in")
   endif()
 endif()

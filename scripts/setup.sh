@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev|peers|paper|docs] [--print]
+#   scripts/setup.sh [--for demo|test|dev|package|peers|paper|docs] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, Node.js, Chromium, the test tools and clang-format (default)
+#   demo  build and run the program            test   also Gmsh, VTK, Python, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
+#   package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -15,7 +16,8 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 clang-format chromium)
+python=(pybind11-dev python3-dev python3-numpy)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev clang-format chromium)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 tools=(clang clang-tidy ccache)
 documentation=(doxygen graphviz)
@@ -29,7 +31,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|peers|paper|docs or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|package|peers|paper|docs or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -37,12 +39,13 @@ done
 packages=("${core[@]}" "${meshing[@]}" "${pictures[@]}")
 case "$purpose" in
   demo) ;;
-  test) packages+=("${io[@]}" "${tests[@]}") ;;
-  dev) packages+=("${io[@]}" "${tests[@]}" "${tools[@]}") ;;
+  test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
+  dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${tools[@]}") ;;
+  package) packages+=("${io[@]}" "${python[@]}" dpkg-dev debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
   docs) packages=("${documentation[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test, dev, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
+  *) echo "setup.sh: --for takes demo, test, dev, package, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
 esac
 
 if [ "$purpose" = test ] || [ "$purpose" = dev ]; then

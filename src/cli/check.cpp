@@ -17,7 +17,7 @@ struct Check_options {
 };
 
 void check(const Check_options& options) {
-  const Loaded_environment loaded = load_environment(options.environment, options.build);
+  const Loaded_environment loaded = load_with_progress(options.environment, options.build);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
         const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });

@@ -2,6 +2,7 @@
 // cellwalk generate KIND ... -o ENV.ovm: environments that need no file.
 #include <cellwalk/io/numbers.h>
 #include <cellwalk/io/ovm.h>
+#include <cellwalk/loading/generators.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
-#include "cli/generators.h"
 #include "cli/progress.h"
 
 namespace cellwalk::cli {

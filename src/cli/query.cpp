@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table, of points or of edges, exactly.
 #include <cellwalk/io/query_file.h>
+#include <cellwalk/query/move.h>
+#include <cellwalk/query/sweep.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -15,8 +17,8 @@
 #include "cli/command.h"
 #include "cli/counts_json.h"
 #include "cli/environment_file.h"
-#include "cli/query_moves.h"
-#include "cli/query_sweeps.h"
+#include "cli/kernel_words.h"
+#include "cli/query_answers.h"
 #include "cli/replay_failure.h"
 
 namespace cellwalk::cli {
@@ -60,13 +62,14 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
             const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
             const nlohmann::ordered_json& counts) {
   write_answers(options.output, snapshot, rows, answers);
-  std::array<std::size_t, std::size(status_names)> tally{};
+  std::array<std::size_t, std::size(motion_status_names)> tally{};
   for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
   nlohmann::ordered_json by_status;
   std::string line;
   for (std::size_t s = 0; s < tally.size(); ++s) {
-    by_status[status_names[s]] = tally[s];
-    if (tally[s] != 0) line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], status_names[s]);
+    by_status[motion_status_names[s]] = tally[s];
+    if (tally[s] != 0)
+      line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], motion_status_names[s]);
   }
   write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
   fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
@@ -74,7 +77,7 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
       std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
   if (invalid != rows.end())
     fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, invalid->line,
-               invalid->invalid, tally[static_cast<std::size_t>(Status::invalid)]);
+               invalid->invalid, tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
 /// Writes the record of the row that is wanted.
@@ -84,7 +87,7 @@ void record_row(const Query_options& options, const Environment<D>& environment,
   const std::size_t row = *options.row;
   if (row >= moves.size() || !moves[row].invalid.empty())
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", row));
-  const char* status = status_names[static_cast<std::size_t>(answers[row].status)];
+  const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
   record_motion(options.record, environment, moves[row].points[0], moves[row].points[1], options.move,
                 fmt::format("row {} of a query: {}", row, status));
 }
@@ -95,12 +98,21 @@ void query_environment(const Query_options& options, const Environment<D>& envir
   Edge_counts counts;
   if (options.mode == Query_mode::move) {
     const auto moves = io::read_moves<D>(options.queries);
-    const auto answers = answer_moves(snapshot, moves, options.move, counts);
+    const Locator<D> locator(snapshot);
+    const auto answers =
+        answer_rows(moves, "walking", counts, [&](const Move_query<D>& move, Edge_counts& local) {
+          return answer_move(snapshot, locator, move.points[0], move.points[1], options.move, local);
+        });
     report(options, snapshot, moves, answers, cli::to_json(counts.walk));
     if (options.row) record_row(options, environment, moves, answers);
   } else {
     const auto sweeps = io::read_sweeps<D>(options.queries);
-    const auto answers = answer_sweeps(snapshot, sweeps, options.sweep, counts);
+    const Locator<D> locator(snapshot);
+    const auto answers =
+        answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& sweep, Edge_counts& local) {
+          const auto& [p, target, q] = sweep.points;
+          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
+        });
     report(options, snapshot, sweeps, answers, to_json(counts));
   }
 }
@@ -153,7 +165,7 @@ void query(Query_options& options, const CLI::App& command) {
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const Loaded_environment loaded = load_environment(options.environment, options.build);
+  const Loaded_environment loaded = load_with_progress(options.environment, options.build);
   std::visit([&](const auto& environment) { query_environment(options, environment); }, loaded.environment);
 }
 

@@ -37,7 +37,7 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
     double time = absent;
     std::array<double, 3> end{absent, absent, absent}, normal = end;
     const char *kind = "", *body = "";
-    if (answer.status == Status::free) {
+    if (answer.status == Motion_status::free) {
       time = 1;
       end = fields(rows[row].points[1]);
     } else if (const auto& contact = answer.contact) {
@@ -48,8 +48,8 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
       body = feature_names[static_cast<std::size_t>(contact->body)];
     }
     const auto write = [&](const auto&... body_field) {
-      table.row(row, status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1], end[2],
-                kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
+      table.row(row, motion_status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1],
+                end[2], kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
                 answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell)));
     };
     if constexpr (has_body)

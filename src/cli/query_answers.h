@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The answers to a table of motions, whatever moves: what they hold, and the table `cellwalk query` writes of them.
+// The answers to a table of motions, whatever moves, and the table `cellwalk query` writes of them.
 #ifndef CELLWALK_CLI_QUERY_ANSWERS_H
 #define CELLWALK_CLI_QUERY_ANSWERS_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/query/answer.h>
 #include <cellwalk/records/queries.h>
 
 #include <tbb/blocked_range.h>
@@ -12,31 +12,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/progress.h"
 
 namespace cellwalk::cli {
-
-enum class Status : std::uint8_t {
-  free,     ///< the motion arrives
-  contact,  ///< a wall blocks it
-  outside,  ///< it does not start in free space, or across a wall
-  invalid,  ///< its row cannot be used
-  lost      ///< inexact kernels only: the walk found no way on
-};
-inline constexpr const char* status_names[] = {"free", "contact", "outside", "invalid", "lost"};
-
-template <int D>
-struct Answer {
-  Status status = Status::invalid;
-  std::uint32_t cells = 0;  ///< visited by the point that moves
-  Cell cell = Cell::none;   ///< in which the motion ends, or its contact is; none if outside or invalid
-  std::optional<Contact<D>> contact;  ///< if status is contact
-};
 
 /// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on the number of
 /// threads.

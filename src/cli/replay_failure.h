@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "cli/query_moves.h"
+#include "cli/kernel_words.h"
 
 namespace cellwalk::cli {
 

@@ -2,6 +2,7 @@
 // cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/json_file.h>
+#include <cellwalk/loading/generators.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,6 @@
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
-#include "cli/generators.h"
 #include "cli/interruption.h"
 #include "cli/kind_names.h"
 #include "cli/output_folder.h"
@@ -54,7 +54,7 @@ Prepared_environment prepare(const Environment_source& source, const std::string
   if (const auto* file = std::get_if<std::string>(&source)) {
     Build_options options;
     options.keep_map = false;
-    Loaded_environment loaded = load_environment(*file, options);
+    Loaded_environment loaded = load_with_progress(*file, options);
     return {std::move(loaded.environment), loaded.built.certificate};
   }
   const auto& recipe = std::get<Recipe>(source);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/io/mesh_file.h>
+#include <cellwalk/loading/mesher.h>
 
 #include <CGAL/version.h>
 #include <fmt/core.h>
 
 #include "cli/command.h"
-#include "cli/mesher.h"
 #include "cli/viewer_page.h"
 
 namespace cellwalk::cli {

@@ -10,11 +10,15 @@ import sys
 from pathlib import Path
 
 # What each layer may include besides itself; nothing else, so no include points upward or sideways.
-_STACK = ["kernel", "records", "environment", "walk", "edge", "body", "simulation"]
+_STACK = ["kernel", "records", "environment", "walk", "edge", "query", "body", "simulation"]
 LAYERS = {layer: set(_STACK[:i]) for i, layer in enumerate(_STACK)}
 LAYERS["io"] = {"kernel", "records"}
 LAYERS["meshing"] = {"kernel", "records"}
+LAYERS["loading"] = {"kernel", "records", "environment", "io", "meshing"}
 LAYERS["cli"] = set(LAYERS)
+# The one header for users, which no file of the library includes.
+UMBRELLA = Path("include/cellwalk/cellwalk.h")
+LAYERS["umbrella"] = set(_STACK)
 
 # Gmsh is GPL too: io is LGPL only when it is built without it.
 GPL_LAYERS = {"meshing"}
@@ -35,8 +39,8 @@ COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOT
 
 MAX_LINES = 400
 SOURCES = {".h", ".cpp"}
-FORM_FOLDERS = ["include", "src", "tests", "experiments", "scripts", "cmake"]
-FORM_SUFFIXES = SOURCES | {".py", ".sh", ".cmake", ".txt"}
+FORM_FOLDERS = ["include", "src", "tests", "experiments", "examples", "python", "scripts", "cmake"]
+FORM_SUFFIXES = SOURCES | {".py", ".pyi", ".sh", ".cmake", ".txt"}
 
 
 def without_comments_and_strings(text):
@@ -48,7 +52,9 @@ def line_of(text, offset):
 
 
 def layer_of(path, root):
-    """The layer of a file of include/cellwalk or src, None for files outside layers (the umbrella, build files)."""
+    """The layer of a file of include/cellwalk or src, None for files outside layers (build files)."""
+    if path.relative_to(root) == UMBRELLA:
+        return "umbrella"
     parts = path.relative_to(root).parts
     start = 2 if parts[0] == "include" else 1
     return parts[start] if len(parts) > start + 1 else None

@@ -57,6 +57,17 @@ class Planted(unittest.TestCase):
         self.source("kernel/sign.cpp", "#include <cellwalk/body/body.h>\n")
         self.assert_caught("layer kernel must not include", "layer body")
 
+    def test_the_umbrella_may_include_the_core_and_nothing_else(self):
+        self.header("cellwalk.h", "#include <cellwalk/walk/walk.h>\n")
+        self.assertEqual(self.check(), [])
+        self.header("cellwalk.h", "#include <cellwalk/io/ovm.h>\n")
+        self.assert_caught("layer umbrella must not include", "layer io")
+
+    def test_the_umbrella_is_not_for_the_library(self):
+        self.header("cellwalk.h", "#include <cellwalk/walk/walk.h>\n")
+        self.source("walk/walk.cpp", "#include <cellwalk/cellwalk.h>\n")
+        self.assert_caught("src/walk/walk.cpp:2", "layer walk must not include", "layer umbrella")
+
     def test_upward_include_by_a_relative_path(self):
         self.source("walk/inner.h", "#ifndef CELLWALK_WALK_INNER_H\n#define CELLWALK_WALK_INNER_H\n#endif\n")
         self.source("kernel/sign.cpp", '#include "../walk/inner.h"\n')

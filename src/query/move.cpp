@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "cli/query_moves.h"
+#include <cellwalk/query/move.h>
 
-#include <cellwalk/walk/locate.h>
+#include <vector>
 
-namespace cellwalk::cli {
+namespace cellwalk {
 namespace {
 
-Status to_status(Walk_status status) {
+Motion_status to_status(Walk_status status) {
   switch (status) {
     case Walk_status::arrived:
-      return Status::free;
+      return Motion_status::free;
     case Walk_status::contact:
-      return Status::contact;
+      return Motion_status::contact;
     case Walk_status::lost:
       break;
   }
-  return Status::lost;
+  return Motion_status::lost;
 }
 
 /// `is_compared`: the exact time of a contact is wanted, not only its rounding.
@@ -29,7 +29,7 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
   if (options.touch == Touch::stop) {
     answer.contact = first_touch(snapshot, particle, to, counts);
     if (answer.contact) {
-      answer.status = Status::contact;
+      answer.status = Motion_status::contact;
       answer.cell = answer.contact->cell;
     }
   } else if (result.contact) {
@@ -44,46 +44,36 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 }
 
 template <class Kernel, int D>
-Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Move_query<D>& move,
-                 const Move_options& options, Edge_counts& counts) {
-  const auto& [from, to] = move.points;
+Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
+                 const Point<D>& to, const Move_options& options, Edge_counts& counts) {
   const Location<D> start = locator.locate(from);
   const bool has_sides = start.sides > 1;
   Answer<D> best;
-  best.status = Status::outside;
+  best.status = Motion_status::outside;
   for (const Cell cell : start.cells) {
     const Particle<D> particle{from, cell, start.dimension, 0};
     const Answer<D> result = move_from<Kernel>(snapshot, particle, to, options, has_sides, counts);
-    const bool further = result.status == Status::free ||
+    const bool further = result.status == Motion_status::free ||
                          (result.contact && best.contact && result.contact->impact > best.contact->impact);
-    if (best.status == Status::outside || further) best = result;
-    if (!has_sides || best.status == Status::free) break;
+    if (best.status == Motion_status::outside || further) best = result;
+    if (!has_sides || best.status == Motion_status::free) break;
   }
   return best;
-}
-
-template <class Kernel, int D>
-std::vector<Answer<D>> answer_all(const Snapshot<D>& snapshot, const std::vector<Move_query<D>>& moves,
-                                  const Move_options& options, Edge_counts& total) {
-  const Locator<D> locator(snapshot);
-  return answer_rows(moves, "walking", total, [&](const Move_query<D>& move, Edge_counts& counts) {
-    return answer<Kernel>(snapshot, locator, move, options, counts);
-  });
 }
 
 }  // namespace
 
 template <int D>
-std::vector<Answer<D>> answer_moves(const Snapshot<D>& snapshot, const std::vector<Move_query<D>>& moves,
-                                    const Move_options& options, Edge_counts& counts) {
+Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
+                      const Point<D>& to, const Move_options& options, Edge_counts& counts) {
   return with_kernel(options.kernel, [&](auto policy) {
-    return answer_all<decltype(policy)>(snapshot, moves, options, counts);
+    return answer<decltype(policy)>(snapshot, locator, from, to, options, counts);
   });
 }
 
-template std::vector<Answer<2>> answer_moves(const Snapshot<2>&, const std::vector<Move_query<2>>&,
-                                             const Move_options&, Edge_counts&);
-template std::vector<Answer<3>> answer_moves(const Snapshot<3>&, const std::vector<Move_query<3>>&,
-                                             const Move_options&, Edge_counts&);
+template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&,
+                               const Move_options&, Edge_counts&);
+template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&,
+                               const Move_options&, Edge_counts&);
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk

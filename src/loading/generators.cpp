@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "cli/generators.h"
-
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/generate/lattice_map.h>
 #include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/environment/generate/room.h>
 #include <cellwalk/environment/generate/vessel.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/loading/generators.h>
 
 #include <fmt/core.h>
 
@@ -16,7 +15,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace cellwalk::cli {
+namespace cellwalk {
 namespace {
 
 double number(const Generator_values& values, const char* name) { return values.at(name)[0]; }
@@ -221,4 +220,4 @@ Any_soup generate(const std::string& name, const Generator_values& values) {
   return generator->make(completed);
 }
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk

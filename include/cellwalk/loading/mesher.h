@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The optional meshing component, as the program uses it. Builds without it have mesher_absent.cpp instead.
-#ifndef CELLWALK_CLI_MESHER_H
-#define CELLWALK_CLI_MESHER_H
+// The optional meshing component, chosen at run time. Builds without it have mesher_absent.cpp instead.
+#ifndef CELLWALK_LOADING_MESHER_H
+#define CELLWALK_LOADING_MESHER_H
 
 #include <cellwalk/records/cell_soup.h>
 #include <cellwalk/records/surface_soup.h>
@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.h"
-
-namespace cellwalk::cli {
+namespace cellwalk {
 
 enum class Mesher { tetgen, mesh3 };
 
@@ -33,13 +31,11 @@ struct Meshed {
   nlohmann::ordered_json report;
 };
 
+/// What this build has.
 struct Mesher_parts {
   bool meshing = false, tetgen = false;
 };
 Mesher_parts mesher_parts();
-
-/// Adds the options of the meshers this build has.
-void add_mesher_options(CLI::App& command, Mesher_options& options);
 
 /// The inside of a closed surface, less the obstacles.
 /// \throw Error as the meshers do; Error(usage) in a build without them
@@ -49,6 +45,6 @@ Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_so
 /// A planar domain as triangles. \throw Error as triangulate does; Error(usage) in a build without meshing
 Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options);
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk
 
-#endif  // CELLWALK_CLI_MESHER_H
+#endif  // CELLWALK_LOADING_MESHER_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Every generator by name, with its options: one table for `cellwalk generate` and for the recipes of scenes.
-#ifndef CELLWALK_CLI_GENERATORS_H
-#define CELLWALK_CLI_GENERATORS_H
+// Every generator by name, with its options: one table for `cellwalk generate`, the recipes of scenes and Python.
+#ifndef CELLWALK_LOADING_GENERATORS_H
+#define CELLWALK_LOADING_GENERATORS_H
 
 #include <cellwalk/records/cell_soup.h>
 
@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace cellwalk::cli {
+namespace cellwalk {
 
 using Any_soup = std::variant<Cell_soup<2>, Cell_soup<3>>;
 
@@ -41,6 +41,6 @@ const std::vector<Generator>& generators();
 ///        integer where one is needed, and as the generator itself does
 Any_soup generate(const std::string& generator, const Generator_values& values);
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk
 
-#endif  // CELLWALK_CLI_GENERATORS_H
+#endif  // CELLWALK_LOADING_GENERATORS_H

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/mesher.h"
-
+#include <cellwalk/loading/mesher.h>
+#include <cellwalk/loading/report.h>
 #include <cellwalk/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/meshing/triangulate.h>
 
 #include <fmt/core.h>
 
-#include "cli/environment_file.h"
-
-namespace cellwalk::cli {
+namespace cellwalk {
 namespace {
 
 nlohmann::ordered_json to_json(const Surface_report& surface) {
@@ -81,23 +79,6 @@ Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup
 
 Mesher_parts mesher_parts() { return {true, has_tetgen()}; }
 
-void add_mesher_options(CLI::App& command, Mesher_options& options) {
-  add_choice(
-      command, "--mesher", options.mesher, {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}},
-      "For a surface: TetGen keeps it exactly; Mesh_3 approximates it with better cells and says how far");
-  command
-      .add_option("--quality", options.quality,
-                  "TetGen: bound of circumradius to shortest edge, such as 1.5; 0: none")
-      ->type_name("Q");
-  command
-      .add_option("--cell-size", options.cell_size, "Mesh_3: bound of circumradii, in units of the surface")
-      ->type_name("H");
-  command.add_option("--distance", options.distance, "Mesh_3: how far the boundary may leave the surface")
-      ->type_name("D");
-  command.add_flag("--keep-obstacles", options.keep_obstacles,
-                   "Keep the inside of obstacles and holes as solid cells");
-}
-
 Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                        const Mesher_options& options) {
   return options.mesher == Mesher::tetgen ? with_tetgen(surface, obstacles, options)
@@ -127,4 +108,4 @@ Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options
   return meshed;
 }
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk

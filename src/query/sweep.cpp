@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "cli/query_sweeps.h"
-
-#include <cellwalk/walk/locate.h>
+#include <cellwalk/query/sweep.h>
 
 #include <algorithm>
 #include <list>
+#include <vector>
 
-namespace cellwalk::cli {
+namespace cellwalk {
 namespace {
 
 /// An edge before it moves.
@@ -59,20 +58,21 @@ std::list<Start<D>> starts(const Snapshot<D>& snapshot, const Locator<D>& locato
 
 template <int D>
 Answer<D> to_answer(const Sweep_result<D>& result) {
-  if (result.contact) return {Status::contact, result.cells, result.contact->cell, result.contact};
-  return {Status::free, result.cells, result.p.cell, {}};
+  if (result.contact) return {Motion_status::contact, result.cells, result.contact->cell, result.contact};
+  return {Motion_status::free, result.cells, result.p.cell, {}};
 }
 
+}  // namespace
+
 template <int D>
-Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Sweep_query<D>& row,
-                 const Sweep_options& options, Edge_counts& counts) {
-  const auto& [p, target, q] = row.points;
+Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
+                       const Sweep_options& options, Edge_counts& counts) {
   const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {
-    return to_answer(sweep_edge(snapshot, start.p, target, start.q, start.chain, chosen, counts));
+    return to_answer(sweep_edge(snapshot, start.p, motion.target, start.q, start.chain, chosen, counts));
   };
-  const std::list<Start<D>> all = starts(snapshot, locator, p, q, counts.walk);
+  const std::list<Start<D>> all = starts(snapshot, locator, motion.p, motion.q, counts.walk);
   Answer<D> best;
-  best.status = Status::outside;
+  best.status = Motion_status::outside;
   if (all.empty()) return best;
   if (all.size() == 1) return sweep(all.front(), options);
 
@@ -84,25 +84,14 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const S
     if (best_start && result.contact && result.contact->impact <= best.contact->impact) continue;
     best = result;
     best_start = &start;
-    if (best.status == Status::free) return best;
+    if (best.status == Motion_status::free) return best;
   }
   return options.search == Contact_search::exact ? best : sweep(*best_start, options);
 }
 
-}  // namespace
+template Answer<2> answer_sweep(const Snapshot<2>&, const Locator<2>&, const Edge_motion<2>&,
+                                const Sweep_options&, Edge_counts&);
+template Answer<3> answer_sweep(const Snapshot<3>&, const Locator<3>&, const Edge_motion<3>&,
+                                const Sweep_options&, Edge_counts&);
 
-template <int D>
-std::vector<Answer<D>> answer_sweeps(const Snapshot<D>& snapshot, const std::vector<Sweep_query<D>>& sweeps,
-                                     const Sweep_options& options, Edge_counts& counts) {
-  const Locator<D> locator(snapshot);
-  return answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& row, Edge_counts& local) {
-    return answer(snapshot, locator, row, options, local);
-  });
-}
-
-template std::vector<Answer<2>> answer_sweeps(const Snapshot<2>&, const std::vector<Sweep_query<2>>&,
-                                              const Sweep_options&, Edge_counts&);
-template std::vector<Answer<3>> answer_sweeps(const Snapshot<3>&, const std::vector<Sweep_query<3>>&,
-                                              const Sweep_options&, Edge_counts&);
-
-}  // namespace cellwalk::cli
+}  // namespace cellwalk

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/loading/mesher.h>
 
-#include "cli/mesher.h"
-
-namespace cellwalk::cli {
+namespace cellwalk {
 namespace {
 
 [[noreturn]] void refuse(const char* what) {
@@ -16,12 +15,10 @@ namespace {
 
 Mesher_parts mesher_parts() { return {}; }
 
-void add_mesher_options(CLI::App&, Mesher_options&) {}
-
 Meshed<3> mesh_surface(const Surface_soup&, const std::vector<Surface_soup>&, const Mesher_options&) {
   refuse("a surface");
 }
 
 Meshed<2> mesh_domain(const Planar_domain&, const Mesher_options&) { refuse("a planar domain"); }
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk

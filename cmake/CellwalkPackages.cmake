@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Debian packages by CPack, one for each component of the install rules:
+#   cellwalk                 tools    the program
+#   libcellwalk-dev          dev      headers and libraries of core and io
+#   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
+#   python3-cellwalk         python   the Python module
+# Configure with CMAKE_INSTALL_PREFIX=/usr; scripts/package.sh does.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME cellwalk)
+set(CPACK_PACKAGE_VENDOR Cellwalk)
+set(CPACK_PACKAGE_CONTACT "Cellwalk developers <cellwalk@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(dev_depends libcgal-dev libboost-dev libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
+if(TARGET Gmsh::Gmsh)
+  list(APPEND dev_depends libgmsh-dev)
+endif()
+if(TARGET VTK::IOXML)
+  list(APPEND dev_depends libvtk9-dev)
+endif()
+list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcellwalk-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static libraries")
+
+list(APPEND CPACK_COMPONENTS_ALL meshing)
+set(CPACK_DEBIAN_MESHING_PACKAGE_NAME libcellwalk-meshing-dev)
+set(CPACK_DEBIAN_MESHING_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS "libcellwalk-dev (= ${PROJECT_VERSION})")
+if(TARGET TetGen::TetGen)
+  string(APPEND CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS ", libtet1.5-dev")
+endif()
+set(CPACK_COMPONENT_MESHING_DESCRIPTION "Environments of surfaces, polygons and files, for libcellwalk-dev (GPL)")
+
+set(licences dev meshing)
+if(TARGET cellwalk_cli)
+  list(APPEND CPACK_COMPONENTS_ALL tools)
+  list(APPEND licences tools)
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME cellwalk)
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
+endif()
+if(TARGET cellwalk_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND licences python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-cellwalk)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
+endif()
+
+# Programs are under the GPL where they are built with parts that are.
+foreach(component ${licences})
+  string(TOUPPER ${component} upper)
+  set(licence LICENSE)
+  if(NOT component STREQUAL dev AND TARGET cellwalk::meshing)
+    set(licence COPYING.GPL)
+  endif()
+  install(FILES ${PROJECT_SOURCE_DIR}/${licence} RENAME copyright COMPONENT ${component}
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+endforeach()
+include(CPack)

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Environments from files: read, meshed where a file holds no cells, certified.
+#ifndef CELLWALK_LOADING_ENVIRONMENT_FILE_H
+#define CELLWALK_LOADING_ENVIRONMENT_FILE_H
+
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/io/mesh_file.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/loading/mesher.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cellwalk {
+
+using Any_environment = std::variant<Environment<2>, Environment<3>>;
+
+struct Loaded_environment {
+  Any_environment environment;
+  Build_report built;
+  io::Read_report read;
+};
+
+/// Runs `work`; an Error that leaves it without naming the file gets `path: ` in front.
+template <class Work>
+auto naming(const std::string& path, Work&& work) {
+  try {
+    return std::forward<Work>(work)();
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    throw Error(error.code(), message.starts_with(path) ? message : path + ": " + message);
+  }
+}
+
+/// Reads a file of cells and certifies it as it stands: nothing is split, merged or flipped.
+/// \throw Error(input) if it is unreadable or holds no cells, Error(not_certified) with the cell and the reason
+/// Cost: that of reading and of Environment::build().
+Loaded_environment load_environment(const std::string& path, Build_options options);
+
+struct Import_options {
+  std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface
+  Mesher_options mesher;
+  Build_options build{.keep_map = false};
+  /// Called before each stage of long work with what begins, such as "reading part.off".
+  std::function<void(const std::string&)> on_stage{};
+};
+
+/// What was read, made and changed, stage by stage. Nothing is repaired silently.
+struct Import_report {
+  struct Stage {
+    std::string title;  ///< "read", "meshed" or "changed"
+    std::vector<std::string> lines;
+  };
+  std::vector<Stage> stages;
+  nlohmann::ordered_json json;  ///< the same for programs: read, meshed, changed, certificate
+};
+
+struct Imported_environment {
+  Any_environment environment;
+  Build_report built;
+  Import_report report;
+};
+
+/// Makes a certified environment of any mesh file: cells are certified and split where they must be, a closed surface is filled
+/// with tetrahedra, a planar domain with triangles.
+/// \throw Error(input) where a file is unreadable or an obstacle no closed surface, Error(not_certified) with the cell and the
+///        reason, Error(usage) for obstacles of what is no surface, and where this build cannot mesh
+/// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe where TetGen is used.
+Imported_environment import_environment(const std::string& path, const Import_options& options);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_LOADING_ENVIRONMENT_FILE_H

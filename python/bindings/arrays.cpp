@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "arrays.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/core.h>
+
+namespace cellwalk::python {
+namespace {
+
+/// Such as "float32 (10, 3)", or the type of what is no array.
+std::string description(const py::handle& argument) {
+  if (!py::isinstance<py::array>(argument))
+    return std::string(py::str(py::type::of(argument).attr("__name__")));
+  const auto array = py::reinterpret_borrow<py::array>(argument);
+  return fmt::format("{} {}{}", std::string(py::str(array.dtype())),
+                     std::string(py::str(array.attr("shape"))),
+                     array.flags() & py::array::c_style ? "" : ", not C-contiguous");
+}
+
+}  // namespace
+
+std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const char* name, int columns) {
+  constexpr int needed = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
+  if (py::isinstance<py::array>(argument)) {
+    const auto array = py::reinterpret_borrow<py::array>(argument);
+    const bool is_float64 = array.dtype().equal(py::dtype::of<double>());
+    if (is_float64 && array.ndim() == 2 && array.shape(1) == columns && (array.flags() & needed) == needed)
+      return {static_cast<const double*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+  }
+  throw py::type_error(fmt::format(
+      "{0} must be a C-contiguous float64 array of shape (N, {1}), and is {2}; numpy.ascontiguousarray({0}, "
+      "dtype=numpy.float64) makes one of numbers",
+      name, columns, description(argument)));
+}
+
+Index_table indices_of(const py::handle& argument, const char* name, std::size_t bound) {
+  const py::array array = py::array::ensure(argument);
+  if (!array || array.ndim() != 2 || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u'))
+    throw py::type_error(
+        fmt::format("{} must be an integer array of two dimensions, and is {}", name, description(argument)));
+  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  Index_table table;
+  table.rows = static_cast<std::size_t>(array.shape(0));
+  table.columns = static_cast<std::size_t>(array.shape(1));
+  table.indices.reserve(table.rows * table.columns);
+  for (std::size_t i = 0; i < table.rows * table.columns; ++i) {
+    const std::int64_t index = numbers.data()[i];
+    if (index < 0 || static_cast<std::uint64_t>(index) >= bound)
+      throw py::value_error(fmt::format("{}[{}, {}] is {}: there are {} points, numbered from 0", name,
+                                        i / table.columns, i % table.columns, index, bound));
+    table.indices.push_back(static_cast<std::uint32_t>(index));
+  }
+  return table;
+}
+
+void need_equal(std::size_t rows, const char* name, std::size_t expected, const char* expected_name) {
+  if (rows != expected)
+    throw py::value_error(fmt::format("{} has {} rows, and {} has {}: as many are needed", name, rows,
+                                      expected_name, expected));
+}
+
+py::array view_of(const double* data, std::size_t rows, std::size_t columns, std::size_t stride,
+                  const py::handle& owner) {
+  py::array view(py::dtype::of<double>(), {rows, columns}, {stride, sizeof(double)}, data, owner);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+void refuse_word(const std::string& word, const char* option, const std::string& words) {
+  throw Error(Error_code::usage, fmt::format("{} takes {}, not {}", option, words, word));
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies: vertices with edges and faces that no wall ever crosses.
+#include <cellwalk/body/body.h>
+#include <cellwalk/io/body_file.h>
+#include <cellwalk/records/make_body.h>
+
+#include <fmt/core.h>
+#include <pybind11/stl.h>
+
+#include <mutex>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "module.h"
+#include "motions.h"
+#include "options.h"
+
+namespace cellwalk::python {
+namespace {
+
+/// A row of the table of contacts of a body.
+template <int D>
+struct Body_contact_row {
+  double time;
+  std::array<double, D> point, normal;
+  std::uint32_t vertex, feature;
+  std::int32_t cell;
+  std::uint32_t facet, kind, body;
+};
+// No padding: equal rows are equal bytes.
+static_assert(sizeof(Body_contact_row<2>) == 5 * sizeof(double) + 24 &&
+              sizeof(Body_contact_row<3>) == 7 * sizeof(double) + 24);
+using Body_contact_row_2 = Body_contact_row<2>;
+using Body_contact_row_3 = Body_contact_row<3>;
+
+template <int D>
+Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& met) {
+  const Contact<D>& contact = met.contact;
+  return {contact.time,
+          contact.point,
+          contact.normal,
+          met.vertex,
+          met.feature,
+          number_of(snapshot, snapshot.cell_of(contact.facet)),
+          static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
+          static_cast<std::uint32_t>(contact.kind),
+          static_cast<std::uint32_t>(contact.body)};
+}
+
+template <int D>
+Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, const py::object& faces) {
+  Body_parts<D> parts;
+  const auto given = points_of<D>(points, "points");
+  parts.points.assign(given.begin(), given.end());
+  if (!edges.is_none()) {
+    const Index_table table = indices_of(edges, "edges", given.size());
+    if (table.columns != 2)
+      throw py::value_error(fmt::format("edges has {} columns: an edge has 2 ends", table.columns));
+    for (std::size_t i = 0; i < table.rows; ++i) parts.segments.push_back({table.row(i)[0], table.row(i)[1]});
+  }
+  if (!faces.is_none()) {
+    const Index_table table = indices_of(faces, "faces", given.size());
+    if (table.columns < 3)
+      throw py::value_error(
+          fmt::format("faces has {} columns: a face has at least 3 corners", table.columns));
+    for (std::size_t i = 0; i < table.rows; ++i)
+      parts.polygons.emplace_back(table.row(i).begin(), table.row(i).end());
+  }
+  return make_body(std::move(parts)).body;
+}
+
+template <std::size_t D>
+void need_finite(const std::array<double, D>& target, std::size_t vertex) {
+  if (!is_usable(target)) throw py::value_error(fmt::format("the target of vertex {} is not finite", vertex));
+}
+
+/// A body of either dimension, and what its moves did.
+class Any_body {
+ public:
+  Any_body(const Shared_world& environment, const py::object& points, const py::object& edges,
+           const py::object& faces)
+      : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
+          return soup_of_arrays<D>(points, edges, faces);
+        })) {}
+
+  /// The body of a file.
+  Any_body(const Shared_world& environment, const std::string& path)
+      : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
+          return io::read_body<D>(path).body;
+        })) {}
+
+  py::array positions(const py::object& self) const {
+    return std::visit(
+        [&]<int D>(const Body<D>& body) {
+          return view_of(body.positions().data()->data(), body.vertex_count(), D, sizeof(Point<D>), self);
+        },
+        body_);
+  }
+
+  py::array_t<std::uint32_t> edges() const {
+    return std::visit([](const auto& body) { return table_of(body.edges()); }, body_);
+  }
+  py::array_t<std::uint32_t> faces() const {
+    return std::visit([](const auto& body) { return table_of(body.faces()); }, body_);
+  }
+  std::size_t vertex_count() const {
+    return std::visit([](const auto& body) { return body.vertex_count(); }, body_);
+  }
+
+  py::array step(const py::object& targets, const Body_options& options) {
+    return std::visit(
+        [&]<int D>(Body<D>& body) -> py::array {
+          const auto to = points_of<D>(targets, "targets");
+          need_equal(to.size(), "targets", body.vertex_count(), "the body");
+          for (std::size_t i = 0; i < to.size(); ++i) need_finite(to[i], i);
+          std::vector<Body_contact_row<D>> rows;
+          {
+            const py::gil_scoped_release released;
+            const std::lock_guard guard(*moving_);
+            std::vector<Body_contact<D>> contacts;
+            body.step(to, options, contacts, counts_);
+            const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
+            for (const Body_contact<D>& contact : contacts) rows.push_back(to_row(snapshot, contact));
+          }
+          return to_array(std::move(rows));
+        },
+        body_);
+  }
+
+  py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options) {
+    if (vertex >= vertex_count())
+      throw py::index_error(
+          fmt::format("there is no vertex {}: the body has {}, numbered from 0", vertex, vertex_count()));
+    return std::visit(
+        [&]<int D>(Body<D>& body) -> py::array {
+          const auto to = target.cast<std::array<double, D>>();
+          need_finite(to, vertex);
+          std::vector<Body_contact_row<D>> rows;
+          {
+            const py::gil_scoped_release released;
+            const std::lock_guard guard(*moving_);
+            if (const auto contact = body.move_vertex(vertex, to, options, counts_))
+              rows.push_back(to_row(std::get<World<D>>(*world_).snapshot(), *contact));
+          }
+          return to_array(std::move(rows));
+        },
+        body_);
+  }
+
+  void validate() {
+    const py::gil_scoped_release released;
+    const std::lock_guard guard(*moving_);
+    std::visit(
+        [&](auto& body) {
+          body.catch_up(counts_);
+          body.validate();
+        },
+        body_);
+  }
+
+  py::dict counts() const {
+    using namespace py::literals;
+    const Body_counts done = [this] {
+      const py::gil_scoped_release released;
+      const std::lock_guard guard(*moving_);
+      return counts_;
+    }();
+    return py::dict("moves"_a = done.moves, "in_region"_a = done.in_region, "contacts"_a = done.contacts,
+                    "held"_a = done.held, "edges"_a = to_dict(done.edges));
+  }
+
+ private:
+  using Bodies = std::variant<Body<2>, Body<3>>;
+
+  template <class Make>
+  static Bodies place(const Any_world& any, const Make& make) {
+    return std::visit(
+        [&]<int D>(const World<D>& world) -> Bodies {
+          return Body<D>(world.snapshot(), world.locator, make(std::integral_constant<int, D>{}));
+        },
+        any);
+  }
+
+  template <std::size_t N>
+  static py::array_t<std::uint32_t> table_of(std::span<const std::array<std::uint32_t, N>> rows) {
+    py::array_t<std::uint32_t> table({rows.size(), N});
+    std::copy_n(reinterpret_cast<const std::uint32_t*>(rows.data()), rows.size() * N, table.mutable_data());
+    return table;
+  }
+
+  std::shared_ptr<const Any_world> world_;
+  Bodies body_;
+  Body_counts counts_;
+  std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
+};
+
+Body_options to_options(const Sweep_words& words, bool clearance, int most_contacts, bool hold) {
+  Body_options options;
+  options.sweep = to_sweep_options(words);
+  options.clearance = clearance;
+  options.most_contacts = most_contacts;
+  options.hold = hold;
+  return options;
+}
+
+}  // namespace
+
+void bind_bodies(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(Body_contact_row_2, vertex, feature, time, point, normal, kind, body, cell, facet);
+  PYBIND11_NUMPY_DTYPE(Body_contact_row_3, vertex, feature, time, point, normal, kind, body, cell, facet);
+  py::class_<Any_body>(
+      module, "Body",
+      "A body among walls: no wall ever crosses its vertices and edges, nor its faces while it is moved with "
+      "sweep=\"faces\".")
+      .def(py::init<const Shared_world&, const py::object&, const py::object&, const py::object&>(),
+           py::arg("environment"), py::arg("points"), py::arg("edges") = py::none(),
+           py::arg("faces") = py::none(),
+           "Registers a body where it stands: points (N, dimension), edges (M, 2), faces (K, 3) or polygons "
+           "(K, k), whose "
+           "sides are edges too. OutsideError names a vertex that is not in free space, an edge that crosses "
+           "a wall, or a "
+           "face that a wall pierces.")
+      .def_static(
+          "read",
+          [](const Shared_world& environment, const py::object& path) {
+            return Any_body(environment, std::string(py::str(path)));
+          },
+          py::arg("environment"), py::arg("path"),
+          "Registers the body of a mesh file or of a polyline in CSV.")
+      .def("__len__", &Any_body::vertex_count)
+      .def_property_readonly(
+          "positions", [](const py::object& self) { return self.cast<const Any_body&>().positions(self); },
+          "float64 (N, dimension): a read-only view, no copy: it changes as the body moves.")
+      .def_property_readonly("edges", &Any_body::edges, "uint32 (M, 2): ends, in ascending order.")
+      .def_property_readonly("faces", &Any_body::faces, "uint32 (K, 3): corners.")
+      .def(
+          "step",
+          [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
+             const std::string& search, double tolerance, bool clearance, int most_contacts, bool hold) {
+            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, clearance,
+                                                 most_contacts, hold));
+          },
+          py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
+          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("clearance") = true,
+          py::arg("most_contacts") = 4, py::arg("hold") = false,
+          "Moves the vertices one after the other to their targets, as far as walls allow; a vertex that "
+          "meets one slides "
+          "on along it. Returns the contacts as a structured array: vertex (that moved), feature (number of "
+          "the vertex, edge "
+          "or face that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
+          "sweep: \"triangle\": nothing that an edge sweeps is missed; \"faces\": nor a face; "
+          "\"three_segments\": the "
+          "paper's.\n"
+          "most_contacts: a vertex that met so many walls in a step stays until the next. hold: it stays at "
+          "the first, where "
+          "it was.")
+      .def(
+          "move_vertex",
+          [](Any_body& self, std::uint32_t vertex, const py::object& target, const std::string& sweep,
+             const std::string& touch, const std::string& search, double tolerance) {
+            return self.move_vertex(vertex, target,
+                                    to_options({sweep, touch, search, "flooded", tolerance}, true, 4, false));
+          },
+          py::arg("vertex"), py::arg("target"), py::kw_only(), py::arg("sweep") = "triangle",
+          py::arg("touch") = "pass", py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20,
+          "Moves one vertex to a target and returns no contact, or leaves everything as it is and returns "
+          "the first: a "
+          "structured array of length 0 or 1, as of step().")
+      .def("validate", &Any_body::validate,
+           "Checks by exact predicates that every vertex is in its cell and no wall crosses the body; raises "
+           "Error if so.")
+      .def_property_readonly("counts", &Any_body::counts, "What all moves did: machine-independent counts.");
+}
+
+}  // namespace cellwalk::python

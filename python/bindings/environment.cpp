@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Environments: from files, recipes and arrays; what they hold; questions about points and edges in no cell.
+#include <cellwalk/io/ovm.h>
+#include <cellwalk/loading/generators.h>
+#include <cellwalk/loading/report.h>
+#include <cellwalk/query/move.h>
+#include <cellwalk/query/sweep.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
+
+#include "make_environment.h"
+#include "module.h"
+#include "motions.h"
+#include "options.h"
+
+namespace cellwalk::python {
+
+Shared_world share(Any_environment environment, const Certificate& certificate, std::string report) {
+  return std::visit(
+      [&]<int D>(Environment<D>& built) -> Shared_world {
+        built.freeze();
+        return {std::make_shared<const Any_world>(std::in_place_type<World<D>>, std::move(built)),
+                certificate, std::move(report)};
+      },
+      environment);
+}
+
+namespace {
+
+py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
+/// Where points are, as arrays.
+struct Locations {
+  py::array_t<std::uint8_t> status, dimension;
+  py::array_t<std::int32_t> cell;
+  py::array_t<std::uint32_t> sides;
+};
+
+Locations locate(const Shared_world& self, const py::object& points, int threads) {
+  return std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto asked = points_of<D>(points, "points");
+        const auto n = static_cast<py::ssize_t>(asked.size());
+        Locations found{py::array_t<std::uint8_t>(n), py::array_t<std::uint8_t>(n),
+                        py::array_t<std::int32_t>(n), py::array_t<std::uint32_t>(n)};
+        auto *status = found.status.mutable_data(), *dimension = found.dimension.mutable_data();
+        auto* cell = found.cell.mutable_data();
+        auto* sides = found.sides.mutable_data();
+        const py::gil_scoped_release released;
+        for_each_chunk(asked.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const Location<D> at = is_finite(asked[i]) ? world.locator.locate(asked[i]) : Location<D>{};
+            status[i] = static_cast<std::uint8_t>(at.status);
+            dimension[i] = static_cast<std::uint8_t>(at.dimension);
+            cell[i] = number_of(world.snapshot(), at.cell);
+            sides[i] = static_cast<std::uint32_t>(at.sides);
+          }
+        });
+        return found;
+      },
+      *self.world);
+}
+
+Motions walk_points(const Shared_world& self, const py::object& starts, const py::object& targets,
+                    const std::string& touch, const std::string& kernel, int threads) {
+  check_threads(threads);
+  Move_options options;
+  options.touch = to_touch(touch);
+  options.kernel = choose<Kernel_choice>(kernel, "kernel",
+                                         {{"exact", Kernel_choice::exact},
+                                          {"lazy", Kernel_choice::lazy},
+                                          {"double", Kernel_choice::double_precision},
+                                          {"float", Kernel_choice::float_precision}});
+  if (options.kernel != Kernel_choice::exact) {
+    options.strategy = Walk_strategy::exit_rule;
+    if (options.touch == Touch::stop)
+      throw Error(Error_code::usage, "touch=\"stop\" needs kernel=\"exact\": touches are found exactly only");
+  }
+  return std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto from = points_of<D>(starts, "starts"), to = points_of<D>(targets, "targets");
+        need_equal(to.size(), "targets", from.size(), "starts");
+        return run_questions<D>(
+            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
+              if (!is_usable(from[row]) || !is_usable(to[row])) return {};
+              return answer_move(world.snapshot(), world.locator, from[row], to[row], options, counts);
+            });
+      },
+      *self.world);
+}
+
+Motions sweep_edges(const Shared_world& self, const py::object& p, const py::object& targets,
+                    const py::object& q, const std::string& sweep, const std::string& touch,
+                    const std::string& search, const std::string& search_cells, double tolerance,
+                    int threads) {
+  check_threads(threads);
+  const Sweep_options options = to_sweep_options({sweep, touch, search, search_cells, tolerance});
+  return std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto from = points_of<D>(p, "p"), to = points_of<D>(targets, "targets"),
+                   other = points_of<D>(q, "q");
+        need_equal(to.size(), "targets", from.size(), "p");
+        need_equal(other.size(), "q", from.size(), "p");
+        return run_questions<D>(
+            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
+              if (!is_usable(from[row]) || !is_usable(to[row]) || !is_usable(other[row])) return {};
+              return answer_sweep(world.snapshot(), world.locator,
+                                  Edge_motion<D>{from[row], to[row], other[row]}, options, counts);
+            });
+      },
+      *self.world);
+}
+
+py::array points(const py::object& self) {
+  const auto& shared = self.cast<const Shared_world&>();
+  return std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto all = world.snapshot().points();
+        return view_of(all.data()->data(), all.size(), D, sizeof(Point<D>), self);
+      },
+      *shared.world);
+}
+
+void save(const Shared_world& self, const py::object& path) {
+  const std::string name = py::str(path);
+  const py::gil_scoped_release released;
+  std::visit([&](const auto& world) { io::write_ovm(name, world.environment.soup()); }, *self.world);
+}
+
+}  // namespace
+
+void bind_environment(py::module_& module) {
+  py::class_<Locations>(module, "Locations", "Where points are, row by row.")
+      .def_readonly("status", &Locations::status, "uint8 (N,): codes of Place.")
+      .def_readonly(
+          "cell", &Locations::cell,
+          "int32 (N,): the free cell of lowest number whose closure holds the point; -1 if there is none.")
+      .def_readonly("dimension", &Locations::dimension,
+                    "uint8 (N,): of the lowest cell of the complex that the point lies on; 0: a vertex.")
+      .def_readonly(
+          "sides", &Locations::sides,
+          "uint32 (N,): on how many sides of walls there is free space at the point; 1 off membranes.")
+      .def("__len__", [](const Locations& self) { return self.status.size(); });
+
+  py::class_<Shared_world> environment(module, "Environment",
+                                       "A certified complex of convex cells, some of whose facets are walls. "
+                                       "Never changes, so that it can be shared by "
+                                       "threads.");
+  bind_makers(environment);
+  environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
+      .def_property_readonly(
+          "cell_count",
+          [](const Shared_world& self) {
+            return std::visit([](const auto& world) { return world.snapshot().cell_count(); }, *self.world);
+          },
+          "Number of cells, solid ones included.")
+      .def_property_readonly("points", points,
+                             "float64 (N, dimension): the vertices; a read-only view, no copy.")
+      .def_property_readonly(
+          "certificate",
+          [](const Shared_world& self) {
+            return from_json(to_json(self.certificate, self.dimension()).dump());
+          },
+          "What certification found: counts, volumes, walls, components.")
+      .def_property_readonly(
+          "report", [](const Shared_world& self) { return from_json(self.report); },
+          "What was read, meshed and changed to make it, as `cellwalk import --json` writes it.")
+      .def("save", save, py::arg("path"), "Writes an .ovm file, which every command of the program reads.")
+      .def(
+          "locate",
+          [](const Shared_world& self, const py::object& points, int threads) {
+            check_threads(threads);
+            return locate(self, points, threads);
+          },
+          py::arg("points"), py::kw_only(), py::arg("threads") = 0,
+          "Finds the cells that hold points, exactly. Rows that are not finite are outside.")
+      .def("walk", walk_points, py::arg("starts"), py::arg("targets"), py::kw_only(),
+           py::arg("touch") = "pass", py::arg("kernel") = "exact", py::arg("threads") = 0,
+           "Answers motions of points from starts[i] to targets[i]: located, then walked. Points that go on "
+           "moving are "
+           "faster as Particles, which remember their cells.\n\n"
+           "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
+           "kernel: \"exact\", \"lazy\"; \"double\" and \"float\" may miss walls and are for experiments.\n"
+           "threads: 0: all cores. The answers do not depend on it.")
+      .def("sweep", sweep_edges, py::arg("p"), py::arg("targets"), py::arg("q"), py::kw_only(),
+           py::arg("sweep") = "triangle", py::arg("touch") = "pass", py::arg("search") = "exact",
+           py::arg("search_cells") = "flooded", py::arg("tolerance") = 0x1p-20, py::arg("threads") = 0,
+           "Answers motions of edges: the end p[i] moves to targets[i] while the end q[i] stands still.\n\n"
+           "sweep: \"triangle\": all that the edge sweeps; \"three_segments\": the way of p, then the edge, "
+           "as in the "
+           "paper; \"faces\": the same as triangle, since an edge has no face.\n"
+           "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
+           "search: how a contact is located: \"exact\", \"dichotomic\" (within tolerance) or \"exhaustive\" "
+           "(among the "
+           "obstacles of the cells that search_cells says: \"flooded\" or \"traversed\").\n"
+           "threads: 0: all cores. The answers do not depend on it.")
+      .def("__repr__", [](const Shared_world& self) {
+        return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", self.dimension(),
+                           self.certificate.cells, self.certificate.walls);
+      });
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "make_environment.h"
+
+#include <cellwalk/loading/generators.h>
+#include <cellwalk/loading/report.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
+
+#include <vector>
+
+#include "arrays.h"
+
+namespace cellwalk::python {
+namespace {
+
+Duplicate_vertices to_duplicates(const std::string& word) {
+  return choose<Duplicate_vertices>(word, "duplicates",
+                                    {{"refuse", Duplicate_vertices::refuse},
+                                     {"merge", Duplicate_vertices::merge},
+                                     {"keep", Duplicate_vertices::keep}});
+}
+
+/// Builds without the interpreter, and says what was changed.
+template <int D>
+Shared_world build(Cell_soup<D> soup, const Build_options& options) {
+  Build_report built;
+  const py::gil_scoped_release released;
+  Environment<D> environment = Environment<D>::build(std::move(soup), options, &built);
+  const nlohmann::ordered_json report{{"changed", to_json(built)},
+                                      {"certificate", to_json(built.certificate, D)}};
+  return share(std::move(environment), built.certificate, report.dump());
+}
+
+void add_cell(Cell_soup<2>& soup, std::span<const std::uint32_t> v) { add_polygon(soup, v); }
+
+void add_cell(Cell_soup<3>& soup, std::span<const std::uint32_t> v) {
+  switch (v.size()) {
+    case 4:
+      add_tetrahedron(soup, v[0], v[1], v[2], v[3]);
+      break;
+    case 5:
+      add_pyramid(soup, {v[0], v[1], v[2], v[3], v[4]});
+      break;
+    case 6:
+      add_prism(soup, {v[0], v[1], v[2], v[3], v[4], v[5]});
+      break;
+    default:
+      add_hexahedron(soup, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]});
+  }
+}
+
+template <int D>
+Shared_world of_arrays(const py::object& points, const py::object& cells, const Build_options& options) {
+  const auto given = points_of<D>(points, "points");
+  const Index_table table = indices_of(cells, "cells", given.size());
+  const bool is_known =
+      D == 2 ? table.columns >= 3 : (table.columns >= 4 && table.columns <= 6) || table.columns == 8;
+  if (!is_known)
+    throw py::value_error(fmt::format("cells has {} columns: {}", table.columns,
+                                      D == 2 ? "cells of the plane are polygons of at least 3 points"
+                                             : "cells of space are tetrahedra (4), pyramids (5), prisms (6) "
+                                               "or hexahedra (8), in the order of VTK"));
+  Cell_soup<D> soup;
+  soup.points.assign(given.begin(), given.end());
+  for (std::size_t i = 0; i < table.rows; ++i) add_cell(soup, table.row(i));
+  return build(std::move(soup), options);
+}
+
+Shared_world from_arrays(const py::object& points, const py::object& cells, bool split,
+                         const std::string& duplicates) {
+  const Build_options options{to_duplicates(duplicates), split, false};
+  const bool is_planar = py::isinstance<py::array>(points) && points.attr("ndim").cast<int>() == 2 &&
+                         points.cast<py::array>().shape(1) == 2;
+  return is_planar ? of_arrays<2>(points, cells, options) : of_arrays<3>(points, cells, options);
+}
+
+Shared_world load(const py::object& path, const std::string& duplicates) {
+  const std::string name = py::str(path);
+  const Build_options options{to_duplicates(duplicates), false, false};
+  const py::gil_scoped_release released;
+  Loaded_environment loaded = load_environment(name, options);
+  const nlohmann::ordered_json report{
+      {"read", {{"file", name}, {"format", loaded.read.format}, {"notes", loaded.read.notes}}},
+      {"changed", to_json(loaded.built)}};
+  return share(std::move(loaded.environment), loaded.built.certificate, report.dump());
+}
+
+Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
+                         const std::string& duplicates, const std::string& mesher, double quality,
+                         double cell_size, double distance, bool keep_obstacles) {
+  const std::string name = py::str(path);
+  Import_options options;
+  for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
+  options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
+                    quality, cell_size, distance, keep_obstacles};
+  options.build = {to_duplicates(duplicates), split, false};
+  // The interpreter waits: TetGen is not thread-safe.
+  Imported_environment imported = import_environment(name, options);
+  return share(std::move(imported.environment), imported.built.certificate, imported.report.json.dump());
+}
+
+/// Numbers, sequences of numbers and truth values, as generators take them.
+Shared_world generate_environment(const std::string& kind, const py::kwargs& given) {
+  Generator_values values;
+  for (const auto& [name, value] : given)
+    values[std::string(py::str(name))] = py::isinstance<py::sequence>(value)
+                                             ? value.cast<std::vector<double>>()
+                                             : std::vector<double>{value.cast<double>()};
+  Any_soup soup = generate(kind, values);
+  return std::visit([](auto& cells) { return build(std::move(cells), {.split = false, .keep_map = false}); },
+                    soup);
+}
+
+}  // namespace
+
+void bind_makers(py::class_<Shared_world>& environment) {
+  environment
+      .def(py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(),
+           py::arg("split") = true, py::arg("duplicates") = "refuse",
+           "Makes an environment of arrays: points float64 (N, 3) with cells integer (M, 4), (M, 5), (M, 6) "
+           "or (M, 8) "
+           "(tetrahedra, pyramids, prisms, hexahedra, in the order of VTK), or points (N, 2) with polygons "
+           "(M, k), "
+           "counterclockwise. Its boundary is wall.\n\n"
+           "split: cells that are not exactly convex are split; otherwise they are refused.\n"
+           "duplicates: points in the same place: \"refuse\", \"merge\" or \"keep\" apart (a slit).")
+      .def_static("load", &load, py::arg("path"), py::kw_only(), py::arg("duplicates") = "refuse",
+                  "Reads a file of cells and certifies it as it stands.")
+      .def_static(
+          "import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
+          py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
+          py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen", py::arg("quality") = 0.0,
+          py::arg("cell_size") = 0.0, py::arg("distance") = 0.0, py::arg("keep_obstacles") = false,
+          "Makes an environment of any mesh file, as `cellwalk import` does: cells are split where they must "
+          "be, "
+          "a closed surface is filled with tetrahedra less the obstacles, a planar domain with triangles. "
+          "`report` says everything that was changed.")
+      .def_static("generate", &generate_environment, py::arg("kind"),
+                  "Makes an environment that needs no file. Kinds and options are those of `cellwalk "
+                  "generate`, with _ for "
+                  "-: generate(\"hexes\", cells=(10, 10, 10), solid=0.05). One number stands for all axes.");
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The extension module cellwalk._cellwalk; python/cellwalk/__init__.py is what users import.
+#include "module.h"
+
+#include <cellwalk/io/mesh_file.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/loading/mesher.h>
+#include <cellwalk/query/answer.h>
+
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
+
+namespace cellwalk::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The class of cellwalk._errors for each code; never freed, since exceptions may be raised until the interpreter ends.
+const py::object& error_class(Error_code code) {
+  static const auto* const classes = [] {
+    const py::module_ errors = py::module_::import("cellwalk._errors");
+    return new std::vector<py::object>{errors.attr("Error"),
+                                       errors.attr("Error"),
+                                       errors.attr("UsageError"),
+                                       errors.attr("InputError"),
+                                       errors.attr("NotCertifiedError"),
+                                       errors.attr("OutsideError")};
+  }();
+  return (*classes)[static_cast<std::size_t>(code)];
+}
+
+py::dict build_features() {
+  py::dict features;
+  const Mesher_parts parts = mesher_parts();
+  features["meshing"] = parts.meshing;
+  features["tetgen"] = parts.tetgen;
+  for (const io::Build_feature& feature : io::build_features())
+    features[py::str(std::string(feature.name))] = feature.present;
+  return features;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_cellwalk, module) {
+  module.doc() = "The compiled part of cellwalk.";
+  module.attr("__version__") = CELLWALK_VERSION;
+  py::list names;
+  for (const char* name : motion_status_names) names.append(name);
+  module.attr("status_names") = py::tuple(names);
+  error_class(Error_code::other);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      PyErr_SetString(error_class(error.code()).ptr(), error.what());
+    }
+  });
+  bind_motions(module);
+  bind_environment(module);
+  bind_particles(module);
+  bind_bodies(module);
+  module.def("build_features", build_features,
+             "The optional parts of this build by name, and whether it has them.");
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Options as Python gives them: words and numbers.
+#ifndef CELLWALK_PYTHON_OPTIONS_H
+#define CELLWALK_PYTHON_OPTIONS_H
+
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/kernel/error.h>
+
+#include <string>
+
+#include "arrays.h"
+
+namespace cellwalk::python {
+
+inline void check_threads(int threads) {
+  if (threads < 0)
+    throw Error(Error_code::usage,
+                "threads takes a number from 0 (all cores), not " + std::to_string(threads));
+}
+
+inline Touch to_touch(const std::string& word) {
+  return choose<Touch>(word, "touch", {{"pass", Touch::pass}, {"stop", Touch::stop}});
+}
+
+struct Sweep_words {
+  std::string sweep, touch, search, search_cells;
+  double tolerance;
+};
+
+/// \throw UsageError for a word that is none, or a tolerance outside (0,1]
+inline Sweep_options to_sweep_options(const Sweep_words& words) {
+  Sweep_options options;
+  options.sweep = choose<Sweep>(
+      words.sweep, "sweep",
+      {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}});
+  options.touch = to_touch(words.touch);
+  options.search = choose<Contact_search>(words.search, "search",
+                                          {{"exact", Contact_search::exact},
+                                           {"dichotomic", Contact_search::dichotomic},
+                                           {"exhaustive", Contact_search::exhaustive}});
+  options.cells =
+      choose<Search_cells>(words.search_cells, "search_cells",
+                           {{"flooded", Search_cells::flooded}, {"traversed", Search_cells::traversed}});
+  if (!(words.tolerance > 0 && words.tolerance <= 1))
+    throw Error(Error_code::usage,
+                "tolerance takes a number in (0,1], not " + std::to_string(words.tolerance));
+  options.tolerance = words.tolerance;
+  return options;
+}
+
+}  // namespace cellwalk::python
+
+#endif  // CELLWALK_PYTHON_OPTIONS_H

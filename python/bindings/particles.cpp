@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Particles: points that remember their cells, moved in batches.
+#include <cellwalk/body/verified_stop.h>
+#include <cellwalk/walk/walk.h>
+
+#include <mutex>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "module.h"
+#include "motions.h"
+#include "options.h"
+
+namespace cellwalk::python {
+namespace {
+
+/// The particles of an environment of either dimension.
+class Particles {
+ public:
+  Particles(const Shared_world& environment, const py::object& points, int threads)
+      : world_(environment.world) {
+    check_threads(threads);
+    std::visit(
+        [&]<int D>(const World<D>& world) {
+          const auto at = points_of<D>(points, "points");
+          auto& particles = particles_.emplace<std::vector<Particle<D>>>(at.size());
+          const py::gil_scoped_release released;
+          for_each_chunk(at.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+              particles[i] = is_usable(at[i]) ? world.locator.particle_at(at[i]) : Particle<D>{at[i]};
+          });
+        },
+        *world_);
+  }
+
+  std::size_t size() const {
+    return std::visit([](const auto& particles) { return particles.size(); }, particles_);
+  }
+
+  py::array positions(const py::object& self) const {
+    return std::visit(
+        [&]<int D>(const std::vector<Particle<D>>& particles) {
+          return view_of(reinterpret_cast<const double*>(particles.data()), particles.size(), D,
+                         sizeof(Particle<D>), self);
+        },
+        particles_);
+  }
+
+  py::array_t<std::int32_t> cells() const {
+    py::array_t<std::int32_t> numbers(static_cast<py::ssize_t>(size()));
+    std::int32_t* const number = numbers.mutable_data();
+    visit([&](const auto& world, const auto& particles) {
+      for (std::size_t i = 0; i < particles.size(); ++i)
+        number[i] = number_of(world.snapshot(), particles[i].cell);
+    });
+    return numbers;
+  }
+
+  Motions move(const py::object& targets, const std::string& at_contact, int threads) {
+    check_threads(threads);
+    const bool stops = choose<bool>(at_contact, "at_contact", {{"stay", false}, {"stop", true}});
+    return std::visit(
+        [&]<int D>(std::vector<Particle<D>>& particles) {
+          const auto to = points_of<D>(targets, "targets");
+          need_equal(to.size(), "targets", particles.size(), "the particles");
+          const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
+          const auto guard = exclusively();
+          return stops ? move_all<true>(snapshot, particles, to, threads)
+                       : move_all<false>(snapshot, particles, to, threads);
+        },
+        particles_);
+  }
+
+ private:
+  template <class Visitor>
+  void visit(const Visitor& visitor) const {
+    std::visit(
+        [&]<int D>(const std::vector<Particle<D>>& particles) {
+          visitor(std::get<World<D>>(*world_), particles);
+        },
+        particles_);
+  }
+
+  /// Waits without the interpreter for another thread that moves the same particles.
+  std::unique_lock<std::mutex> exclusively() {
+    const py::gil_scoped_release released;
+    return std::unique_lock<std::mutex>(*moving_);
+  }
+
+  template <bool stops, int D>
+  Motions move_all(const Snapshot<D>& snapshot, std::vector<Particle<D>>& particles,
+                   std::span<const Point<D>> targets, int threads) {
+    return run_batch<Walk_counts, D>(
+        world_, particles.size(), threads,
+        [&snapshot, from = particles.data(), to = targets.data()](
+            Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
+          Walk_counts counts;
+          for (std::size_t row = begin; row < end; ++row) {
+            Particle<D>& particle = from[row];
+            const Point<D>& target = to[row];
+            if (particle.cell == Cell::none || !is_usable(target)) {
+              out.fail(row, particle.cell == Cell::none ? Motion_status::outside : Motion_status::invalid);
+              continue;
+            }
+            const Walk_result<D> result = cellwalk::move(snapshot, particle, target, counts);
+            if (!result.contact) {
+              out.arrive(row, result.cell, result.cells);
+              continue;
+            }
+            out.meet(row, *result.contact, result.cells);
+            chunk.add(snapshot, row, *result.contact, Body_feature::vertex);
+            if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+          }
+          chunk.counts = counts;
+        });
+  }
+
+  std::shared_ptr<const Any_world> world_;
+  std::variant<std::vector<Particle<2>>, std::vector<Particle<3>>> particles_;
+  std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
+};
+
+}  // namespace
+
+void bind_particles(py::module_& module) {
+  py::class_<Particles>(
+      module, "Particles",
+      "Points that remember the cells they are in: a small move costs a few nanoseconds, whatever the "
+      "size of the environment. Their positions always lie in their cells, in free space.")
+      .def(
+          py::init<const Shared_world&, const py::object&, int>(), py::arg("environment"), py::arg("points"),
+          py::kw_only(), py::arg("threads") = 0,
+          "Locates the points (N, dimension). Those that are not in free space get no cell, and do not move.")
+      .def("__len__", &Particles::size)
+      .def_property_readonly(
+          "positions", [](const py::object& self) { return self.cast<const Particles&>().positions(self); },
+          "float64 (N, dimension): where they are; a read-only view, no copy: it changes as they move.")
+      .def_property_readonly("cells", &Particles::cells,
+                             "int32 (N,): their cells, numbered as in the file; -1 for none.")
+      .def("move", &Particles::move, py::arg("targets"), py::kw_only(), py::arg("at_contact") = "stay",
+           py::arg("threads") = 0,
+           "Moves each particle to its target, or reports the wall that blocks it. A wall may be touched.\n\n"
+           "at_contact: \"stay\": a blocked particle stays where it was; \"stop\": it moves up to the wall, "
+           "to a position "
+           "from which its whole way is free.\n"
+           "threads: 0: all cores. The results do not depend on it.")
+      .def("__repr__",
+           [](const Particles& self) { return "<cellwalk.Particles, " + std::to_string(self.size()) + ">"; });
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What the numbers in arrays mean. They compare with arrays: ``motions.status == Status.CONTACT``."""
+
+import enum
+
+
+class Status(enum.IntEnum):
+    """What became of a motion (Motions.status)."""
+
+    FREE = 0
+    CONTACT = 1
+    OUTSIDE = 2
+    INVALID = 3
+    LOST = 4
+
+
+class Place(enum.IntEnum):
+    """Where a point is (Locations.status): in free space, only in solid cells, or in no cell."""
+
+    FREE = 0
+    SOLID = 1
+    OUTSIDE = 2
+
+
+class Feature(enum.IntEnum):
+    """Features: `kind` of the environment (VERTEX, EDGE, FACET), `body` of what moves (VERTEX, EDGE, FACE)."""
+
+    VERTEX = 0
+    EDGE = 1
+    FACET = 2
+    FACE = 2

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Environments from arrays, recipes and files, and what is said of those that are refused."""
+
+import os
+import pathlib
+import tempfile
+import unittest
+
+import numpy
+
+import cellwalk
+
+CUBE = numpy.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+HEXAHEDRON = numpy.array([[0, 1, 3, 2, 4, 5, 7, 6]])
+
+
+class FromArrays(unittest.TestCase):
+    def test_every_shape(self):
+        for cells, volume in (
+            (HEXAHEDRON, 1.0),
+            (numpy.array([[0, 1, 2, 4]]), 1 / 6),
+            (numpy.array([[0, 1, 3, 2, 4]]), 1 / 3),
+            (numpy.array([[0, 1, 2, 4, 5, 6]]), 1 / 2),
+        ):
+            environment = cellwalk.Environment(CUBE, cells)
+            self.assertAlmostEqual(environment.certificate["volume"], volume)
+            self.assertEqual((environment.dimension, environment.cell_count), (3, 1))
+        plane = cellwalk.Environment(numpy.array([[0.0, 0], [1, 0], [0, 1]]), numpy.array([[0, 1, 2]], numpy.uint8))
+        self.assertEqual((plane.dimension, plane.certificate["volume"]), (2, 0.5))
+
+    def test_points_are_a_view(self):
+        environment = cellwalk.Environment(CUBE, HEXAHEDRON)
+        self.assertTrue((environment.points == CUBE).all())
+        self.assertFalse(environment.points.flags.owndata or environment.points.flags.writeable)
+
+    def test_what_is_split_is_reported(self):
+        bent = CUBE.copy()
+        bent[7] += 0.25
+        environment = cellwalk.Environment(bent, HEXAHEDRON)
+        self.assertEqual(environment.report["changed"]["cells_split"], 1)
+        self.assertGreater(environment.cell_count, 1)
+        with self.assertRaisesRegex(cellwalk.NotCertifiedError, "cell 0"):
+            cellwalk.Environment(bent, HEXAHEDRON, split=False)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(ValueError, r"cells\[0, 3\] is 9: there are 8 points"):
+            cellwalk.Environment(CUBE, numpy.array([[0, 1, 2, 9]]))
+        with self.assertRaisesRegex(ValueError, "cells has 7 columns"):
+            cellwalk.Environment(CUBE, numpy.zeros((1, 7), int))
+        with self.assertRaisesRegex(TypeError, "cells must be an integer array"):
+            cellwalk.Environment(CUBE, numpy.zeros((1, 4)))
+        flat = numpy.array([[0, 1, 2, 3]])
+        with self.assertRaises(cellwalk.NotCertifiedError) as caught:
+            cellwalk.Environment(CUBE, flat)
+        self.assertEqual(caught.exception.code, 4)
+        self.assertIsInstance(caught.exception, (cellwalk.Error, ValueError))
+
+
+class FromRecipes(unittest.TestCase):
+    def test_options_are_numbers_flags_and_lists(self):
+        environment = cellwalk.Environment.generate("hexes", cells=(2, 3, 4), scale=2, sheared=True)
+        self.assertEqual(environment.cell_count, 24)
+        self.assertEqual(environment.certificate["volume"], 24 * 8)
+        self.assertIn("3D, 24 cells", repr(environment))
+
+    def test_mistakes_name_what_there_is(self):
+        with self.assertRaisesRegex(cellwalk.UsageError, "no generator spheres: take one of hexes, tets"):
+            cellwalk.Environment.generate("spheres")
+        with self.assertRaisesRegex(cellwalk.UsageError, "hexes has no option jitter"):
+            cellwalk.Environment.generate("hexes", jitter=0.1)
+
+
+class FromFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_there_and_back(self):
+        for kind in ("lattice", "room2d"):
+            path = self.folder / f"{kind}.ovm"
+            written = cellwalk.Environment.generate(kind)
+            written.save(path)
+            read = cellwalk.Environment.load(path)
+            self.assertEqual(read.certificate, written.certificate)
+            self.assertTrue(numpy.array_equal(read.points, written.points))
+            self.assertEqual(read.report["read"]["file"], str(path))
+
+    def test_unreadable_files(self):
+        with self.assertRaisesRegex(cellwalk.InputError, "nothing.ovm") as caught:
+            cellwalk.Environment.load(self.folder / "nothing.ovm")
+        self.assertEqual(caught.exception.code, 3)
+        broken = self.folder / "broken.off"
+        broken.write_text("OFF\n4 4 0\n0 0 0\n")
+        with self.assertRaisesRegex(cellwalk.InputError, "broken.off:"):
+            cellwalk.Environment.import_mesh(broken)
+
+    def test_import_as_the_program_does(self):
+        torus = os.environ.get("CELLWALK_TORUS")
+        if torus is None:  # a build without TetGen says so
+            surface = self.folder / "surface.off"
+            surface.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+            with self.assertRaises(cellwalk.UsageError):
+                cellwalk.Environment.import_mesh(surface)
+            return
+        environment = cellwalk.Environment.import_mesh(torus)
+        self.assertEqual(environment.report["meshed"]["mesher"], "tetgen")
+        self.assertEqual(environment.report["meshed"]["boundary_facets"], 256)
+        self.assertEqual(environment.locate(numpy.array([[1.0, 0, 0], [0, 0, 0]])).status.tolist(),
+                         [cellwalk.Place.FREE, cellwalk.Place.OUTSIDE])
+        inner = self.folder / "inner.off"
+        inner.write_text("OFF\n4 4 0\n1 0 0\n1.1 0 0\n1 0.1 0\n1 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        with_obstacle = cellwalk.Environment.import_mesh(torus, obstacles=[inner])
+        self.assertEqual(with_obstacle.report["meshed"]["boundary_facets"], 260)
+        with self.assertRaisesRegex(cellwalk.UsageError, "mesher takes tetgen, mesh3, not magic"):
+            cellwalk.Environment.import_mesh(torus, mesher="magic")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Any mesh becomes a certified environment, and every change is reported.
+#include <cellwalk/loading/environment_file.h>
+#include <cellwalk/loading/report.h>
+
+#include <fmt/core.h>
+
+namespace cellwalk {
+namespace {
+
+nlohmann::ordered_json to_json(const std::string& path, const io::Mesh_file& file) {
+  return {{"file", path},
+          {"format", file.report.format},
+          {"kind", io::kind_name(file.mesh)},
+          {"points", file.report.points},
+          {"cells", file.report.cells},
+          {"facets", file.report.facets},
+          {"notes", file.report.notes}};
+}
+
+/// One import: the stages append to the report.
+class Import {
+ public:
+  Import(const std::string& path, const Import_options& options) : path_(path), options_(options) {}
+
+  Imported_environment run() {
+    io::Mesh_file file = read(path_);
+    if (const auto* surface = std::get_if<Surface_soup>(&file.mesh)) {
+      const std::vector<Surface_soup> obstacles = read_obstacles();
+      begin("meshing " + path_);
+      return build_meshed(naming(path_, [&] { return mesh_surface(*surface, obstacles, options_.mesher); }));
+    }
+    if (!options_.obstacles.empty())
+      throw Error(Error_code::usage, fmt::format("--obstacle goes with a surface, and {} holds a {}", path_,
+                                                 io::kind_name(file.mesh)));
+    if (const auto* domain = std::get_if<Planar_domain>(&file.mesh))
+      return build_meshed(naming(path_, [&] { return mesh_domain(*domain, options_.mesher); }));
+    if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build(std::move(*soup));
+    return build(std::move(std::get<Cell_soup<3>>(file.mesh)));
+  }
+
+ private:
+  void begin(const std::string& stage) const {
+    if (options_.on_stage) options_.on_stage(stage);
+  }
+
+  io::Mesh_file read(const std::string& path) {
+    begin("reading " + path);
+    io::Mesh_file file = io::read_mesh(path);
+    const io::Read_report& found = file.report;
+    std::string line =
+        fmt::format("{}: {}, {}, {} points", path, found.format, io::kind_name(file.mesh), found.points);
+    line +=
+        found.cells != 0 ? fmt::format(", {} cells", found.cells) : fmt::format(", {} facets", found.facets);
+    std::vector<std::string> lines{line};
+    lines.insert(lines.end(), found.notes.begin(), found.notes.end());
+    report_.stages.push_back({"read", std::move(lines)});
+    report_.json["read"].push_back(to_json(path, file));
+    return file;
+  }
+
+  std::vector<Surface_soup> read_obstacles() {
+    std::vector<Surface_soup> obstacles;
+    for (const std::string& path : options_.obstacles) {
+      io::Mesh_file file = read(path);
+      auto* surface = std::get_if<Surface_soup>(&file.mesh);
+      if (surface == nullptr)
+        throw Error(Error_code::input, fmt::format("{}: holds a {}: an obstacle must be a closed surface",
+                                                   path, io::kind_name(file.mesh)));
+      obstacles.push_back(std::move(*surface));
+    }
+    return obstacles;
+  }
+
+  template <int D>
+  Imported_environment build_meshed(Meshed<D> meshed) {
+    report_.stages.push_back({"meshed", std::move(meshed.lines)});
+    report_.json["meshed"] = std::move(meshed.report);
+    return build(std::move(meshed.soup));
+  }
+
+  template <int D>
+  Imported_environment build(Cell_soup<D> soup) {
+    begin("splitting, gluing and certifying " + path_);
+    Build_report built;
+    auto environment =
+        naming(path_, [&] { return Environment<D>::build(std::move(soup), options_.build, &built); });
+    report_.stages.push_back({"changed", changes(built)});
+    report_.json["changed"] = to_json(built);
+    report_.json["certificate"] = to_json(built.certificate, D);
+    return {std::move(environment), std::move(built), std::move(report_)};
+  }
+
+  const std::string& path_;
+  const Import_options& options_;
+  Import_report report_;
+};
+
+}  // namespace
+
+Imported_environment import_environment(const std::string& path, const Import_options& options) {
+  return Import(path, options).run();
+}
+
+}  // namespace cellwalk

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/loading/report.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace cellwalk {
+
+std::string describe(const Certificate& c, int dimension) {
+  std::string text;
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  line("cells", fmt::format("{} ({} solid)", c.cells, c.solid_cells));
+  line("facets", std::to_string(c.facets));
+  line("walls",
+       fmt::format("{} ({} boundary facets, {} membranes)", c.walls, c.boundary_facets, c.membranes));
+  if (dimension == 3) line("edges", std::to_string(c.ridges));
+  line("vertices", fmt::format("{} ({} pinched)", c.vertices, c.pinched_vertices));
+  line(dimension == 3 ? "volume" : "area", rounded(c.volume));
+  line("free space", fmt::format("{} in {} component{}", rounded(c.free_volume), c.components,
+                                 c.components == 1 ? "" : "s"));
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Certificate& c, int dimension) {
+  return {{"dimension", dimension},
+          {"cells", c.cells},
+          {"solid_cells", c.solid_cells},
+          {"facets", c.facets},
+          {"walls", c.walls},
+          {"boundary_facets", c.boundary_facets},
+          {"membranes", c.membranes},
+          {"ridges", c.ridges},
+          {"vertices", c.vertices},
+          {"pinched_vertices", c.pinched_vertices},
+          {"components", c.components},
+          {"volume", c.volume},
+          {"free_volume", c.free_volume}};
+}
+
+std::vector<std::string> changes(const Build_report& built) {
+  std::vector<std::string> lines;
+  const auto changed = [&lines](std::size_t count, const char* what) {
+    if (count != 0) lines.push_back(fmt::format("{} {}", count, what));
+  };
+  if (built.flipped) lines.push_back("every cell was inverted: all turned round");
+  changed(built.merged_points, "points merged with others in the same place");
+  changed(built.unused_points, "points of no cell left out");
+  const Split_report& split = built.split;
+  if (split.cells_split != 0)
+    lines.push_back(fmt::format(
+        "{} of {} cells split into {}: {} not exactly planar, {} not exactly convex, the "
+        "others beside them",
+        split.cells_split, built.cells_read, split.cells_made, split.not_planar, split.not_convex));
+  changed(split.facets_triangulated, "facets cut into triangles");
+  changed(split.points_added, "points added inside cells");
+  if (lines.empty()) lines.push_back("nothing: every cell is exact as it is");
+  return lines;
+}
+
+nlohmann::ordered_json to_json(const Build_report& built) {
+  const Split_report& split = built.split;
+  return {{"cells_read", built.cells_read},
+          {"points_read", built.points_read},
+          {"unused_points", built.unused_points},
+          {"merged_points", built.merged_points},
+          {"flipped", built.flipped},
+          {"cells_split", split.cells_split},
+          {"cells_made", split.cells_made},
+          {"facets_triangulated", split.facets_triangulated},
+          {"points_added", split.points_added},
+          {"not_planar", split.not_planar},
+          {"not_convex", split.not_convex}};
+}
+
+std::string rounded(double value) { return fmt::format("{:.6g}", value); }
+
+}  // namespace cellwalk
