@@ -18,7 +18,7 @@ void write_failure(const std::filesystem::path& path, const Scene<D>& scene, con
   Motion_record<D> record{scene.world.soup, particle.position, to,  scene.snapshot.index(particle.cell),
                           kernel.policy,    "exit_rule",       note};
   if (kernel.strategy == Walk_strategy::certified) record.strategy = "certified";
-  io::write_motion(path, record);
+  io::write_motion_record(path, record);
 }
 
 /// Walks degenerate motions until each rounded kernel has failed in each way, or enough have been walked. Writes

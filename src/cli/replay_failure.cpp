@@ -81,7 +81,7 @@ void replay(const Motion_record<D>& record) {
 }  // namespace
 
 void replay_failure(const std::string& path) {
-  const Any_motion_record any = io::read_motion(path);
+  const Any_motion_record any = io::read_motion_record(path);
   naming(path, [&] { std::visit([](const auto& record) { replay(record); }, any); });
 }
 
@@ -97,7 +97,7 @@ void record_motion(const std::string& path, const Environment<D>& environment, c
     if (value == options.kernel) record.kernel = name;
   for (const auto& [name, value] : strategy_words)
     if (value == options.strategy) record.strategy = name;
-  io::write_motion(path, record);
+  io::write_motion_record(path, record);
 }
 
 template void record_motion<2>(const std::string&, const Environment<2>&, const Point<2>&, const Point<2>&,

@@ -69,7 +69,7 @@ Motion_record<D> motion_record(const Json_node& root) {
 }  // namespace
 
 template <int D>
-void write_motion(const std::filesystem::path& path, const Motion_record<D>& record) {
+void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record) {
   nlohmann::ordered_json json{
       {"format", format_name},       {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
       {"strategy", record.strategy}, {"from", record.from}, {"to", record.to}};
@@ -80,10 +80,10 @@ void write_motion(const std::filesystem::path& path, const Motion_record<D>& rec
   write_json(path, json);
 }
 
-template void write_motion(const std::filesystem::path&, const Motion_record<2>&);
-template void write_motion(const std::filesystem::path&, const Motion_record<3>&);
+template void write_motion_record(const std::filesystem::path&, const Motion_record<2>&);
+template void write_motion_record(const std::filesystem::path&, const Motion_record<3>&);
 
-Any_motion_record read_motion(const std::filesystem::path& path) {
+Any_motion_record read_motion_record(const std::filesystem::path& path) {
   const std::string name = path.string();
   const auto document = detail::parse_json(name, load(path));
   const Json_node root(*document, name);

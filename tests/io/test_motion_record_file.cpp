@@ -26,14 +26,14 @@ class Motion_file : public testing::Test {
   /// Reads the sample with a part of its text replaced, which must be there.
   std::string refusal(const std::string& part, const std::string& other) {
     const auto path = folder_ / "motion.json";
-    write_motion(path, sample());
+    write_motion_record(path, sample());
     std::ifstream in(path);
     std::string text((std::istreambuf_iterator<char>(in)), {});
     const std::size_t at = text.find(part);
     EXPECT_NE(at, std::string::npos) << part;
     std::ofstream(path) << text.replace(at, part.size(), other);
     try {
-      read_motion(path);
+      read_motion_record(path);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), Error_code::input);
       return error.what();
@@ -48,8 +48,8 @@ TEST_F(Motion_file, ReadsBackWhatWasWritten) {
   Motion_record<2> written = sample();
   for (const bool has_cell : {false, true}) {
     if (has_cell) written.cell = 1;
-    write_motion(folder_ / "motion.json", written);
-    const auto read = std::get<Motion_record<2>>(read_motion(folder_ / "motion.json"));
+    write_motion_record(folder_ / "motion.json", written);
+    const auto read = std::get<Motion_record<2>>(read_motion_record(folder_ / "motion.json"));
     EXPECT_EQ(read.soup.points, written.soup.points);
     EXPECT_EQ(read.soup.cell_begin, written.soup.cell_begin);
     EXPECT_EQ(read.soup.facet_begin, written.soup.facet_begin);
@@ -71,8 +71,8 @@ TEST_F(Motion_file, ReadsTetrahedra) {
   add_tetrahedron(written.soup, 0, 1, 2, 3);
   written.from = {0.1, 0.2, 0.3};
   written.to = {1, 1, 1};
-  write_motion(folder_ / "motion.json", written);
-  const auto read = std::get<Motion_record<3>>(read_motion(folder_ / "motion.json"));
+  write_motion_record(folder_ / "motion.json", written);
+  const auto read = std::get<Motion_record<3>>(read_motion_record(folder_ / "motion.json"));
   EXPECT_EQ(read.soup.vertices, written.soup.vertices);
   EXPECT_EQ(read.from, written.from);
 }

@@ -11,11 +11,11 @@ namespace cellwalk::io {
 
 /// Coordinates are written so that they read back the same. \throw Error(other) where the file cannot be written
 template <int D>
-void write_motion(const std::filesystem::path& path, const Motion_record<D>& record);
+void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record);
 
 /// Nothing is guessed: unknown and missing keys, wrong types and indices out of range are refused.
 /// \throw Error(input) `FILE: key.path: what is wrong`
-Any_motion_record read_motion(const std::filesystem::path& path);
+Any_motion_record read_motion_record(const std::filesystem::path& path);
 
 }  // namespace cellwalk::io
 
