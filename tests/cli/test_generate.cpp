@@ -41,7 +41,8 @@ TEST_F(Generate, EveryKindIsCertifiedAndTheSameEveryTime) {
 
 TEST_F(Generate, HelpNamesEveryKindTestedHere) {
   const std::string help = succeed({"generate", "--help"});
-  const std::string list = help.substr(help.find("Subcommands:"));
+  const std::size_t begin = help.find("Subcommands:");
+  const std::string list = help.substr(begin, help.find("\n\n", begin) - begin);
   std::size_t listed = 0;
   for (std::size_t at = list.find("\n  "); at != std::string::npos; at = list.find("\n  ", at + 1))
     listed += list[at + 3] != ' ';
