@@ -80,13 +80,18 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
                invalid->invalid, tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
+/// Nothing is answered where the record that is wanted cannot be written.
+template <int D>
+void check_row(const Query_options& options, const std::vector<Move_query<D>>& moves) {
+  if (options.row && (*options.row >= moves.size() || !moves[*options.row].invalid.empty()))
+    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
+}
+
 /// Writes the record of the row that is wanted.
 template <int D>
 void record_row(const Query_options& options, const Environment<D>& environment,
                 const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
   const std::size_t row = *options.row;
-  if (row >= moves.size() || !moves[row].invalid.empty())
-    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", row));
   const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
   record_motion(options.record, environment, moves[row].points[0], moves[row].points[1], options.move,
                 fmt::format("row {} of a query: {}", row, status));
@@ -98,6 +103,7 @@ void query_environment(const Query_options& options, const Environment<D>& envir
   Edge_counts counts;
   if (options.mode == Query_mode::move) {
     const auto moves = io::read_moves<D>(options.queries);
+    check_row(options, moves);
     const Locator<D> locator(snapshot);
     const auto answers =
         answer_rows(moves, "walking", counts, [&](const Move_query<D>& move, Edge_counts& local) {
