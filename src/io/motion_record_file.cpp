@@ -2,6 +2,8 @@
 #include <cellwalk/io/json_file.h>
 #include <cellwalk/io/motion_record_file.h>
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "json_node.h"
@@ -90,7 +92,7 @@ Any_motion_record read_motion_record(const std::filesystem::path& path) {
   root.expect_keys(
       {"format", "dimension", "note", "kernel", "strategy", "from", "to", "cell", "points", "cells"});
   if (root.at("format").string() != format_name)
-    root.at("format").fail(std::string("expected \"") + format_name + "\"");
+    root.at("format").fail(fmt::format("expected \"{}\"", format_name));
   if (root.at("dimension").integer_in(2, 3) == 2) return motion_record<2>(root);
   return motion_record<3>(root);
 }
