@@ -3,7 +3,6 @@
 #include <cellwalk/io/motion_record_file.h>
 
 #include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "json_node.h"
