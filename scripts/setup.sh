@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Installs what a task needs from Debian's packages, and only what is missing. Safe to repeat.
 #
-#   scripts/setup.sh [--for demo|test|dev|package|peers|paper|docs] [--print]
+#   scripts/setup.sh [--for demo|test|ci|dev|package|peers|paper|docs] [--print]
 #
 #   demo  build and run the program            test   also Gmsh, VTK, Python, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
-#   package  build the Debian packages, and a clean root to try them in
+#   ci    test and ccache                      package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -31,7 +31,7 @@ while [ $# -gt 0 ]; do
     --for) purpose=${2:-}; shift ;;
     --for=*) purpose=${1#--for=} ;;
     --print) only_print=true ;;
-    *) echo "setup.sh: unknown argument $1; use --for demo|test|dev|package|peers|paper|docs or --print" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown argument $1; use --for demo|test|ci|dev|package|peers|paper|docs or --print" >&2; exit 2 ;;
   esac
   shift
 done
@@ -40,15 +40,16 @@ packages=("${core[@]}" "${meshing[@]}" "${pictures[@]}")
 case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
+  ci) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" ccache) ;;
   dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${tools[@]}") ;;
   package) packages+=("${io[@]}" "${python[@]}" dpkg-dev debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
   docs) packages=("${documentation[@]}") ;;
-  *) echo "setup.sh: --for takes demo, test, dev, package, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
+  *) echo "setup.sh: --for takes demo, test, ci, dev, package, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
 esac
 
-if [ "$purpose" = test ] || [ "$purpose" = dev ]; then
+if [ "$purpose" = test ] || [ "$purpose" = ci ] || [ "$purpose" = dev ]; then
   command -v npm >/dev/null || packages+=("${node[@]}")
 fi
 
