@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/clear_region.h>
 
-#include <boost/container/small_vector.hpp>
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
@@ -35,8 +34,9 @@ constexpr std::size_t blocks_at_once = 16;
 template <int D>
 class Region_search {
  public:
+  /// \param found scratch space
   Region_search(const Snapshot<D>& snapshot, const Particle<D>& anchor, const Region_request<D>& request,
-                Region_effort& effort)
+                Region_effort& effort, std::vector<Cell>& found)
       : snapshot_(snapshot),
         request_(request),
         effort_(effort),
@@ -44,7 +44,8 @@ class Region_search {
         wanted_(kept_),
         positions_(request.positions),
         targets_(request.targets),
-        region_(anchor, kept_.low, kept_.high) {
+        region_(anchor, kept_.low, kept_.high),
+        found_(found) {
     const Box<D> targets = box_of<D>(request.targets);
     wanted_.extend(targets);
     double step = 0;
@@ -67,7 +68,7 @@ class Region_search {
 
   bool find() {
     if (!is_finite(sizes_)) return false;
-    found_.push_back(region_.anchor().cell);
+    found_.assign(1, region_.anchor().cell);
     bool is_good = true;
     for (std::size_t head = 0; is_good && head < found_.size(); ++head) is_good = visit(found_[head]);
     effort_.cells += found_.size();
@@ -82,22 +83,20 @@ class Region_search {
     const std::size_t blocks = snapshot_.block_count(cell);
     for (std::size_t begin = 0; begin < blocks; begin += blocks_at_once) {
       // A bit a facet; lanes without one are met where the planes say nothing.
-      std::uint64_t met = 0;
+      std::uint64_t met = 0, walls = 0;
       if (!is_mapped_) map_box();
       const std::size_t end = std::min(blocks, begin + blocks_at_once);
-      for (std::size_t b = begin; b < end; ++b)
+      for (std::size_t b = begin; b < end; ++b) {
         met |= std::uint64_t{facets_met(snapshot_.blocks(cell)[b])} << 4 * (b - begin);
+        walls |= std::uint64_t{snapshot_.impassable_facets(cell, b)} << 4 * (b - begin);
+      }
       const auto facet = [begin](std::uint64_t bits) {
         return 4 * begin + static_cast<std::size_t>(std::countr_zero(bits));
       };
-      for (std::uint64_t left = met; left != 0; left &= left - 1) {
-        const std::size_t i = facet(left);
-        if (!snapshot_.is_impassable(Snapshot<D>::half_facet(cell, i))) continue;
-        met ^= left & -left;
-        if (!cut_off(snapshot_.view(cell), i)) return false;
-      }
-      for (; met != 0; met &= met - 1)
-        if (!enter(cell, facet(met))) return false;
+      for (std::uint64_t left = met & walls; left != 0; left &= left - 1)
+        if (!cut_off(snapshot_.view(cell), facet(left))) return false;
+      for (std::uint64_t left = met & ~walls; left != 0; left &= left - 1)
+        if (!enter(cell, facet(left))) return false;
     }
     return true;
   }
@@ -174,8 +173,10 @@ class Region_search {
   /// Makes the region smaller until it holds no point of a facet. False if it cannot, without losing its anchor, or positions if
   /// they may not be lost.
   bool cut_off(const Cell_view<D>& cell, std::size_t i, bool may_lose = true) {
-    Box<D> facet;
-    for (const std::uint16_t v : cell.loop(i)) facet.extend(cell.point(v));
+    const auto loop = cell.loop(i);
+    detail::Pair_box<D> bounds(cell.point(loop[0]));
+    for (const std::uint16_t v : loop.subspan(1)) bounds.extend(cell.point(v));
+    const Box<D> facet = bounds.box();
     for (int k = 0; k < D; ++k)
       if (facet.low[k] >= region_.box().high(k) || facet.high[k] <= region_.box().low(k)) return true;
     for (const Cut_plane<D>& plane : planes_)
@@ -328,7 +329,7 @@ class Region_search {
   Clear_region<D> region_;
   double enough_ = 0;  ///< distance
   Point<D> sizes_;     ///< the largest size of each coordinate in it
-  boost::container::small_vector<Cell, 64> found_;
+  std::vector<Cell>& found_;
   std::vector<Cell> table_;  ///< of those found, by hash
   boost::container::static_vector<Cut_plane<D>, Clear_region<D>::most_planes> planes_;
   // The box in the frame, each bound in all lanes.
@@ -341,7 +342,8 @@ class Region_search {
 template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,
                                                  const Region_request<D>& request, Region_effort& effort) {
-  Region_search<D> search(snapshot, anchor, request, effort);
+  thread_local std::vector<Cell> found;
+  Region_search<D> search(snapshot, anchor, request, effort, found);
   if (!search.find()) return {};
   return search.region();
 }

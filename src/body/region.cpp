@@ -29,12 +29,12 @@ void Body<D>::take_all(std::span<const Point<D>> targets, Body_counts& counts) {
 template <int D>
 bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_options& options,
                             Body_counts& counts) {
-  counts.moves += positions_.size();
+  counts.moves += targets.size();
   if (options.clearance && region_ && outside_ == 0 && region_->holds_all(targets)) [[likely]] {
     take_all(targets, counts);
     return true;
   }
-  return positions_.empty() || moves_in_new_region(targets, options, counts);
+  return targets.empty() || moves_in_new_region(targets, options, counts);
 }
 
 /// The same where the region that there is does not do. Not to be inlined: the question above is short.
@@ -59,8 +59,6 @@ bool Body<D>::moves_in_region(std::uint32_t vertex, const Point<D>& target, Body
   if (!region_ || is_outside_[vertex] || outside_near_[vertex] != 0 || !region_->holds(target)) return false;
   positions_[vertex] = target;
   vertex_behind_[vertex] = true;
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
-    edge_behind_[corners_[i].edge] = true;
   if (!faces_.empty())
     for (std::uint32_t i = face_corner_begin_[vertex]; i < face_corner_begin_[vertex + 1]; ++i)
       rests_[face_corners_[i].face].clear();
@@ -90,10 +88,12 @@ bool Body<D>::renew_region(std::span<const Point<D>> targets, Body_counts& count
   steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_
                                      : std::min(2 * steps_ahead_ + 1, Region_request<D>{}.steps_ahead);
   // What leaves the old region is registered while that is still there.
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    set_outside(v, !found || !found->holds(positions_[v]));
-    if (is_outside_[v]) catch_up_vertex(v, counts);
-  }
+  const bool holds_all = found && found->holds_all(positions_);
+  if (outside_ != 0 || !holds_all)
+    for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+      set_outside(v, !found || !found->holds(positions_[v]));
+      if (is_outside_[v]) catch_up_vertex(v, counts);
+    }
   region_ = found;
   ++(found ? counts.regions : counts.no_region);
   if (found && outside_ == 0) {
@@ -113,7 +113,6 @@ void Body<D>::note_all_behind() {
   if (!are_all_behind_) return;
   are_all_behind_ = false;
   std::fill(vertex_behind_.begin(), vertex_behind_.end(), true);
-  std::fill(edge_behind_.begin(), edge_behind_.end(), true);
   for (Face_rests& rests : rests_) rests.clear();
 }
 
@@ -121,6 +120,8 @@ template <int D>
 void Body<D>::catch_up_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!vertex_behind_[vertex]) return;
   vertex_behind_[vertex] = false;
+  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
+    edge_behind_[corners_[i].edge] = true;
   Particle<D>& particle = particles_[vertex];
   const Point<D>& position = positions_[vertex];
   // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.

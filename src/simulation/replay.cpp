@@ -19,7 +19,7 @@ Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Tra
   options_.sweep.sweep = options.sweep;
   options_.clearance = options.clearance;
   bodies_.reserve(trace.bodies);
-  answers_.reserve(trace.moves());
+  answers_.resize(trace.moves());
   for (std::uint32_t b = 0; b < trace.bodies; ++b) {
     try {
       bodies_.emplace_back(snapshot, locator,
@@ -39,8 +39,6 @@ Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Tra
 }
 
 void Replay::step() {
-  const std::size_t first = answers_.size();
-  answers_.resize(first + trace_->bodies * trace_vertices);
   for (std::uint32_t b = 0; b < trace_->bodies; ++b) {
     blocked_.clear();
     bodies_[b].step_or_stay({&trace_->target(steps_done_, b, 0), trace_vertices}, options_, blocked_,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -40,12 +41,32 @@ inline Double2 lane_max(Double2 a, Double2 b) {
   return a > b ? a : b;
 #endif
 }
-/// One bit a lane in which a < b.
-inline int less_mask(Double2 a, Double2 b) {
+/// Of each lane, whether it is true.
 #if defined(__SSE2__)
-  return _mm_movemask_pd(_mm_cmplt_pd(a, b));
+using Truth2 = __m128d;
 #else
-  return (a[0] < b[0]) | (a[1] < b[1]) << 1;
+using Truth2 = std::int64_t __attribute__((vector_size(16)));
+#endif
+
+inline Truth2 less(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_cmplt_pd(a, b);
+#else
+  return a < b;
+#endif
+}
+inline Truth2 both(Truth2 a, Truth2 b) {
+#if defined(__SSE2__)
+  return _mm_and_pd(a, b);
+#else
+  return a & b;
+#endif
+}
+inline bool all_true(Truth2 lanes) {
+#if defined(__SSE2__)
+  return _mm_movemask_pd(lanes) == 3;
+#else
+  return (lanes[0] & lanes[1]) != 0;
 #endif
 }
 
@@ -114,6 +135,34 @@ struct Box {
       high[k] = std::max(high[k], other.high[k]);
     }
   }
+};
+
+/// The box of points that lie anywhere, in two pairs of lanes: the first two coordinates, and the last two.
+template <int D>
+class Pair_box {
+ public:
+  explicit Pair_box(const Point<D>& x)
+      : low_{load(x.data()), load(x.data() + D - 2)}, high_{low_[0], low_[1]} {}
+  /// \pre no NaNs
+  void extend(const Point<D>& x) {
+    const Double2 pairs[2] = {load(x.data()), load(x.data() + D - 2)};
+    for (int i = 0; i < 2; ++i) {
+      low_[i] = lane_min(low_[i], pairs[i]);
+      high_[i] = lane_max(high_[i], pairs[i]);
+    }
+  }
+  Box<D> box() const {
+    Box<D> box;
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::size_t pair = k / 2, lane = pair == 0 ? k : 1;
+      box.low[k] = low_[pair][lane];
+      box.high[k] = high_[pair][lane];
+    }
+    return box;
+  }
+
+ private:
+  Double2 low_[2], high_[2];
 };
 
 /// \pre the points are finite

@@ -72,6 +72,13 @@ class Snapshot {
   /// The number of a half-facet in its cell.
   std::size_t facet_of(Half_facet f) const { return to_index(f) - 4 * to_index(cell_of(f)); }
   bool is_impassable(Half_facet f) const { return links_[to_index(f)] & wall_bit; }
+  /// The impassable facets (bits) of a block of a cell.
+  unsigned impassable_facets(Cell c, std::size_t block) const {
+    Int4 links_of_block;
+    std::memcpy(&links_of_block, links(c) + 4 * block, sizeof(links_of_block));
+    static_assert(wall_bit == 1u << 31, "walls are those whose links are negative");
+    return lane_mask(links_of_block < 0);
+  }
   /// True if the union of the two cells is convex and every facet they share is passable.
   bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.

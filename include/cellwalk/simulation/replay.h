@@ -52,7 +52,9 @@ class Replay {
 
   std::uint32_t steps_done() const { return steps_done_; }
   /// Answers so far, [step][body][vertex]: bits 0 to 3, and with Sweep::triangle bits 4 to 6.
-  std::span<const std::uint8_t> answers() const { return answers_; }
+  std::span<const std::uint8_t> answers() const {
+    return std::span(answers_).first(trace_->index(steps_done_, 0, 0));
+  }
   /// In the order met.
   std::span<const Replay_contact> contacts() const { return contacts_; }
   std::span<const Body<3>> bodies() const { return bodies_; }
@@ -70,7 +72,7 @@ class Replay {
   /// Of each vertex, which of its three edges leads to its i-th neighbour.
   std::array<std::array<std::uint8_t, trace_edges>, trace_vertices> edge_of_{};
   std::vector<Blocked_move<3>> blocked_;  ///< in one step of one body
-  std::vector<std::uint8_t> answers_;
+  std::vector<std::uint8_t> answers_;     ///< of all moves, the coming ones with none
   std::vector<Replay_contact> contacts_;
   std::uint32_t steps_done_ = 0;
   Replay_counts counts_;
