@@ -11,7 +11,7 @@ namespace {
 /// Steps without a search after one that lost a target: a wall is in its way, and may be for a while.
 constexpr std::uint32_t patience_with_targets = 6;
 /// After one that lost positions; twice as many after each of those in a row.
-constexpr std::uint32_t least_patience = 3, most_patience = 64;
+constexpr std::uint32_t least_patience = 1, most_patience = 64;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 
