@@ -31,7 +31,6 @@ Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body
     : snapshot_(&snapshot),
       positions_(soup.points),
       edges_(soup.edges),
-      faces_(soup.faces),
       is_outside_(soup.points.size()),
       outside_near_(soup.points.size()),
       vertex_behind_(soup.points.size()),
@@ -40,7 +39,8 @@ Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body
   particles_ = std::move(registered.particles);
   chains_ = std::move(registered.chains);
   link_edges();
-  if (D != 3 || faces_.empty()) return;
+  if (D != 3 || soup.faces.empty()) return;
+  faces_ = soup.faces;
   link_faces();
   Face_counts counts;
   register_faces(Error_code::outside, counts);

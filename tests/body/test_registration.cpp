@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "body/rooms.h"
 
@@ -30,6 +31,21 @@ TEST(Registration, FindsCellsAndChains) {
   const Body<3> body(snapshot, Locator<3>(snapshot), soup);
   EXPECT_EQ(body.chain(0).size(), 2u);
   EXPECT_TRUE(body.chain(1).empty());
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST(Registration, LooksAtNoFacesInThePlane) {
+  const Snapshot<2> snapshot = rooms<2>({3, 3}, {});
+  const Body_soup<2> soup{{{1.2, 1.2}, {1.6, 1.2}, {1.4, 1.6}}, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}};
+  Body<2> body(snapshot, Locator<2>(snapshot), soup);
+  EXPECT_TRUE(body.faces().empty());
+  std::vector<Body_contact<2>> contacts;
+  Body_counts counts;
+  std::vector<Point<2>> targets(soup.points);
+  for (Point<2>& x : targets) x[0] += 3;
+  body.step(targets, {}, contacts, counts);
+  EXPECT_FALSE(contacts.empty());
+  body.catch_up(counts);
   EXPECT_NO_THROW(body.validate());
 }
 

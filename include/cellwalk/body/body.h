@@ -77,7 +77,7 @@ template <int D>
 class Body {
  public:
   /// Registers a body where it stands. A vertex on a wall with free space on several sides gets one from which all its
-  /// edges can be passed; which one, where several will do, is arbitrary but fixed.
+  /// edges can be passed; which one, where several will do, is arbitrary but fixed. Faces in the plane are not looked at.
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the face that a wall
   ///        pierces, and where
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
