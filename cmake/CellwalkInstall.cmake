@@ -41,14 +41,13 @@ install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/c
         DESTINATION ${package_dir} COMPONENT dev)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
-        FILES_MATCHING PATTERN *.h PATTERN cli EXCLUDE PATTERN meshing EXCLUDE PATTERN loading EXCLUDE)
-set(loading_headers loading)
-if("meshing" IN_LIST CELLWALK_COMPONENTS)
-  list(APPEND loading_headers meshing)
-endif()
-foreach(folder ${loading_headers})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk
-          COMPONENT meshing FILES_MATCHING PATTERN *.h)
+        FILES_MATCHING PATTERN *.h PATTERN cli EXCLUDE PATTERN io EXCLUDE PATTERN meshing EXCLUDE PATTERN loading EXCLUDE)
+foreach(component IN LISTS CELLWALK_COMPONENTS)
+  if(NOT component STREQUAL core)
+    cellwalk_package_of(package ${component})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk/${component} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk
+            COMPONENT ${package} FILES_MATCHING PATTERN *.h)
+  endif()
 endforeach()
 
 include(CellwalkPkgConfig)

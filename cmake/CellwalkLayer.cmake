@@ -32,10 +32,13 @@ function(cellwalk_layer name)
   set_property(GLOBAL APPEND PROPERTY CELLWALK_LAYERS_${LAYER_COMPONENT} ${name})
 endfunction()
 
-# The package (a component of install rules and of CPack) that holds a component of the library: what needs the GPL part is apart.
+# The package (a component of install rules and of CPack) that holds a component of the library: what needs the readers' libraries is
+# apart, and so is what needs the GPL part.
 function(cellwalk_package_of out component)
   if(component STREQUAL meshing OR component STREQUAL loading)
     set(${out} meshing PARENT_SCOPE)
+  elseif(component STREQUAL io)
+    set(${out} io PARENT_SCOPE)
   else()
     set(${out} dev PARENT_SCOPE)
   endif()

@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Debian packages by CPack, one for each component of the install rules:
 #   cellwalk                 tools    the program
-#   libcellwalk-dev          dev      headers and libraries of core and io
+#   libcellwalk-dev          dev      headers and libraries of the core, which need no reader's libraries
+#   libcellwalk-io-dev       io       those of io, which need what its readers are built with: Gmsh, VTK
 #   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
 #   python3-cellwalk         python   the Python module
 # Configure with CMAKE_INSTALL_PREFIX=/usr; scripts/package.sh does.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cellwalk)
 set(CPACK_PACKAGE_VENDOR Cellwalk)
-set(CPACK_PACKAGE_CONTACT "Cellwalk developers <cellwalk@localhost>")
+# Who builds packages for others puts an address of their own here. The default reaches nobody, on purpose (RFC 2606).
+set(CELLWALK_PACKAGE_CONTACT "Cellwalk maintainers <maintainers@cellwalk.invalid>" CACHE STRING
+    "Maintainer of the Debian packages: NAME <ADDRESS>")
+if(NOT CELLWALK_PACKAGE_CONTACT MATCHES "^[^<>\n]*[^<> \n] <[^<>@ \n]+@[^<>@ \n]+>$")
+  message(FATAL_ERROR "CELLWALK_PACKAGE_CONTACT is '${CELLWALK_PACKAGE_CONTACT}': Debian wants NAME <ADDRESS>, as in "
+                      "-DCELLWALK_PACKAGE_CONTACT='Ada Lovelace <ada@example.org>'")
+endif()
+set(CPACK_PACKAGE_CONTACT "${CELLWALK_PACKAGE_CONTACT}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL dev)
@@ -17,28 +25,37 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-set(dev_depends libcgal-dev libboost-dev libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
-if(TARGET Gmsh::Gmsh)
-  list(APPEND dev_depends libgmsh-dev)
-endif()
-if(TARGET VTK::IOXML)
-  list(APPEND dev_depends libvtk9-dev)
-endif()
-list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcellwalk-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static libraries")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+  "libcgal-dev, libboost-dev, libeigen3-dev, libtbb-dev, libfmt-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libcellwalk-io-dev, libcellwalk-meshing-dev")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static libraries of the core")
+
+# What only walks is not to pay for what reads: libvtk9-dev brings Java, Qt and more, 2.2 GB with all else, 0.3 GB without.
+list(APPEND CPACK_COMPONENTS_ALL io)
+set(io_depends "libcellwalk-dev (= ${PROJECT_VERSION})" zlib1g-dev)
+if(TARGET Gmsh::Gmsh)
+  list(APPEND io_depends libgmsh-dev)
+endif()
+if(TARGET VTK::IOXML)
+  list(APPEND io_depends libvtk9-dev)
+endif()
+list(JOIN io_depends ", " CPACK_DEBIAN_IO_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_IO_PACKAGE_NAME libcellwalk-io-dev)
+set(CPACK_DEBIAN_IO_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_IO_DESCRIPTION "Readers and writers of Cellwalk, for libcellwalk-dev")
 
 list(APPEND CPACK_COMPONENTS_ALL meshing)
 set(CPACK_DEBIAN_MESHING_PACKAGE_NAME libcellwalk-meshing-dev)
 set(CPACK_DEBIAN_MESHING_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS "libcellwalk-dev (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS "libcellwalk-io-dev (= ${PROJECT_VERSION})")
 if(TARGET TetGen::TetGen)
   string(APPEND CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS ", libtet1.5-dev")
 endif()
 set(CPACK_COMPONENT_MESHING_DESCRIPTION "Environments of surfaces, polygons and files, for libcellwalk-dev (GPL)")
 
-set(licences dev meshing)
+set(licences dev io meshing)
 if(TARGET cellwalk_cli)
   list(APPEND CPACK_COMPONENTS_ALL tools)
   list(APPEND licences tools)
@@ -58,11 +75,13 @@ if(TARGET cellwalk_python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
 endif()
 
-# Programs are under the GPL where they are built with parts that are.
+# Everything but the core is under the GPL where it is built with parts that are.
 foreach(component ${licences})
   string(TOUPPER ${component} upper)
   set(licence LICENSE)
-  if(NOT component STREQUAL dev AND TARGET cellwalk::meshing)
+  if(component STREQUAL io AND TARGET Gmsh::Gmsh)
+    set(licence COPYING.GPL)
+  elseif(NOT component MATCHES "^(dev|io)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
     set(licence COPYING.GPL)
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} RENAME copyright COMPONENT ${component}

@@ -5,6 +5,8 @@
 #   scripts/package.sh [--check]
 #
 #   --check  also installs and uses them in a clean Debian of their own (scripts/check_packages.sh)
+#
+# CELLWALK_PACKAGE_CONTACT='NAME <ADDRESS>' is who maintains them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -20,7 +22,9 @@ scripts/setup.sh --for package
 echo "package: building build/package"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-cmake --preset package >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+contact=()
+[ -z "${CELLWALK_PACKAGE_CONTACT:-}" ] || contact=(-DCELLWALK_PACKAGE_CONTACT="$CELLWALK_PACKAGE_CONTACT")
+cmake --preset package "${contact[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 cmake --build --preset package --parallel
 rm -rf out/packages
 cpack --config build/package/CPackConfig.cmake -B "$PWD/out/packages" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }

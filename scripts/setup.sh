@@ -14,7 +14,6 @@ set -euo pipefail
 core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
       zlib1g-dev)
 meshing=(libtet1.5-dev)
-pictures=(libpng-dev)
 io=(libgmsh-dev libvtk9-dev)
 python=(pybind11-dev python3-dev python3-numpy)
 tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev clang-format chromium)
@@ -36,7 +35,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-packages=("${core[@]}" "${meshing[@]}" "${pictures[@]}")
+packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;

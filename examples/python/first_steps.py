@@ -54,3 +54,8 @@ body.validate()  # exact: no wall crosses a vertex, an edge or a face
 print(f"step {step}: vertex {contacts['vertex'][0]} meets the wall z = {contacts['point'][0, 2]:g}")
 print("lowest vertex:", body.positions[:, 2].min())
 ## [body]
+
+## [stay]
+blocked = body.step_or_stay(body.positions - [0.0, 0.0, 0.25])
+print("stay:", blocked["vertex"][blocked["stays"]], "z of the others:", numpy.delete(body.positions[:, 2], blocked["vertex"]))
+## [stay]

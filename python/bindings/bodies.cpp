@@ -8,45 +8,18 @@
 #include <pybind11/stl.h>
 
 #include <mutex>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "body_rows.h"
 #include "module.h"
 #include "motions.h"
 #include "options.h"
 
 namespace cellwalk::python {
 namespace {
-
-/// A row of the table of contacts of a body.
-template <int D>
-struct Body_contact_row {
-  double time;
-  std::array<double, D> point, normal;
-  std::uint32_t vertex, feature;
-  std::int32_t cell;
-  std::uint32_t facet, kind, body;
-};
-// No padding: equal rows are equal bytes.
-static_assert(sizeof(Body_contact_row<2>) == 5 * sizeof(double) + 24 &&
-              sizeof(Body_contact_row<3>) == 7 * sizeof(double) + 24);
-using Body_contact_row_2 = Body_contact_row<2>;
-using Body_contact_row_3 = Body_contact_row<3>;
-
-template <int D>
-Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& met) {
-  const Contact<D>& contact = met.contact;
-  return {contact.time,
-          contact.point,
-          contact.normal,
-          met.vertex,
-          met.feature,
-          number_of(snapshot, snapshot.cell_of(contact.facet)),
-          static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
-          static_cast<std::uint32_t>(contact.kind),
-          static_cast<std::uint32_t>(contact.body)};
-}
 
 template <int D>
 Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, const py::object& faces) {
@@ -111,9 +84,7 @@ class Any_body {
   py::array step(const py::object& targets, const Body_options& options) {
     return std::visit(
         [&]<int D>(Body<D>& body) -> py::array {
-          const auto to = points_of<D>(targets, "targets");
-          need_equal(to.size(), "targets", body.vertex_count(), "the body");
-          for (std::size_t i = 0; i < to.size(); ++i) need_finite(to[i], i);
+          const auto to = targets_of(body, targets);
           std::vector<Body_contact_row<D>> rows;
           {
             const py::gil_scoped_release released;
@@ -128,10 +99,32 @@ class Any_body {
         body_);
   }
 
+  py::array step_or_stay(const py::object& targets, const Body_options& options) {
+    return std::visit(
+        [&]<int D>(Body<D>& body) -> py::array {
+          const auto to = targets_of(body, targets);
+          need_few_edges(body);
+          std::vector<Blocked_row<D>> rows;
+          {
+            const py::gil_scoped_release released;
+            const std::lock_guard guard(*moving_);
+            std::vector<Blocked_move<D>> blocked;
+            body.step_or_stay(to, options, blocked, counts_);
+            const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
+            for (const Blocked_move<D>& move : blocked) rows.push_back(to_row(snapshot, move));
+          }
+          return to_array(std::move(rows));
+        },
+        body_);
+  }
+
+  py::array_t<std::uint32_t> neighbours(std::uint32_t vertex) const {
+    need_vertex(vertex);
+    return std::visit([&](const auto& body) { return to_array(body.neighbours(vertex)); }, body_);
+  }
+
   py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options) {
-    if (vertex >= vertex_count())
-      throw py::index_error(
-          fmt::format("there is no vertex {}: the body has {}, numbered from 0", vertex, vertex_count()));
+    need_vertex(vertex);
     return std::visit(
         [&]<int D>(Body<D>& body) -> py::array {
           const auto to = target.cast<std::array<double, D>>();
@@ -182,6 +175,33 @@ class Any_body {
         any);
   }
 
+  void need_vertex(std::uint32_t vertex) const {
+    if (vertex >= vertex_count())
+      throw py::index_error(
+          fmt::format("there is no vertex {}: the body has {}, numbered from 0", vertex, vertex_count()));
+  }
+
+  template <int D>
+  static std::span<const Point<D>> targets_of(const Body<D>& body, const py::object& targets) {
+    const auto to = points_of<D>(targets, "targets");
+    need_equal(to.size(), "targets", body.vertex_count(), "the body");
+    for (std::size_t i = 0; i < to.size(); ++i) need_finite(to[i], i);
+    return to;
+  }
+
+  /// Each edge of a vertex has a bit.
+  template <int D>
+  void need_few_edges(const Body<D>& body) {
+    if (has_few_edges_) return;
+    constexpr std::size_t most = 64;
+    for (std::uint32_t v = 0; v < body.vertex_count(); ++v)
+      if (const std::size_t count = body.neighbours(v).size(); count > most)
+        throw py::value_error(
+            fmt::format("vertex {} has {} edges: step_or_stay() takes at most {} a vertex, step() any number",
+                        v, count, most));
+    has_few_edges_ = true;
+  }
+
   template <std::size_t N>
   static py::array_t<std::uint32_t> table_of(std::span<const std::array<std::uint32_t, N>> rows) {
     py::array_t<std::uint32_t> table({rows.size(), N});
@@ -192,6 +212,7 @@ class Any_body {
   std::shared_ptr<const Any_world> world_;
   Bodies body_;
   Body_counts counts_;
+  bool has_few_edges_ = false;  ///< known to
   std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
 };
 
@@ -209,6 +230,10 @@ Body_options to_options(const Sweep_words& words, bool clearance, int most_conta
 void bind_bodies(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Body_contact_row_2, vertex, feature, time, point, normal, kind, body, cell, facet);
   PYBIND11_NUMPY_DTYPE(Body_contact_row_3, vertex, feature, time, point, normal, kind, body, cell, facet);
+  PYBIND11_NUMPY_DTYPE(Blocked_row_2, vertex, stays, is_vertex_blocked, edges, swept_edges, time, point,
+                       normal, kind, cell, facet);
+  PYBIND11_NUMPY_DTYPE(Blocked_row_3, vertex, stays, is_vertex_blocked, edges, swept_edges, time, point,
+                       normal, kind, cell, facet);
   py::class_<Any_body>(
       module, "Body",
       "A body among walls: no wall ever crosses its vertices and edges, nor its faces while it is moved with "
@@ -255,6 +280,34 @@ void bind_bodies(py::module_& module) {
           "most_contacts: a vertex that met so many walls in a step stays until the next. hold: it stays at "
           "the first, where "
           "it was.")
+      .def(
+          "step_or_stay",
+          [](Any_body& self, const py::object& targets, const std::string& sweep, bool clearance) {
+            Body_options options;
+            options.sweep.sweep = choose<Sweep>(
+                sweep, "sweep", {{"triangle", Sweep::triangle}, {"three_segments", Sweep::three_segments}});
+            options.clearance = clearance;
+            return self.step_or_stay(targets, options);
+          },
+          py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("clearance") = true,
+          "Moves the vertices one after the other by the rule of the paper: a vertex that meets a wall, or "
+          "would "
+          "have an edge that does where it goes, stays where it is. Touching is free; no contact is located, "
+          "and faces are not looked at. Returns what blocks, vertex by vertex, as a structured array: "
+          "vertex, "
+          "stays, is_vertex_blocked, edges and swept_edges (bit i is for neighbours(vertex)[i]), time, "
+          "point, "
+          "normal, kind, cell, facet. A vertex without a row moved, and nothing was met.\n\n"
+          "edges: a wall is in their way where the vertex would be. The wall of the row is that in the way "
+          "of "
+          "the vertex or, if that is free, of the first of these edges, with time and point along the edge.\n"
+          "swept_edges, unless sweep is \"three_segments\": a wall is in their way while they sweep their "
+          "triangles, which does not hold the vertex back: where nothing else does, stays is False, time is "
+          "nan "
+          "and cell is -1.\n"
+          "No vertex may have more than 64 edges.")
+      .def("neighbours", &Any_body::neighbours, py::arg("vertex"),
+           "uint32 (K,): the other ends of the edges of a vertex, ascending.")
       .def(
           "move_vertex",
           [](Any_body& self, std::uint32_t vertex, const py::object& target, const std::string& sweep,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "motions.h"
 
+#include <limits>
+
 #include "module.h"
 
 namespace cellwalk::python {
@@ -16,6 +18,17 @@ const py::object& Motions::cell_numbers() {
       },
       *world);
   return cell = std::move(numbers);
+}
+
+const py::object& Motions::times() {
+  if (!time.is_none()) return time;
+  py::array_t<double> all(handles.size());
+  const std::uint32_t* const handle = handles.data();
+  double* const when = all.mutable_data();
+  for (std::size_t i = 0; i < size(); ++i)
+    when[i] = Cell{handle[i]} == Cell::none ? std::numeric_limits<double>::quiet_NaN() : 1;
+  for (const auto& [row, at] : stops) when[row] = at;
+  return time = std::move(all);
 }
 
 py::dict to_dict(const Walk_counts& c) {
@@ -37,8 +50,8 @@ void bind_motions(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Contact_row_3, row, time, point, normal, kind, body, cell, facet);
   py::class_<Motions>(module, "Motions", "What became of a batch of motions, row by row.")
       .def_readonly("status", &Motions::status, "uint8 (N,): codes of Status.")
-      .def_readonly(
-          "time", &Motions::time,
+      .def_property_readonly(
+          "time", [](Motions& motions) { return motions.times(); },
           "float64 (N,): share of the motion that is free, 1 where it arrives, NaN where it was not made.")
       .def_readonly("cells", &Motions::cells, "uint32 (N,): how many cells the moving point visited.")
       .def_readonly(

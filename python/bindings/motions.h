@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,19 +35,22 @@ static_assert(sizeof(Contact_row<2>) == 5 * sizeof(double) + 16 &&
 using Contact_row_2 = Contact_row<2>;
 using Contact_row_3 = Contact_row<3>;
 
-/// What Python calls Motions.
+/// What Python calls Motions. A small move takes a few nanoseconds, and memory that is written for the first time costs as much: what
+/// can be made when it is asked for is not written before.
 struct Motions {
   py::array_t<std::uint8_t> status;
-  py::array_t<double> time;
   py::array_t<std::uint32_t> cells;
   py::array contacts;
   py::dict counts;
   std::shared_ptr<const Any_world> world;
-  py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells
-  py::object cell;                     ///< their numbers; made when they are asked for
+  std::vector<std::pair<std::size_t, double>>
+      stops;                           ///< row and time of each contact; `contacts` belongs to the caller
+  py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells; none where no motion was made
+  py::object cell = py::none(), time = py::none();  ///< made when they are asked for
 
   std::size_t size() const { return static_cast<std::size_t>(status.size()); }
   const py::object& cell_numbers();
+  const py::object& times();
 };
 
 /// True if all coordinates are finite, without a branch: x - x is 0 or not a number.
@@ -70,24 +72,20 @@ std::int32_t number_of(const Snapshot<D>& snapshot, Cell cell) {
 template <int D>
 struct Motion_rows {
   Motion_status* status;  // not bytes, which the compiler takes to change anything else when they are written
-  double* time;
   std::uint32_t *cells, *handles;
 
   void arrive(std::size_t row, Cell cell, std::uint32_t visited) const {
-    set(row, Motion_status::free, 1, cell, visited);
+    set(row, Motion_status::free, cell, visited);
   }
   void meet(std::size_t row, const Wall_contact<D>& contact, std::uint32_t visited) const {
-    set(row, Motion_status::contact, contact.time, contact.cell, visited);
+    set(row, Motion_status::contact, contact.cell, visited);
   }
   /// Outside, invalid or lost.
-  void fail(std::size_t row, Motion_status why) const {
-    set(row, why, std::numeric_limits<double>::quiet_NaN(), Cell::none, 0);
-  }
+  void fail(std::size_t row, Motion_status why) const { set(row, why, Cell::none, 0); }
 
  private:
-  void set(std::size_t row, Motion_status what, double when, Cell cell, std::uint32_t visited) const {
+  void set(std::size_t row, Motion_status what, Cell cell, std::uint32_t visited) const {
     status[row] = what;
-    time[row] = when;
     handles[row] = to_index(cell);
     cells[row] = visited;
   }
@@ -115,17 +113,10 @@ template <class Counts, int D, class Work>
 Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
                   const Work& work) {
   const auto n = static_cast<py::ssize_t>(rows);
-  Motions motions{py::array_t<std::uint8_t>(n),
-                  py::array_t<double>(n),
-                  py::array_t<std::uint32_t>(n),
-                  {},
-                  {},
-                  world,
-                  py::array_t<std::uint32_t>(n),
-                  py::none()};
+  Motions motions{py::array_t<std::uint8_t>(n), py::array_t<std::uint32_t>(n), {}, {}, world, {},
+                  py::array_t<std::uint32_t>(n)};
   const Motion_rows<D> out{reinterpret_cast<Motion_status*>(motions.status.mutable_data()),
-                           motions.time.mutable_data(), motions.cells.mutable_data(),
-                           motions.handles.mutable_data()};
+                           motions.cells.mutable_data(), motions.handles.mutable_data()};
   std::vector<Contact_row<D>> contacts;
   Counts counts;
   {
@@ -138,6 +129,7 @@ Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t row
       contacts.insert(contacts.end(), chunk.contacts.begin(), chunk.contacts.end());
       counts += chunk.counts;
     }
+    for (const Contact_row<D>& contact : contacts) motions.stops.emplace_back(contact.row, contact.time);
   }
   motions.contacts = to_array(std::move(contacts));
   motions.counts = to_dict(counts);

@@ -146,6 +146,14 @@ class Body:
         most_contacts: int = 4,
         hold: bool = False,
     ) -> numpy.typing.NDArray[numpy.void]: ...
+    def step_or_stay(
+        self,
+        targets: _Points,
+        *,
+        sweep: Literal["triangle", "three_segments"] = "triangle",
+        clearance: bool = True,
+    ) -> numpy.typing.NDArray[numpy.void]: ...
+    def neighbours(self, vertex: int) -> numpy.typing.NDArray[numpy.uint32]: ...
     def move_vertex(
         self,
         vertex: int,

@@ -68,6 +68,74 @@ class Bodies(unittest.TestCase):
         self.assertGreater(count, 10)
         self.body.validate()
 
+    def test_the_rule_of_the_paper_against_walks_and_sweeps(self):
+        """step_or_stay() decides as questions about the same motions do, vertex by vertex."""
+        environment = cellwalk.Environment.generate("hexes", cells=6, solid=0.1)
+        rng = numpy.random.default_rng(11)
+        shape = 0.6 * (TETRAHEDRON - 0.25)
+        for sweep in ("three_segments", "triangle"):
+            seen = dict.fromkeys(("vertex", "edge", "swept", "free"), 0)
+            for _ in range(60):
+                try:
+                    body = cellwalk.Body(environment, shape + rng.uniform(0.5, 5.5, 3), faces=FACES)
+                except cellwalk.OutsideError:
+                    continue
+                for _ in range(10):
+                    targets = body.positions + rng.uniform(-0.5, 0.5, 3) + rng.uniform(-0.1, 0.1, (4, 3))
+                    expected, now = [], body.positions.copy()
+                    for vertex in range(4):
+                        expected.append(self.rule(environment, now, vertex, targets[vertex], body, sweep))
+                        if not (expected[-1][0] or expected[-1][1]):
+                            now[vertex] = targets[vertex]
+                    rows = body.step_or_stay(targets, sweep=sweep)
+                    self.assertEqual(body.positions.tobytes(), now.tobytes())
+                    told = {row["vertex"]: row for row in rows}
+                    self.assertEqual(list(told), sorted(told))
+                    for vertex, (is_blocked, edges, swept) in enumerate(expected):
+                        row = told.get(vertex)
+                        self.assertEqual(row is not None, bool(is_blocked or edges or swept))
+                        if row is None:
+                            seen["free"] += 1
+                            continue
+                        self.assertEqual(bool(row["is_vertex_blocked"]), is_blocked)
+                        self.assertEqual((row["edges"], row["swept_edges"]), (edges, swept))
+                        self.assertEqual(bool(row["stays"]), bool(is_blocked or edges))
+                        self.assertEqual(row["cell"] >= 0, bool(row["stays"]))
+                        self.assertEqual(numpy.isnan(row["time"]), not row["stays"])
+                        seen["vertex"] += is_blocked
+                        seen["edge"] += edges != 0
+                        seen["swept"] += swept != 0
+                body.validate()
+            least = {"vertex": 150, "edge": 40, "swept": 40 if sweep == "triangle" else 0, "free": 1500}
+            for what, count in least.items():
+                self.assertGreaterEqual(seen[what], count, f"{sweep}: {what}")
+
+    @staticmethod
+    def rule(environment, positions, vertex, target, body, sweep):
+        """Whether a wall is in the way of a vertex, of which edges where it goes, and of which on the way."""
+        start, end = positions[vertex : vertex + 1], target[None, :].copy()
+        if environment.walk(start, end).status[0] == cellwalk.Status.CONTACT:
+            return True, 0, 0
+        edges = swept = 0
+        for i, other in enumerate(body.neighbours(vertex)):
+            q = positions[other : other + 1]
+            if environment.walk(end, q).status[0] == cellwalk.Status.CONTACT:
+                edges |= 1 << i
+            if sweep == "triangle" and environment.sweep(start, end, q).status[0] == cellwalk.Status.CONTACT:
+                swept |= 1 << i
+        return False, edges, swept
+
+    def test_what_blocks_at_once(self):
+        rows = self.body.step_or_stay(self.body.positions + [0.0, 0.0, 3.0])
+        self.assertEqual(rows["vertex"].tolist(), [0, 1, 2, 3])
+        self.assertTrue(rows["is_vertex_blocked"].all() and rows["stays"].all())
+        self.assertTrue((rows["point"][:, 2] == 4).all() and (rows["normal"] == [0, 0, -1]).all())
+        self.assertEqual(rows["kind"].tolist(), [Feature.FACET] * 4)
+        self.assertTrue((self.body.positions == TETRAHEDRON + 1.5).all())
+        self.assertEqual(len(self.body.step_or_stay(self.body.positions + [0.0, 0.0, 1.5])), 0)
+        self.assertEqual(self.body.positions[3, 2], 4, "touching is free")
+        self.assertEqual(self.body.counts["contacts"], 4)
+
     def test_refusals(self):
         with self.assertRaisesRegex(cellwalk.OutsideError, "vertex 1") as caught:
             cellwalk.Body(self.environment, TETRAHEDRON + 3.5, faces=FACES)
@@ -82,6 +150,21 @@ class Bodies(unittest.TestCase):
             self.body.step(targets)
         with self.assertRaisesRegex(IndexError, "no vertex 4"):
             self.body.move_vertex(4, [1.0, 1.0, 1.0])
+        with self.assertRaisesRegex(IndexError, "no vertex 9"):
+            self.body.neighbours(9)
+        with self.assertRaisesRegex(ValueError, "the target of vertex 2 is not finite"):
+            self.body.step_or_stay(targets)
+        with self.assertRaisesRegex(cellwalk.UsageError, "sweep.*faces"):
+            self.body.step_or_stay(self.body.positions, sweep="faces")
+        angles = numpy.arange(66) / 10
+        star = numpy.stack([2 + numpy.cos(angles), 2 + numpy.sin(angles), 1 + angles / 10], axis=1)
+        star[0] = 2.0
+        spokes = numpy.array([[0, i] for i in range(1, 66)])
+        many = cellwalk.Body(self.environment, star, spokes)
+        with self.assertRaisesRegex(ValueError, "vertex 0 has 65 edges"):
+            many.step_or_stay(star)
+        self.assertEqual(many.neighbours(0).tolist(), list(range(1, 66)))
+        self.assertEqual(len(cellwalk.Body(self.environment, star[:-1].copy(), spokes[:-1].copy()).step_or_stay(star[:-1].copy())), 0)
         self.assertTrue((self.body.positions == TETRAHEDRON + 1.5).all())
 
     def test_from_a_file(self):

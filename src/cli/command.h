@@ -35,8 +35,8 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
   command.footer(text + "\n" + command.get_footer());
 }
 
-/// What `cellwalk --version` prints: the version, and which optional parts this build has.
-std::string version_text();
+/// Adds --version, which prints the version and which optional parts this build has, and --json, which makes JSON of that.
+void add_version(CLI::App& app);
 
 /// An option that takes one of a few words: `value` becomes what stands behind the word.
 template <class T>

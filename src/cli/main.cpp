@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, discard_and_stop);
 
   CLI::App app{"Exact, fast contact detection in convex cell complexes.", "cellwalk"};
-  app.set_version_flag("--version", version_text, "Print the version and the optional parts of this build");
+  add_version(app);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 2 usage, 3 unreadable or invalid input, 4 environment not certified,\n"
@@ -81,9 +81,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    return run([&] { app.exit(help_or_version); });
   } catch (const CLI::ParseError& error) {
     return fail(Error_code::usage, explain(app, error));
+  } catch (const Error& error) {  // --version --json FILE
+    return fail(error.code(), error.what());
   }
   return run(action);
 }

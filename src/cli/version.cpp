@@ -4,28 +4,82 @@
 
 #include <CGAL/version.h>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "cli/command.h"
+#include "cli/environment_file.h"
+#include "cli/machine.h"
 #include "cli/viewer_page.h"
 
 namespace cellwalk::cli {
+namespace {
 
-std::string version_text() {
-  std::string text = fmt::format("cellwalk {}\n  {:<8} {:<8} {}\n", CELLWALK_VERSION, "cgal",
-                                 CGAL_VERSION_STR, "map and exact arithmetic");
-  const auto part = [&text](std::string_view name, bool present, std::string_view version,
-                            std::string_view purpose) {
-    text += fmt::format("  {:<8} {:<8} {}\n", name, present ? (version.empty() ? "yes" : version) : "no",
-                        purpose);
-  };
-  const Mesher_parts parts = mesher_parts();
-  part("meshing", parts.meshing, "", "surfaces and polygons to environments (GPL)");
-  part("tetgen", parts.tetgen, "", "tetrahedra that keep a surface exactly (AGPL)");
+/// A part of the program that a build may lack, or that comes in versions.
+struct Part {
+  std::string_view name;
+  bool present;
+  std::string version;  ///< empty if absent, or if it has none of its own
+  std::string_view purpose;
+};
+
+std::vector<Part> parts() {
+  const Mesher_parts mesher = mesher_parts();
+  std::vector<Part> all{{"cgal", true, CGAL_VERSION_STR, "map and exact arithmetic"},
+                        {"meshing", mesher.meshing, "", "surfaces and polygons to environments (GPL)"},
+                        {"tetgen", mesher.tetgen, "", "tetrahedra that keep a surface exactly (AGPL)"}};
   for (const io::Build_feature& feature : io::build_features())
-    part(feature.name, feature.present, feature.version, feature.purpose);
-  part("viewer", !viewer_page.empty(), "", "pages that replay a run (three.js)");
-  text.pop_back();
+    all.push_back({feature.name, feature.present, feature.version, feature.purpose});
+  all.push_back({"viewer", !viewer_page.empty(), "", "pages that replay a run (three.js)"});
+  return all;
+}
+
+std::string as_text() {
+  std::string text = "cellwalk " CELLWALK_VERSION;
+  for (const Part& part : parts())
+    text += fmt::format("\n  {:<8} {:<8} {}", part.name,
+                        !part.present          ? "no"
+                        : part.version.empty() ? "yes"
+                                               : part.version,
+                        part.purpose);
   return text;
+}
+
+nlohmann::ordered_json as_json() {
+  nlohmann::ordered_json all;
+  for (const Part& part : parts())
+    all[std::string(part.name)] = {
+        {"present", part.present},
+        {"version", part.version.empty() ? nullptr : nlohmann::ordered_json(part.version)},
+        {"purpose", part.purpose}};
+  nlohmann::ordered_json json = machine_json();
+  json.erase("cpu");  // of the machine, not of the program
+  json["parts"] = all;
+  return json;
+}
+
+}  // namespace
+
+void add_version(CLI::App& app) {
+  const auto taken_below = [](const CLI::results_t&) { return true; };
+  CLI::Option* const json =
+      app.add_option("--json", taken_below, "With --version: print it as JSON, or write that to FILE too")
+          ->type_name("[FILE]")
+          ->expected(0, 1);
+  CLI::Option* const version = app.set_version_flag(
+      "--version",
+      [json] {
+        if (json->count() == 0) return as_text();
+        const std::string path = json->results().front();
+        if (path.empty()) return as_json().dump(2);
+        write_json(path, as_json());
+        return as_text();
+      },
+      "Print the version and the optional parts of this build");
+  json->needs(version);
 }
 
 }  // namespace cellwalk::cli

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <cstdlib>
 
 #include "cli/program.h"
@@ -15,10 +18,40 @@ TEST_F(Usage, VersionNamesTheOptionalParts) {
     EXPECT_NE(version.find("\n  " + std::string(part) + " "), std::string::npos) << version;
 }
 
+TEST_F(Usage, VersionIsToldToProgramsToo) {
+  const std::string text = succeed({"--version"}), printed = succeed({"--version", "--json"});
+  const auto version = nlohmann::json::parse(printed);
+  EXPECT_TRUE(text.starts_with("cellwalk " + version.at("cellwalk").get<std::string>() + "\n")) << text;
+  EXPECT_FALSE(version.at("compiler").get<std::string>().empty());
+  EXPECT_NE(version.at("flags").get<std::string>().find("-ffp-contract=off"), std::string::npos);
+  std::size_t named = 0;
+  for (const auto& [name, part] : version.at("parts").items()) {
+    const bool present = part.at("present");
+    const auto number = part.at("version");
+    EXPECT_TRUE(present || number.is_null()) << name;
+    // The same is told to people.
+    const std::size_t line = text.find("\n  " + name + " ");
+    ASSERT_NE(line, std::string::npos) << name;
+    const std::string word = !present ? "no" : number.is_null() ? "yes" : number.get<std::string>();
+    EXPECT_EQ(text.substr(line + 12, word.size() + 1), word + " ") << name;
+    EXPECT_NE(text.find(part.at("purpose").get<std::string>(), line), std::string::npos) << name;
+    ++named;
+  }
+  EXPECT_EQ(named, 6U);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+
+  EXPECT_EQ(succeed({"--version", "--json", "version.json"}), text) << "a file comes beside the text";
+  EXPECT_EQ(this->text("version.json"), printed);
+  EXPECT_EQ(succeed({"--json", "--version"}), printed);
+  expect_failure(1, {"--version", "--json", "nowhere/version.json"}, {"nowhere"});
+  expect_failure(2, {"--json"}, {"--json requires --version"});
+  expect_failure(2, {"--json", "check", "a.ovm"}, {"--json requires --version"});
+}
+
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
-  for (const char* text :
-       {"import", "check", "generate", "query", "replay", "run", "view", "4 environment not certified"})
+  for (const char* text : {"import", "check", "generate", "query", "replay", "run", "view",
+                           "4 environment not certified", "--version", "--json [FILE]"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
@@ -77,6 +110,7 @@ TEST_F(Usage, ShellsCompleteCommandsOptionsAndChoices) {
   EXPECT_EQ(answer("generate hexes --so"), "--solid\n");
   EXPECT_EQ(answer("query env.ovm q.csv --mode s"), "sweep\n");
   EXPECT_EQ(answer("import --mesher ''"), "tetgen mesh3\n");
+  EXPECT_EQ(answer("--version --j"), "--json\n");
   EXPECT_EQ(answer("check data/x"), "\n") << "files are for the shell";
   const std::string fish = succeed({"completion", "fish"});
   EXPECT_NE(fish.find("__fish_seen_subcommand_from query' -l mode -x -a 'move sweep'"), std::string::npos)

@@ -7,13 +7,14 @@ usage: test_pages.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]
 - Links lead to files of the repository, and to headings where they have an anchor.
 - `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
-  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there. A block after <!-- needs PART --> is left out where
+  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial. A block after <!-- needs PART --> is left out where
   the part is missing; one after <!-- not run --> always. data/ is that of the repository.
 """
 
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -100,6 +101,8 @@ def run_blocks(page, root, program, missing, counts):
     environment = dict(os.environ, PATH=f"{program.parent}:{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "data").symlink_to(root / "data")
+        if page.name == "tutorial.md":
+            shutil.copytree(root / "data/tutorial", folder, dirs_exist_ok=True)
         for mark, block in CONSOLE.findall(page.read_text(encoding="utf-8")):
             if mark == "not run" or mark.removeprefix("needs ") in missing:
                 continue
