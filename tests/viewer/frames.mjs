@@ -38,12 +38,21 @@ function watch() {
     work();
     now.script += performance.now() - start;
   };
-  window.requestAnimationFrame = callback => ask.call(window, time => window.timed(() => callback(time)));
+  // What each frame that draws something costs. A record that is shown while playing is prepared in one callback and drawn in the next one.
+  window.drawn = [];
+  let last = { ...now };
+  const difference = () => Object.fromEntries(Object.keys(now).map(key => [key, now[key] - last[key]]));
+  window.requestAnimationFrame = callback => ask.call(window, time => {
+    window.timed(() => callback(time));
+    if (now.draws === last.draws) return;
+    window.drawn.push(difference());
+    last = { ...now };
+  });
   window.frame = work => new Promise(done => {
-    const last = { ...now };
+    last = { ...now };
+    window.drawn.length = 0;
     window.timed(work);
-    ask.call(window, () => ask.call(window, () =>
-      done(Object.fromEntries(Object.keys(now).map(key => [key, now[key] - last[key]])))));
+    ask.call(window, () => ask.call(window, () => done(window.drawn[0] ?? difference())));
   });
 }
 
@@ -89,6 +98,26 @@ export async function idle(page, count) {
   const frames = [];
   for (let i = 0; i < count; ++i) frames.push(await cost(page, () => window.frame(() => {})));
   return frames;
+}
+
+/** What it costs on average, and at most, to draw a frame while the page plays for some seconds, or to its end. */
+export async function played(page, seconds) {
+  const before = await processorTime(page);
+  const frames = await page.evaluate(async time => {
+    const button = document.getElementById('play'), isPlaying = () => button.getAttribute('aria-label') === 'Pause';
+    document.getElementById('first').click();
+    window.drawn.length = 0;
+    button.click();
+    await new Promise(done => {
+      const end = performance.now() + 1000 * time;
+      const look = () => performance.now() < end && isPlaying() ? setTimeout(look, 100) : done();
+      look();
+    });
+    if (isPlaying()) button.click();
+    return window.drawn;
+  }, seconds);
+  const after = await processorTime(page);
+  return { frames, inScripts: 1000 * (after.inScripts - before.inScripts) / frames.length };
 }
 
 export const choose = (page, selector) => page.evaluate(which => document.querySelector(which).click(), selector);

@@ -5,7 +5,7 @@
 //   CELLWALK_CHROMIUM  default /usr/bin/chromium
 import { resolve } from 'node:path';
 import { launch } from './browser.mjs';
-import { choose, chooseWindow, idle, openWatched, quantile, scrubbed } from './frames.mjs';
+import { choose, chooseWindow, idle, openWatched, played, quantile, scrubbed } from './frames.mjs';
 
 const [file, most = '300'] = process.argv.slice(2);
 const browser = await launch();
@@ -33,4 +33,9 @@ for (const mode of ['cell', 'certificate']) {
 await choose(page, '[value=body]');
 await chooseWindow(page, '0');
 row('all contacts so far', await scrubbed(page, records));
+await chooseWindow(page, '20');
+const { frames, inScripts } = await played(page, 10);
+console.log(`Played: ${frames.length} frames drawn; a frame takes ${inScripts.toFixed(2)} ms of the processor in scripts on average; ` +
+  `ms passed: median ${quantile(frames, 'script', 0.5).toFixed(2)}, 99 % ${quantile(frames, 'script', 0.99).toFixed(2)}; ` +
+  `draw calls ${quantile(frames, 'draws', 1)}, kB sent ${(quantile(frames, 'bytes', 1) / 1000).toFixed(1)}`);
 await browser.close();
