@@ -12,7 +12,7 @@ class Query_picture : public Program {
     write_text(path("moves.csv"),
                "ax,ay,bx,by\n0.25,0.25,3.75,3.75\n0.5,1.375,5.5,2.625\n1.5,0.5,1,1\nx,1,2,2\n2.25,1,2.5,1\n");
     write_text(path("edges.csv"),
-               "px,py,tx,ty,qx,qy\n0.5,3.5,0.5,3.25,2.5,3.25\n2.5,2.75,2.5,1.5,4.5,3.25\n0.5,0.5,0.75,0.5,3."
+               "px,py,tx,ty,qx,qy\n0.5,3.5,0.5,3.25,2.5,3.25\n2.5,3.25,2.5,1.5,4.5,3.5\n0.5,0.5,0.75,0.5,3."
                "5,2.5\n");
   }
   std::vector<std::string> query(const std::string& table, const std::string& row) const {
