@@ -60,6 +60,17 @@ std::set<std::uint32_t> passed_vertices(const Snapshot<2>& snapshot, const Shown
   return result;
 }
 
+/// Whether b lies strictly in the cone of a facet over a: not where the walk ended by the rule, on a facet or vertex.
+bool is_aimed_at(const Snapshot<2>& snapshot, Half_facet f, const Point<2>& a, const Point<2>& b) {
+  const auto loop = snapshot.loop(f);
+  const auto turn = [](const Point<2>& x, const Point<2>& y, const Point<2>& z) {
+    return CGAL::sign(Exact_value::orientation(x, y, z));
+  };
+  const Point<2>&u = snapshot.point(loop[0]), &v = snapshot.point(loop[1]);
+  const auto whole = turn(a, u, v);
+  return whole != 0 && turn(a, u, b) == whole && turn(a, b, v) == whole;
+}
+
 /// The free cells at some vertices.
 std::set<Cell> star_of(const Snapshot<2>& snapshot, const std::set<std::uint32_t>& vertices) {
   std::set<Cell> result;
@@ -114,8 +125,8 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
     plot.key(Key::disc, passed_vertex, "vertices passed through");
     plot.key(Key::patch, star, "other cells round them");
   }
-  if (!answer.contact && vertices.empty()) {
-    const Half_facet f = Snapshot<2>::half_facet(walk.result.cell, walk.result.aimed);
+  const Half_facet f = Snapshot<2>::half_facet(walk.result.cell, walk.result.aimed);
+  if (!answer.contact && vertices.empty() && is_aimed_at(snapshot, f, a, b)) {
     const auto loop = snapshot.loop(f);
     plot.triangle(a, snapshot.point(loop[0]), snapshot.point(loop[1]), cone);
     plot.facet(f, heavy, aimed);
