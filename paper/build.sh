@@ -52,6 +52,7 @@ experiment figure_8 01_figure_8
 experiment exact_versus_float 02_exact_versus_float
 experiment small_obstacles 03_small_obstacles
 experiment contact_search 04_contact_search
+experiment degenerate_worlds 05_degenerate_worlds
 
 mkdir -p "$out"
 python3 paper/collect_numbers.py "$out" "${runs[@]}"

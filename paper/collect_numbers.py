@@ -4,8 +4,8 @@
 
 usage: collect_numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
 
-NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search), KIND is quick or full, FOLDER what its run.sh
-wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
+NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search, degenerate_worlds), KIND is quick or full, FOLDER
+what its run.sh wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
 """
 
 import csv
@@ -15,12 +15,12 @@ import sys
 from pathlib import Path
 
 TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus float", "small_obstacles": "03, small obstacles",
-          "contact_search": "04, contact searches"}
+          "contact_search": "04, contact searches", "degenerate_worlds": "05, degenerate worlds"}
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
 HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
-           "contact_search": {"time": HALF, "cost": HALF}}
+           "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {}}
 METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
            ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
            ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
@@ -257,6 +257,38 @@ def contact_search(report, folder):
     report.define("SearchRatioMost", decimal(max(ratio), 2))
 
 
+def degenerate_worlds(report, folder):
+    rows, touches = read(folder, "degenerate.csv"), read(folder, "touches.csv")
+    exact, rounded = ("exact", "exact_signs", "lazy", "rational"), ("double", "float")
+
+    def total(column, **where):
+        return sum(int(r[column]) for r in rows if all(r[k] in v for k, v in where.items()))
+    report.define("DegenerateWalks", count(total("motions", kernel=exact)))
+    report.define("DegenerateWrong", count(total("wrong", kernel=exact)))
+    report.define("DegenerateInteger", count(total("wrong", kernel=rounded, placement=("integer",))))
+    shares = []
+    lines = []
+    for world in dict.fromkeys(r["world"] for r in rows):
+        line = [escaped(world).replace(r"\_", " ")]
+        for dimension in "23":
+            for kernel in rounded:
+                where = {"world": (world,), "dimension": (dimension,), "kernel": (kernel,), "placement": ("turned",)}
+                share = total("wrong", **where) / total("motions", **where)
+                line.append(percent(share))
+                if dimension == "3" and kernel == "double":
+                    shares.append(share)
+        lines.append(line)
+    report.table("degenerate", "lrrrr", ["world", "2D, double", "2D, float", "3D, double", "3D, float"], lines)
+    report.define("DegenerateDoubleLeast", percent(min(shares)))
+    report.define("DegenerateDoubleMost", percent(max(shares)))
+    report.define("DegenerateTouches", count(sum(int(r["motions"]) for r in touches)))
+    report.define("DegenerateTouchesWrong", count(sum(int(r["wrong_with_stop"]) for r in touches)))
+    to_walls = [r for r in touches if r["motion"] == "to_walls"]
+    for name, column in (("Pass", "blocked"), ("Stop", "contacts_with_stop")):
+        report.define(f"DegenerateToWalls{name}",
+                      percent(sum(int(r[column]) for r in to_walls) / sum(int(r["motions"]) for r in to_walls)))
+
+
 def provenance(report, runs):
     lines = []
     for name, (kind, folder) in runs.items():
@@ -294,7 +326,7 @@ def main(arguments):
 
 
 SECTIONS = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
-            "contact_search": contact_search}
+            "contact_search": contact_search, "degenerate_worlds": degenerate_worlds}
 
 if __name__ == "__main__":
     main(sys.argv[1:])

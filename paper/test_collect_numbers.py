@@ -61,8 +61,19 @@ def contact_search(folder):
     write(folder, "costs.csv", [{**r, "signs": 1000 * (20 if r["search"] == "dichotomic" else 1)} for r in rows])
 
 
+def degenerate_worlds(folder):
+    write(folder, "degenerate.csv", [
+        {"dimension": d, "world": w, "placement": p, "motion": m, "kernel": k, "motions": 50, "wrong": wrong if p == "turned" else 0}
+        for d in (2, 3) for w, wrong_3d in (("lattice", 10), ("coplanar_walls", 20)) for p in ("integer", "turned")
+        for m in ("along_edges", "to_walls")
+        for k, wrong in (("exact", 0), ("lazy", 0), ("double", wrong_3d if d == 3 else 0), ("double_1e-9", 1), ("float", 25))])
+    write(folder, "touches.csv", [
+        {"dimension": d, "motion": m, "motions": 50, "blocked": 10, "contacts_with_stop": 40, "wrong_with_stop": 0}
+        for d in (2, 3) for m in ("along_edges", "to_walls")])
+
+
 MADE_UP = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
-           "contact_search": contact_search}
+           "contact_search": contact_search, "degenerate_worlds": degenerate_worlds}
 
 
 class CollectNumbers(unittest.TestCase):
@@ -98,6 +109,9 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(("40", "20", "4"), (macros["SweepContacts"], macros["SweepMissed"], macros["SignRatioMost"]))
         self.assertEqual(("98.0", "8"), (macros["FallsShare"], macros["DeepestInradii"]))
         self.assertEqual(("20.0", "20"), (macros["SearchLateMost"], macros["SearchRatioMost"]))
+        self.assertEqual(("1\\,600", "0", "0"), tuple(macros[f"Degenerate{n}"] for n in ("Walks", "Wrong", "Integer")))
+        self.assertEqual(("20.0", "40.0"), (macros["DegenerateDoubleLeast"], macros["DegenerateDoubleMost"]))
+        self.assertEqual(("200", "20.0", "80.0"), tuple(macros[f"Degenerate{n}"] for n in ("Touches", "ToWallsPass", "ToWallsStop")))
         self.assertEqual("full runs of some experiments and quick runs of others", macros["RunKinds"])
 
     def test_tables_show_the_outputs(self):
@@ -106,6 +120,7 @@ class CollectNumbers(unittest.TestCase):
         self.assertIn(r"Bullet, a box an edge & 200 & 300 & 0 / 0 \\", (out / "table_figure_8.tex").read_text(encoding="utf-8"))
         self.assertIn(r"3D & \texttt{double} & 1\,000 & 10 & 1.0 & 1 & 2 & 7 \\", (out / "table_walks.tex").read_text(encoding="utf-8"))
         self.assertIn(r"\texttt{0123456789ab} & GNU 12 & some\_processor", (out / "table_runs.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"coplanar walls & 0.0 & 50.0 & 40.0 & 50.0 \\", (out / "table_degenerate.tex").read_text(encoding="utf-8"))
         self.assertNotIn("lazy", (out / "table_sweeps.tex").read_text(encoding="utf-8"))
 
     def test_report_uses_what_is_written_and_nothing_else(self):

@@ -104,17 +104,17 @@ void draw_face_3d(const std::filesystem::path& folder) {
   after.label(stop, "p(s*)", 12, -8);
   after.contact(contact);
 
-  const std::vector<Key> keys{{Key::patch, face_color, "the face at its start"},
-                              {Key::patch, blocked_face, "at the contact; point and normal"},
-                              {Key::dashes, colors::start, "where its edges are to go"},
-                              {Key::patch, swept_by_edges, "swept by its edges: no wall"},
-                              {Key::patch, colors::spike, "spikes"}};
-  Sheet_options sheet;
+  const std::vector<io::Key> keys{{io::Key::patch, face_color, "the face at its start"},
+                                  {io::Key::patch, blocked_face, "at the contact; point and normal"},
+                                  {io::Key::dashes, colors::start, "where its edges are to go"},
+                                  {io::Key::patch, swept_by_edges, "swept by its edges: no wall"},
+                                  {io::Key::patch, colors::spike, "spikes"}};
+  io::Sheet_options sheet;
   sheet.panel_width = 660;
   sheet.panel_height = 420;
   sheet.camera = {{0.7, -1, 0.38}, {0, 0, 1}, 24};
   io::write_file(folder / "face_3d.png",
-                 io::encode_png(make_sheet(std::vector{before.panel(), after.panel()}, keys, sheet)));
+                 io::encode_png(io::make_sheet(std::vector{before.panel(), after.panel()}, keys, sheet)));
   io::write_json(folder / "face_3d.json",
                  Json{{"motion", {{"p", a}, {"target", b}, {"q", q}, {"r", r}}},
                       {"vertex_is_free", move.is_vertex_free},

@@ -34,9 +34,9 @@ Space_plot::Space_plot(const std::string& title, const Snapshot<3>& snapshot,
       const bool is_floor =
           std::all_of(corners.begin(), corners.end(), [](const auto& x) { return x[2] == 0; });
       if (snapshot.neighbor(f) != Cell::none)
-        add_patch(panel_.drawing, corners, material(colors::spike, true));
+        io::add_patch(panel_.drawing, corners, material(colors::spike, true));
       else if (is_floor)
-        add_patch(panel_.drawing, corners, material(colors::floor, false));
+        io::add_patch(panel_.drawing, corners, material(colors::floor, false));
     }
   }
   for (const auto& [u, v] : ridges) line(snapshot.point(u), snapshot.point(v), outline, colors::cell);
@@ -47,11 +47,11 @@ void Space_plot::line(const Point<3>& from, const Point<3>& to, double radius, c
 }
 
 void Space_plot::dashes(const Point<3>& from, const Point<3>& to, double radius, const io::Color& color) {
-  add_dashes(panel_.drawing, from, to, radius, dash, false, material(color, true));
+  io::add_dashes(panel_.drawing, from, to, radius, dash, false, material(color, true));
 }
 
 void Space_plot::triangle(const Point<3>& x, const Point<3>& y, const Point<3>& z, const io::Color& color) {
-  add_patch(panel_.drawing, std::vector{x, y, z}, material(color, false));
+  io::add_patch(panel_.drawing, std::vector{x, y, z}, material(color, false));
 }
 
 void Space_plot::ball(const Point<3>& at, double radius, const io::Color& color) {

@@ -4,12 +4,11 @@
 #define CELLWALK_EXPERIMENTS_FIGURES_SPACE_PLOT_H
 
 #include <cellwalk/edge/contact.h>
+#include <cellwalk/io/sheet.h>
 
 #include <span>
 #include <string>
 #include <vector>
-
-#include "sheet.h"
 
 namespace cellwalk::figures {
 
@@ -32,12 +31,12 @@ class Space_plot {
   void contact(const Contact<3>& contact);
   void label(const Point<3>& at, const std::string& text, double right, double up);
 
-  const Panel& panel() const { return panel_; }
+  const io::Panel& panel() const { return panel_; }
 
  private:
   std::uint32_t material(const io::Color& color, bool lit);
 
-  Panel panel_;
+  io::Panel panel_;
 };
 
 }  // namespace cellwalk::figures

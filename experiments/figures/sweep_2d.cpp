@@ -4,6 +4,7 @@
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/drawing.h>
 #include <cellwalk/io/json_file.h>
+#include <cellwalk/io/sheet.h>
 #include <cellwalk/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
@@ -15,7 +16,6 @@
 #include "figures.h"
 #include "numbers.h"
 #include "planar_world.h"
-#include "sheet.h"
 
 namespace cellwalk::figures {
 namespace {
@@ -89,10 +89,10 @@ class Plot {
       std::vector<Point<3>> loop;
       for (std::size_t k = 0; k < view.facet_count(); ++k)
         loop.push_back(at(view.point(view.loop(k)[0]), snapshot.is_solid(cell) ? 3 : 0));
-      add_patch(panel_.drawing, loop,
-                material(snapshot.is_solid(cell) ? solid
-                         : is_tinted             ? flooded
-                                                 : free_space));
+      io::add_patch(panel_.drawing, loop,
+                    material(snapshot.is_solid(cell) ? solid
+                             : is_tinted             ? flooded
+                                                     : free_space));
       if (snapshot.is_solid(cell)) continue;
       for (std::size_t k = 0; k < loop.size(); ++k)
         if (!snapshot.is_impassable(Snapshot<2>::half_facet(cell, k)))
@@ -103,7 +103,7 @@ class Plot {
                                    {{width, height}, {0, height}},
                                    {{0, height}, {0, 0}}})
       line(at(from, 0), at(to, 0), 4, thick, solid);
-    add_patch(panel_.drawing, std::vector{at(a, 2), at(b, 2), at(q, 2)}, material(swept));
+    io::add_patch(panel_.drawing, std::vector{at(a, 2), at(b, 2), at(q, 2)}, material(swept));
     line(at(a, 0), at(q, 0), 6, thick, edge_color);
     dashes(a, b, medium, edge_color);
     dashes(b, q, 0.7 * thick, edge_color);
@@ -118,7 +118,7 @@ class Plot {
   }
   void edge(double s, double size, const Color& color) { line(at(p_at(s), 0), at(q, 0), 5, size, color); }
   void dashes(const Point<2>& from, const Point<2>& to, double size, const Color& color) {
-    add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(color));
+    io::add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(color));
   }
   void spot(const Point<2>& x, double size, const Color& color) {
     io::add_disc(panel_.drawing, x, size, layer(9), material(color));
@@ -133,14 +133,14 @@ class Plot {
   void label(const Point<2>& x, const std::string& text, double right, double up) {
     panel_.labels.push_back({at(x, 0), text, right, up});
   }
-  const Panel& panel() const { return panel_; }
+  const io::Panel& panel() const { return panel_; }
 
  private:
   static double layer(int z) { return 1e-3 * z; }
   static Point<3> at(const Point<2>& x, int z) { return {x[0], x[1], layer(z)}; }
   std::uint32_t material(const Color& c) { return panel_.drawing.add_material({c, 0, false}); }
 
-  Panel panel_;
+  io::Panel panel_;
 };
 
 /// When the edge passes an obstacle's vertex: where the orientation of p(s), q and the vertex is 0.
@@ -169,7 +169,7 @@ std::map<Exact_time, Point<2>> vertices_inside(const Case& c) {
   return result;
 }
 
-Panel draw_three_segments(Case& c, Json& json) {
+io::Panel draw_three_segments(Case& c, Json& json) {
   Sweep_options options;
   options.sweep = Sweep::three_segments;
   const auto contact = c.sweep(options).contact;
@@ -179,7 +179,7 @@ Panel draw_three_segments(Case& c, Json& json) {
   return plot.panel();
 }
 
-Panel draw_triangle(Case& c, Json& json) {
+io::Panel draw_triangle(Case& c, Json& json) {
   const auto contact = c.contact(Contact_search::exact);
   require(contact.has_value(), "2D: the sweep of the triangle finds it");
   require(contact->impact == time_of(floating[2]), "2D: at the time of its vertex");
@@ -189,7 +189,7 @@ Panel draw_triangle(Case& c, Json& json) {
   return plot.panel();
 }
 
-Panel draw_exhaustive(Case& c, Json& json) {
+io::Panel draw_exhaustive(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::exhaustive);
   require(exact && found && exact->impact == found->impact, "2D: the exhaustive search finds the exact time");
   const auto vertices = vertices_inside(c);
@@ -213,7 +213,7 @@ Panel draw_exhaustive(Case& c, Json& json) {
   return plot.panel();
 }
 
-Panel draw_dichotomic(Case& c, Json& json) {
+io::Panel draw_dichotomic(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
   require(found && found->impact <= exact->impact, "2D: the dichotomic search is never late");
   Plot plot(
@@ -251,26 +251,26 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
 
   const Json motion{{"p", a}, {"target", b}, {"q", q}};
   Json json{{"motion", motion}, {"floating", Json::object()}, {"spikes", Json::object()}};
-  std::vector<Panel> panels;
+  std::vector<io::Panel> panels;
   panels.push_back(draw_three_segments(between, json["floating"]));
   panels.push_back(draw_triangle(between, json["floating"]));
   panels.push_back(draw_exhaustive(spikes, json["spikes"]));
   panels.push_back(draw_dichotomic(spikes, json["spikes"]));
   json["spikes"]["three_segments"] = {{"contact", to_json(spikes.snapshot, *by_segments)}};
 
-  const std::vector<Key> keys{{Key::line, edge_color, "the edge at its start"},
-                              {Key::dashes, edge_color, "where it is to go"},
-                              {Key::line, contact_color, "at the contact; point and normal"},
-                              {Key::patch, swept, "swept triangle"},
-                              {Key::patch, flooded, "cells looked at"},
-                              {Key::patch, solid, "obstacles"},
-                              {Key::line, free_step, "bisection: free until here (+)"},
-                              {Key::line, blocked_step, "blocked (-); vertices met later"}};
-  Sheet_options options;
+  const std::vector<io::Key> keys{{io::Key::line, edge_color, "the edge at its start"},
+                                  {io::Key::dashes, edge_color, "where it is to go"},
+                                  {io::Key::line, contact_color, "at the contact; point and normal"},
+                                  {io::Key::patch, swept, "swept triangle"},
+                                  {io::Key::patch, flooded, "cells looked at"},
+                                  {io::Key::patch, solid, "obstacles"},
+                                  {io::Key::line, free_step, "bisection: free until here (+)"},
+                                  {io::Key::line, blocked_step, "blocked (-); vertices met later"}};
+  io::Sheet_options options;
   options.camera = {{0, 0, 1}, {0, 1, 0}, 0};
   options.panel_width = 600;
   options.panel_height = 360;
-  const io::Image sheet = make_sheet(panels, keys, options);
+  const io::Image sheet = io::make_sheet(panels, keys, options);
   io::write_file(folder / "sweep_2d.png", io::encode_png(sheet));
   io::write_json(folder / "sweep_2d.json", json);
 }

@@ -78,18 +78,18 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   triangle.contact(*exact);
   triangle.label(stop, "s*", 12, -8);
 
-  const std::vector<Key> keys{{Key::line, colors::start, "the edge at its start"},
-                              {Key::dashes, colors::start, "where it is to go"},
-                              {Key::line, colors::contact, "at the contact; point and normal"},
-                              {Key::patch, colors::swept, "swept triangle"},
-                              {Key::line, colors::cell, "cells looked at"},
-                              {Key::patch, colors::spike, "spikes"}};
-  Sheet_options sheet;
+  const std::vector<io::Key> keys{{io::Key::line, colors::start, "the edge at its start"},
+                                  {io::Key::dashes, colors::start, "where it is to go"},
+                                  {io::Key::line, colors::contact, "at the contact; point and normal"},
+                                  {io::Key::patch, colors::swept, "swept triangle"},
+                                  {io::Key::line, colors::cell, "cells looked at"},
+                                  {io::Key::patch, colors::spike, "spikes"}};
+  io::Sheet_options sheet;
   sheet.panel_width = 660;
   sheet.panel_height = 380;
   sheet.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
-  io::write_file(folder / "sweep_3d.png",
-                 io::encode_png(make_sheet(std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
+  io::write_file(folder / "sweep_3d.png", io::encode_png(io::make_sheet(
+                                              std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
   io::write_json(
       folder / "sweep_3d.json",
       Json{{"motion", {{"p", a}, {"target", b}, {"q", q}}},

@@ -6,41 +6,18 @@ usage: test_draw_sweeps.py PROGRAM DOCS_IMAGES
 """
 
 import json
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from fractions import Fraction
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "docs"))
+from pictures import read_png, same_picture  # noqa: E402
+
 NAMES = ["sweep_2d", "sweep_3d", "face_3d"]
 LARGEST_FILE = 160_000  # bytes, in the docs
-# Of all pixels may differ where another compiler rounds the camera otherwise, by more than that of 255.
-SHARE_OF_PIXELS, DIFFERENCE = 1e-3, 24
-
-
-def read_png(path):
-    """Width, height and rows of a PNG as the library writes it: RGB, each row as differences from the one above."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
-    chunks, at = {}, 8
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body), path
-        chunks[kind] = body
-        at += 12 + size
-    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
-    packed = zlib.decompress(chunks[b"IDAT"])
-    stride, above, rows = 3 * width + 1, bytes(3 * width), []
-    for y in range(height):
-        row = packed[y * stride:(y + 1) * stride]
-        assert row[0] == 2, path
-        above = bytes((a + b) & 255 for a, b in zip(row[1:], above))
-        rows.append(above)
-    return width, height, rows
 
 
 def vector(a, b):
@@ -88,13 +65,10 @@ class Figures(unittest.TestCase):
         for name in NAMES:
             self.assertLess((self.docs / f"{name}.png").stat().st_size, LARGEST_FILE)
             width, height, rows = read_png(self.folder / f"{name}.png")
-            self.assertEqual((width, height), read_png(self.docs / f"{name}.png")[:2])
             ink = sum(1 for row in rows for x in range(width) if row[3 * x:3 * x + 3] != b"\xff\xff\xff")
             self.assertTrue(0.1 < ink / (width * height) < 0.9, name)
-            other = read_png(self.docs / f"{name}.png")[2]
-            differ = sum(1 for a, b in zip(rows, other) if a != b
-                         for x, y in zip(a, b) if abs(x - y) > DIFFERENCE)
-            self.assertLess(differ, SHARE_OF_PIXELS * width * height, name + ": draw it again, see docs/sweep.md")
+            self.assertTrue(same_picture(self.folder / f"{name}.png", self.docs / f"{name}.png"),
+                            name + ": draw it again, see docs/sweep.md")
 
     def test_the_times_beside_the_pictures_of_the_docs_are_these(self):
         def times(value):

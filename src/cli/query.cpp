@@ -19,6 +19,7 @@
 #include "cli/environment_file.h"
 #include "cli/kernel_words.h"
 #include "cli/query_answers.h"
+#include "cli/query_picture.h"
 #include "cli/replay_failure.h"
 
 namespace cellwalk::cli {
@@ -29,6 +30,7 @@ struct Query_options {
   std::string environment, queries, output, json;
   std::string failure;             // if set, a record to replay, and nothing else
   std::string record;              // if set, where the motion of a row is recorded
+  std::string picture;             // if set, where it is drawn
   std::optional<std::size_t> row;  // the row
   Query_mode mode = Query_mode::move;
   Move_options move;
@@ -80,11 +82,23 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
                invalid->invalid, tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
-/// Nothing is answered where the record that is wanted cannot be written.
-template <int D>
-void check_row(const Query_options& options, const std::vector<Move_query<D>>& moves) {
-  if (options.row && (*options.row >= moves.size() || !moves[*options.row].invalid.empty()))
+/// Nothing is answered where the record or picture that is wanted cannot be made.
+template <int D, std::size_t N>
+void check_row(const Query_options& options, const std::vector<Query_row<D, N>>& rows) {
+  if (options.row && (*options.row >= rows.size() || !rows[*options.row].invalid.empty()))
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
+  if (D == 3 && !options.picture.empty())
+    throw Error(Error_code::usage, "--picture draws motions of the plane, and the environment is in space");
+}
+
+/// Draws the row that is wanted.
+template <int D, std::size_t N>
+void draw_row(const Query_options& options, const Snapshot<D>& snapshot, const Locator<D>& locator,
+              const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
+  if constexpr (D == 2)
+    if (!options.picture.empty())
+      write_picture(options.picture, snapshot, locator, *options.row, rows[*options.row].points,
+                    answers[*options.row]);
 }
 
 /// Writes the record of the row that is wanted.
@@ -110,9 +124,11 @@ void query_environment(const Query_options& options, const Environment<D>& envir
           return answer_move(snapshot, locator, move.points[0], move.points[1], options.move, local);
         });
     report(options, snapshot, moves, answers, cli::to_json(counts.walk));
-    if (options.row) record_row(options, environment, moves, answers);
+    if (!options.record.empty()) record_row(options, environment, moves, answers);
+    draw_row(options, snapshot, locator, moves, answers);
   } else {
     const auto sweeps = io::read_sweeps<D>(options.queries);
+    check_row(options, sweeps);
     const Locator<D> locator(snapshot);
     const auto answers =
         answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& sweep, Edge_counts& local) {
@@ -120,6 +136,7 @@ void query_environment(const Query_options& options, const Environment<D>& envir
           return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
         });
     report(options, snapshot, sweeps, answers, to_json(counts));
+    draw_row(options, snapshot, locator, sweeps, answers);
   }
 }
 
@@ -144,8 +161,12 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
                     fmt::format("{} needs {}; see cellwalk query --help", name, condition));
   };
   const bool is_exact = options.move.kernel == Kernel_choice::exact;
-  if (options.row.has_value() != !options.record.empty())
-    throw Error(Error_code::usage, "--record and --row need each other; see cellwalk query --help");
+  if (options.row.has_value() != (!options.record.empty() || !options.picture.empty()))
+    throw Error(Error_code::usage,
+                "--row says what --record or --picture is of: give both; see cellwalk query --help");
+  if (!options.picture.empty() && (!is_exact || options.sweep.touch == Touch::stop))
+    throw Error(Error_code::usage,
+                "--picture needs --kernel exact and --touch pass: it shows the exact walk, to its end");
   if (options.mode == Query_mode::move) {
     need({"--sweep", "--contact", "--tolerance", "--search-cells"}, "--mode sweep");
     if (options.strategy == Walk_strategy::certified && !is_exact)
@@ -155,7 +176,7 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
       throw Error(Error_code::usage, "--touch stop needs --kernel exact: touches are found exactly only");
     return;
   }
-  need({"--strategy", "--record", "--row"}, "--mode move");
+  need({"--strategy", "--record"}, "--mode move");
   if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
   if (options.sweep.search != Contact_search::dichotomic) need({"--tolerance"}, "--contact dichotomic");
   if (options.sweep.search != Contact_search::exhaustive) need({"--search-cells"}, "--contact exhaustive");
@@ -192,7 +213,6 @@ void add_move_options(CLI::App& command, Query_options& options) {
                   "Write the motion of a row with all that --replay-failure needs")
       ->type_name("FILE")
       ->group(group);
-  command.add_option("--row", options.row, "The row to record, from 0")->type_name("N")->group(group);
 }
 
 void add_sweep_options(CLI::App& command, Sweep_options& options) {
@@ -255,6 +275,11 @@ void add_query(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   command
+      ->add_option("--picture", options->picture,
+                   "In the plane: draw the motion of a row, the cells it passes and what is in its way")
+      ->type_name("FILE.png");
+  command->add_option("--row", options->row, "The row to draw or to record, from 0")->type_name("N");
+  command
       ->add_option(
           "--replay-failure", options->failure,
           "Walk one recorded motion again and print every cell, sign and choice; takes all else from the "
@@ -265,7 +290,8 @@ void add_query(CLI::App& app, Action& chosen) {
   add_move_options(*command, *options);
   add_sweep_options(*command, options->sweep);
   add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
-                          "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv"});
+                          "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",
+                          "cellwalk query rooms.ovm moves.csv -o answers.csv --picture first.png --row 0"});
   command->callback(
       [options, command, &chosen] { chosen = [options, command] { query(*options, *command); }; });
 }

@@ -9,6 +9,7 @@ usage: test_pages.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
   `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial. A block after <!-- needs PART --> is left out where
   the part is missing; one after <!-- not run --> always. data/ is that of the repository.
+- A picture that the commands of a page draw, and that the page shows from docs/images, is the one there.
 """
 
 import os
@@ -20,11 +21,13 @@ import sys
 import tempfile
 from pathlib import Path
 
+import pictures
+
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
-FEWEST = {"links": 60, "options": 15, "commands": 8}  # so that a test that finds nothing does not pass
+FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
 
 
 def anchor(heading):
@@ -115,6 +118,12 @@ def run_blocks(page, root, program, missing, counts):
                 done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True)
                 if done.returncode != 0 or not is_printed(expected, done.stdout):
                     yield f"{page.name}: $ {command}\n  exit code {done.returncode}, and prints\n{done.stdout}{done.stderr}"
+        for drawn in sorted(Path(folder).glob("*.png")):
+            shown = root / "docs" / "images" / drawn.name
+            if f"images/{drawn.name})" in page.read_text(encoding="utf-8"):
+                counts["pictures"] += 1
+                if not pictures.same_picture(drawn, shown):
+                    yield f"{page.name}: {shown.name} is not what its command draws: draw it again"
 
 
 def main():

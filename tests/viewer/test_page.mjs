@@ -2,16 +2,11 @@
 // The page in Chromium: it loads from a file, draws, follows slider, keys and mouse, and says what run.json says.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { launch } from './browser.mjs';
 import { Folder } from './runs.mjs';
 
-const { chromium } = createRequire(join(process.env.VIEWER_MODULES, 'x.js'))('playwright-core');
-const software = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync'];
 const folder = new Folder();
 const canvasSize = { width: 480, height: 300 }, panelWidth = 304, barHeight = 56;
 let browser;
@@ -19,7 +14,7 @@ let browser;
 before(async () => {
   folder.run('space');
   folder.run('plane');
-  browser = await chromium.launch({ executablePath: process.env.CELLWALK_CHROMIUM, args: [...software, ...quiet] });
+  browser = await launch();
 });
 after(async () => {
   await browser?.close();

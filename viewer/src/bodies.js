@@ -94,18 +94,27 @@ export function makeBodies(motion) {
     }
   }
 
+  let shownRecord, shownMode;
+  function move(record) {
+    motion.copyPlaces(record, motion.particles, motion.vertices, places);
+    for (const made of lines) made.setEnds(made.ends, places);
+    motion.copyPlaces(record, 0, motion.particles, free.places.array);
+    faces.attributes.position.needsUpdate = free.places.needsUpdate = true;
+  }
+  function recolour(record, mode) {
+    tint(record, mode);
+    for (const made of lines)
+      if (made.isTinted) made.setColours(made.ends, tints);
+    faces.attributes.color.needsUpdate = free.tints.needsUpdate = true;
+  }
   return {
     group, lines,
+    /** Sends to the graphics card what differs from what it has: the colours of bodies, for example, never change. */
     show(record, mode) {
-      motion.copyPlaces(record, motion.particles, motion.vertices, places);
-      tint(record, mode);
-      for (const made of lines) {
-        made.setEnds(made.ends, places);
-        if (made.isTinted) made.setColours(made.ends, tints);
-      }
-      faces.attributes.position.needsUpdate = faces.attributes.color.needsUpdate = true;
-      motion.copyPlaces(record, 0, motion.particles, free.places.array);
-      free.places.needsUpdate = free.tints.needsUpdate = true;
+      if (record !== shownRecord) move(record);
+      if (mode !== shownMode || (record !== shownRecord && mode !== 'body')) recolour(record, mode);
+      shownRecord = record;
+      shownMode = mode;
     },
   };
 }

@@ -7,35 +7,33 @@ import { fatLines } from './lines.js';
 
 const mostShown = 20000;
 
+/** All contacts lie in buffers that never change, in the order of their steps; what is shown is a part of them. */
 export function makeContacts(contacts, normalLength, isFlat) {
-  const size = Math.max(1, Math.min(mostShown, contacts.count));
+  const size = Math.max(1, contacts.count);
   const points = pointCloud(size, 7, { depthTest: !isFlat });
   const normals = fatLines(size, { width: 1.8, colours: true, depth: !isFlat });
   points.object.renderOrder = 4;
   normals.object.renderOrder = 3.9;
   const group = new Group();
   group.add(points.object, normals.object);
-  const colours = kinds.map(kind => new Color(kind.colour));
-  const tints = new Float32Array(3 * size);
+  const ends = new Float32Array(6 * size), colours = kinds.map(kind => new Color(kind.colour));
+  for (let i = 0; i < contacts.count; ++i) {
+    colours[contacts.kind[i]].toArray(points.tints.array, 3 * i);
+    for (let k = 0; k < 3; ++k) {
+      const x = contacts.point[3 * i + k];
+      points.places.array[3 * i + k] = ends[6 * i + k] = x;
+      ends[6 * i + 3 + k] = x + normalLength * contacts.normal[3 * i + k];
+    }
+  }
+  normals.setEnds((i, end) => 6 * i + 3 * end, ends);
+  normals.setColours(i => 3 * i, points.tints.array);
   return {
     group, normals,
     /** Shows the contacts of the steps after `after` up to `step`, the latest ones if they are too many. */
     show(after, step) {
-      const end = contacts.begin(step + 1), begin = Math.max(contacts.begin(after + 1), end - size);
-      for (let i = begin; i < end; ++i) {
-        const at = 3 * (i - begin);
-        colours[contacts.kind[i]].toArray(tints, at);
-        for (let k = 0; k < 3; ++k) {
-          const x = contacts.point[3 * i + k];
-          points.places.array[at + k] = normals.places[2 * at + k] = x;
-          normals.places[2 * at + 3 + k] = x + normalLength * contacts.normal[3 * i + k];
-        }
-      }
-      points.tints.array.set(tints);
-      points.places.needsUpdate = points.tints.needsUpdate = true;
-      points.geometry.setDrawRange(0, end - begin);
-      normals.setColours(i => 3 * i, tints);
-      normals.touch(end - begin);
+      const end = contacts.begin(step + 1), begin = Math.max(contacts.begin(after + 1), end - mostShown);
+      points.geometry.setDrawRange(begin, end - begin);
+      normals.showPart(begin, end - begin);
       return end - begin;
     },
   };

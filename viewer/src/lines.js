@@ -5,19 +5,25 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
-/** `count` segments; they have one colour, or with `colours` one at each end. */
+/** `count` segments; they have one colour, or with `colours` one at each end. What is not set again is not sent again. */
 export function fatLines(count, { width, colour = '#ffffff', colours = false, depth = true }) {
   const geometry = new LineSegmentsGeometry();
   const buffer = () => new InstancedInterleavedBuffer(new Float32Array(6 * count), 6, 1).setUsage(DynamicDrawUsage);
   const places = buffer(), tints = colours ? buffer() : null;
-  const bind = (name, data, offset) => geometry.setAttribute(name, new InterleavedBufferAttribute(data, 3, offset));
-  bind('instanceStart', places, 0);
-  bind('instanceEnd', places, 3);
-  if (tints) {
+  // WebGL draws instances from the first one on, so another first one is another offset of the attributes.
+  let first = -1;
+  const showPart = (begin, shown) => {
+    geometry.instanceCount = shown;
+    if (begin === first) return;
+    first = begin;
+    const bind = (name, data, offset) => geometry.setAttribute(name, new InterleavedBufferAttribute(data, 3, 6 * begin + offset));
+    bind('instanceStart', places, 0);
+    bind('instanceEnd', places, 3);
+    if (!tints) return;
     bind('instanceColorStart', tints, 0);
     bind('instanceColorEnd', tints, 3);
-  }
-  geometry.instanceCount = count;
+  };
+  showPart(0, count);
   const material = new LineMaterial({ color: colour, linewidth: width, vertexColors: colours, depthTest: depth });
   const object = new LineSegments2(geometry, material);
   object.frustumCulled = false;
@@ -31,16 +37,12 @@ export function fatLines(count, { width, colour = '#ffffff', colours = false, de
     data.needsUpdate = true;
   };
   return {
-    object, material, geometry,
+    object,
     /** `from(i, end)` is where the place of an end of segment i stands in `source`. */
     setEnds: (from, source) => fill(places, from, source),
     setColours: (from, source) => fill(tints, from, source),
     setResolution: (w, h) => material.resolution.set(w, h),
-    places: places.array,
-    /** After writing to `places`. */
-    touch(shown) {
-      places.needsUpdate = true;
-      geometry.instanceCount = shown;
-    },
+    /** Shows `shown` segments from `begin` on. */
+    showPart,
   };
 }

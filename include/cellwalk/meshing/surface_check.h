@@ -30,7 +30,7 @@ std::vector<std::string> describe(const Surface_report& report);
 /// Checks that a surface is a closed, orientable 2-manifold without self-intersections, and returns it as triangles,
 /// oriented so that they bound a volume (nested components alternate).
 /// Merges points of equal coordinates, drops facets that this collapses, cuts polygons into triangles, and orients.
-/// \param name how messages call the surface: "surface", "obstacle 2"
+/// Messages call the surface by its name: "surface", "obstacle 2".
 /// \throw Error(input) with the first reason of: empty, an index out of range, a coordinate not finite, open,
 ///        non-manifold edges, degenerate facets, not orientable, non-manifold vertices, self-intersections; how often,
 ///        where first (vertices and facets by their number in the input, from 0), and what to do

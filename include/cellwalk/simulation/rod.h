@@ -36,8 +36,8 @@ class Rod {
   /// The body of a catheter before it enters.
   static Body_soup<D> at_entry(const Catheter<D>& catheter);
 
-  /// \param way way points, the entry first; at least two, no two in a row alike
-  /// \pre the body is at_entry(catheter), registered
+  /// At its entry, to be led along way points.
+  /// \pre the body is at_entry(catheter), registered; the way begins with the entry, has at least two points, and no two in a row are alike
   Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter, std::vector<Point<D>> way);
 
   /// Pushes it by one step. Contacts are appended. Only what is checked of bodies is taken from the conditions.

@@ -23,8 +23,8 @@ namespace cellwalk {
 template <int D>
 class Shape_matching {
  public:
-  /// \param masses one positive number a vertex, or none: all are equal
-  /// \pre rest has a vertex, all coordinates are finite
+  /// Without masses all are equal.
+  /// \pre rest has a vertex, all coordinates are finite; masses are none, or one positive number a vertex
   /// Cost: 1 us a vertex; in quadratic mode some 50 us more.
   Shape_matching(std::span<const Point<D>> rest, const Shape_material& material,
                  std::span<const double> masses = {});

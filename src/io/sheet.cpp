@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "sheet.h"
-
 #include <cellwalk/io/drawing.h>
+#include <cellwalk/io/sheet.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "io/picture_view.h"
+#include "picture_view.h"
 
-namespace cellwalk::figures {
+namespace cellwalk::io {
 namespace {
-
-using io::Color;
-using io::Image;
 
 constexpr Color white{1, 1, 1}, ink{0.10, 0.12, 0.15};
 // Pixels.
@@ -38,9 +34,9 @@ void fill(Image& image, int x0, int y0, int x1, int y1, const Color& c) {
 void write_over(Image& image, const std::string& text, double x, double y) {
   for (int i = 0; i < halo_directions; ++i) {
     const double angle = circle * i / halo_directions;
-    io::draw_text(image, text, x + halo * std::cos(angle), y + halo * std::sin(angle), label_size, white);
+    draw_text(image, text, x + halo * std::cos(angle), y + halo * std::sin(angle), label_size, white);
   }
-  io::draw_text(image, text, x, y, label_size, ink);
+  draw_text(image, text, x, y, label_size, ink);
 }
 
 void paste(Image& sheet, const Image& panel, int x, int y) {
@@ -52,13 +48,13 @@ void paste(Image& sheet, const Image& panel, int x, int y) {
 }
 
 Image draw(const Panel& panel, const Sheet_options& options) {
-  io::Picture_options picture;
+  Picture_options picture;
   picture.width = options.panel_width;
   picture.height = options.panel_height;
   picture.camera = options.camera;
   picture.top = picture.bottom = white;
-  Image image = io::render(panel.drawing, picture);
-  const io::detail::Picture_view view(panel.drawing, picture);
+  Image image = render(panel.drawing, picture);
+  const detail::Picture_view view(panel.drawing, picture);
   for (const Label& label : panel.labels) {
     const auto at = view.project(label.at);
     write_over(image, label.text, at.x + label.right, at.y - label.up);
@@ -104,7 +100,7 @@ Image make_sheet(std::span<const Panel> panels, std::span<const Key> keys, const
   for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
     const Panel& panel = panels[static_cast<std::size_t>(i)];
     const int x = margin + (i % columns) * (options.panel_width + margin), y = (i / columns) * row_height;
-    io::draw_text(sheet, panel.title, x + margin, y + 0.75 * title_height, title_size, ink);
+    draw_text(sheet, panel.title, x + margin, y + 0.75 * title_height, title_size, ink);
     paste(sheet, draw(panel, options), x, y + title_height);
   }
   for (int i = 0; i < static_cast<int>(keys.size()); ++i) {
@@ -112,27 +108,27 @@ Image make_sheet(std::span<const Panel> panels, std::span<const Key> keys, const
     const int x = 2 * margin + (i % key_columns) * (sheet.width - 2 * margin) / key_columns;
     const int y = rows * row_height + margin + (i / key_columns) * key_height + key_height / 2;
     draw_sign(sheet, key, x, y);
-    io::draw_text(sheet, key.text, x + sign_width, y + key_size / 2, key_size, ink);
+    draw_text(sheet, key.text, x + sign_width, y + key_size / 2, key_size, ink);
   }
   return sheet;
 }
 
-void add_dashes(io::Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash,
-                bool flat, std::uint32_t material) {
+void add_dashes(Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash, bool flat,
+                std::uint32_t material) {
   const int pieces = std::max(1, static_cast<int>(length(b - a) / (2 * dash) + 0.5));
   for (int i = 0; i < pieces; ++i) {
     const Point<3> from = a + ((i + 0.2) / pieces) * (b - a), to = a + ((i + 0.8) / pieces) * (b - a);
     if (flat)
-      io::add_flat_line(drawing, {from[0], from[1]}, {to[0], to[1]}, 2 * size, a[2], material);
+      add_flat_line(drawing, {from[0], from[1]}, {to[0], to[1]}, 2 * size, a[2], material);
     else
-      io::add_tube(drawing, std::vector{from, to}, size, material);
+      add_tube(drawing, std::vector{from, to}, size, material);
   }
 }
 
-void add_patch(io::Drawing& drawing, std::span<const Point<3>> loop, std::uint32_t material) {
+void add_patch(Drawing& drawing, std::span<const Point<3>> loop, std::uint32_t material) {
   std::vector<std::uint32_t> facet;
   for (std::uint32_t i = 0; i < loop.size(); ++i) facet.push_back(i);
-  io::add_surface(drawing, loop, std::array{facet}, material, 0);
+  add_surface(drawing, loop, std::array{facet}, material, 0);
 }
 
-}  // namespace cellwalk::figures
+}  // namespace cellwalk::io

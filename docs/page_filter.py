@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A filter for Doxygen, which reads pages otherwise than GitHub does: python3 docs/page_filter.py PAGE, in the root of the repository.
+
+- README.md becomes the first page; those of folders are pages like others.
+- Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
+  warning, so links are checked here too.
+- Code spans of the tables of errors.md become HTML, since Doxygen takes backslashes and quotes in them for its own.
+"""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+SPECIAL = str.maketrans({c: f"&#{ord(c)};" for c in "&<>\\\"'@#%$*_~`"})
+LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
+
+
+def html(match):
+    return f"<code>{match[2].replace(chr(92) + '|', '&#124;').translate(SPECIAL).replace('&#38;#124;', '&#124;')}</code>"
+
+
+def anchor(heading):
+    """The anchor that GitHub gives a heading."""
+    text = re.sub(r"<!--.*?-->", "", heading)
+    text = re.sub(r"[`*_]|\[([^\]]*)\]\([^)]*\)", r"\1", text).strip().lower()
+    return re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", text))
+
+
+def label(page, name):
+    """One that no other page has."""
+    return f"{re.sub(r'[^a-zA-Z0-9]', '-', os.path.normpath(page))}-{name}"
+
+
+def filtered(page, text):
+    def link(match):
+        target = os.path.join(os.path.dirname(page), match[1]) if match[1] else page
+        return f"](#{label(target, match[2])})"
+
+    lines, in_code, is_first = [], False, True
+    for line in text.split("\n"):
+        if line.startswith("```"):
+            in_code = not in_code
+        heading = re.match(r"(#{1,4}) (.*)$", line)
+        if is_first and heading:  # the title of the page, which has a label
+            line += " {#mainpage}" if page == "README.md" else ""
+        elif heading and not in_code:
+            line = f"{line.rstrip()} {{#{label(page, anchor(heading[2]))}}}"
+        is_first = is_first and not heading
+        if not in_code:
+            line = LINK.sub(link, line)
+            if os.path.basename(page) == "errors.md" and line.startswith("| "):
+                line = re.sub(r"(`{1,2})(?! )(.*?)(?<!`)\1(?!`)", html, line)
+        lines.append(line)
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(filtered(os.path.relpath(sys.argv[1]), Path(sys.argv[1]).read_text(encoding="utf-8")), end="")

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A sheet of panels with titles, labels and a legend: drawings for readers.
+#ifndef CELLWALK_IO_SHEET_H
+#define CELLWALK_IO_SHEET_H
+
+#include <cellwalk/io/picture.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// Text beside a point of a drawing; the offset is that of its left end from there, in pixels.
+struct Label {
+  Point<3> at;
+  std::string text;
+  double right = 12, up = -8;
+};
+
+struct Panel {
+  std::string title;
+  Drawing drawing;
+  std::vector<Label> labels;
+};
+
+/// One entry of the legend.
+struct Key {
+  enum Sign { patch, line, dashes, disc };
+  Sign sign;
+  Color color;
+  std::string text;
+};
+
+struct Sheet_options {
+  Camera camera;
+  int panel_width = 780, panel_height = 450;  ///< pixels
+  std::size_t columns = 2, key_columns = 3;
+};
+
+/// Panels and legend in rows, on white. \pre as render(); text is printable ASCII
+Image make_sheet(std::span<const Panel> panels, std::span<const Key> keys, const Sheet_options& options);
+
+/// A straight line as dashes, flat (planar drawings) or round.
+void add_dashes(Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash, bool flat,
+                std::uint32_t material);
+
+/// A flat polygon of one colour.
+void add_patch(Drawing& drawing, std::span<const Point<3>> loop, std::uint32_t material);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_SHEET_H
