@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a second thread brings: the scene of data/hexahedra.json, bodies only, without files. 225 deformable hexahedra bounce in a
+// grid of 10^3 hexahedral cells, a tenth of them solid. The argument is the number of threads; time is that of the clock.
+#include <cellwalk/body/generate.h>
+#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/environment/gluing.h>
+#include <cellwalk/simulation/world.h>
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <utility>
+
+namespace {
+
+using namespace cellwalk;
+
+const Snapshot<3>& grid() {
+  static const Snapshot<3> snapshot = [] {
+    Grid_options<3> options;
+    options.cells = {10, 10, 10};
+    options.solid_share = 0.1;
+    const Cell_soup<3> soup = hex_grid(options);
+    return Snapshot<3>::compile(soup, glue(soup));
+  }();
+  return snapshot;
+}
+
+Scene<3> scene(bool deforms) {
+  Scene<3> result;
+  result.time_step = 0.02;
+  Body_start<3> start;
+  start.cloud = Particle_cloud{225, 7, 3};
+  if (deforms) start.material = Shape_material{Shape_mode::linear, 1, 0.5};
+  result.bodies.push_back(start);
+  return result;
+}
+
+void steps(benchmark::State& state, bool deforms) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(state.range(0)));
+  World<3> world(grid(), scene(deforms), {generate_body(Hexahedron_shape{0.3, false})});
+  for (int i = 0; i < 20; ++i) world.step();
+  for (auto _ : state) world.step();
+  state.counters["moves"] = benchmark::Counter(static_cast<double>(world.body_counts().moves) *
+                                                   static_cast<double>(state.iterations()) /
+                                                   static_cast<double>(world.steps_done()),
+                                               benchmark::Counter::kIsRate);
+}
+
+// As many steps for any number of threads: bodies come to rest.
+BENCHMARK_CAPTURE(steps, shape_matching, true)->Arg(1)->Arg(2)->Iterations(1000)->UseRealTime();
+BENCHMARK_CAPTURE(steps, rigid_flight, false)->Arg(1)->Arg(2)->Iterations(1000)->UseRealTime();
+
+}  // namespace
