@@ -120,12 +120,13 @@ export async function played(page, seconds) {
   return { frames, inScripts: 1000 * (after.inScripts - before.inScripts) / frames.length };
 }
 
-export const choose = (page, selector) => page.evaluate(which => document.querySelector(which).click(), selector);
-export const chooseWindow = (page, value) => page.evaluate(chosen => {
+// Both end when what they change is drawn: the next frame looked at is not theirs.
+export const choose = (page, selector) => page.evaluate(which => window.frame(() => document.querySelector(which).click()), selector);
+export const chooseWindow = (page, value) => page.evaluate(chosen => window.frame(() => {
   const list = document.getElementById('window');
   list.value = chosen;
   list.dispatchEvent(new Event('change'));
-}, value);
+}), value);
 
 /** The value below which the share `part` of the frames stays. */
 export function quantile(frames, key, part) {
