@@ -202,11 +202,10 @@ class Body {
   std::vector<std::uint32_t> outside_near_;  ///< of each vertex: how many of its neighbours are
   bool are_all_behind_ = false;              ///< all vertices
   std::vector<char> vertex_behind_;          ///< its particle is where it was; it is in the region
-  std::vector<char>
-      edge_behind_;  ///< its chain is not known, but it has one; so it is where an end is behind, too
-  std::uint32_t patience_ = 0;         ///< steps until a region is looked for that holds all positions
-  std::uint32_t target_patience_ = 0;  ///< the same for targets, while all positions are held
-  std::uint32_t next_patience_ = 4;    ///< if that finds none
+  std::vector<char> edge_behind_;            ///< its chain is not known, nor is it where an end is behind
+  std::uint32_t patience_ = 0;               ///< steps until a region is looked for that holds all positions
+  std::uint32_t target_patience_ = 0;        ///< the same for targets, while all positions are held
+  std::uint32_t next_patience_ = 4;          ///< if that finds none
   double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next one is asked to hold
   std::uint32_t anchor_vertex_ = 0;                       ///< about which it is looked for
 
