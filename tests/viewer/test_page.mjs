@@ -9,6 +9,7 @@ import { Folder } from './runs.mjs';
 
 const folder = new Folder();
 const canvasSize = { width: 480, height: 300 }, panelWidth = 304, barHeight = 56;
+const patience = 20000;  // ms
 let browser;
 
 before(async () => {
@@ -31,15 +32,27 @@ async function open(name) {
     if (!/^(file|data|blob):/.test(request.url())) page.complaints.push(`asks for ${request.url()}`);
   });
   await page.goto(pathToFileURL(folder.file(name)).href);
-  await page.waitForSelector('body[data-state]', { timeout: 20000 });
+  await page.waitForSelector('body[data-state]', { timeout: patience });
   assert.equal(await page.getAttribute('body', 'data-state'), 'ready');
   return page;
 }
 
-/** Keeps the pixels of the canvas, as they are on the screen, in the page; returns their number in the page's list. */
-async function look(page) {
+/** Waits until a condition holds, as long as a slow machine may take. */
+async function holds(condition, what) {
+  const end = Date.now() + patience;
+  while (!await condition()) assert.ok(Date.now() < end, `${what}, within ${patience} ms`);
+}
+
+/** The pixels of the canvas, as they are on the screen. */
+async function shoot(page) {
   await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const shot = (await page.screenshot({ clip: { x: 0, y: 0, ...canvasSize } })).toString('base64');
+  return (await page.screenshot({ clip: { x: 0, y: 0, ...canvasSize } })).toString('base64');
+}
+/** Keeps the pixels of the canvas in the page once they stand still, however slow the machine; returns their number in the page's list. */
+async function look(page) {
+  let shot = await shoot(page);
+  const stands = async () => shot === (shot = await shoot(page));
+  await holds(stands, 'the picture stands still');
   return page.evaluate(async text => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), c => c.charCodeAt(0))]));
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
@@ -126,7 +139,7 @@ test('keys step and play, the mouse turns, f fits', async () => {
   await press('Home');
   const start = await look(page);
   await press(' ');
-  await page.waitForFunction(() => Number(document.getElementById('slider').value) > 4, null, { timeout: 20000 });
+  await page.waitForFunction(() => Number(document.getElementById('slider').value) > 4, null, { timeout: patience });
   await press(' ');
   const stopped = await record(page);
   await page.waitForTimeout(300);
@@ -141,8 +154,9 @@ test('keys step and play, the mouse turns, f fits', async () => {
   await press('f');
   assert.ok(await changedSince(page, start) < 50, 'the view is as at first');
   await page.setViewportSize({ width: 900, height: 400 });
-  const size = await page.locator('#stage canvas').evaluate(canvas => [canvas.clientWidth, canvas.clientHeight]);
-  assert.deepEqual(size, [900 - panelWidth, 400 - barHeight]);
+  const size = () => page.locator('#stage canvas').evaluate(canvas => [canvas.clientWidth, canvas.clientHeight].join());
+  const stageSize = [900 - panelWidth, 400 - barHeight].join();
+  await holds(async () => await size() === stageSize, `the canvas measures ${stageSize}`);
   assert.deepEqual(page.complaints, []);
   await page.close();
 });
