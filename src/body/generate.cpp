@@ -15,8 +15,6 @@ namespace {
 using detail::nearest;
 using detail::Wide;
 
-constexpr std::uint32_t most_vertices = 1U << 24;  // a body of more is a mistake
-
 /// \throw Error(usage) unless the value is a positive number
 void check_positive(const char* shape, const char* what, double value) {
   if (!(value > 0) || !std::isfinite(value))
@@ -25,9 +23,9 @@ void check_positive(const char* shape, const char* what, double value) {
 }
 
 void check_count(const char* shape, const char* what, std::uint32_t value, std::uint32_t low) {
-  if (value < low || value > most_vertices)
+  if (value < low || value > most_generated_vertices)
     throw Error(Error_code::usage,
-                fmt::format("{}: {} {}; give {} to {}", shape, value, what, low, most_vertices));
+                fmt::format("{}: {} {}; give {} to {}", shape, value, what, low, most_generated_vertices));
 }
 
 /// Point i of n + 1 at equal distances on a segment of that length with its middle at 0.

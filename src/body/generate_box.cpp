@@ -17,8 +17,6 @@ namespace {
 using detail::nearest;
 using detail::Wide;
 
-constexpr double most_vertices = 1U << 24;  // a body of more is a mistake
-
 void check(const Box_shape& shape) {
   double all = 1, inner = 1;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -30,9 +28,9 @@ void check(const Box_shape& shape) {
     all *= shape.cells[k] + 1.0;
     inner *= shape.cells[k] - 1.0;
   }
-  if (all - inner > most_vertices)
+  if (all - inner > most_generated_vertices)
     throw Error(Error_code::usage, fmt::format("box: {} vertices; give fewer cells, for at most {}",
-                                               all - inner, most_vertices));
+                                               all - inner, most_generated_vertices));
 }
 
 /// The points of the lattice on the surface, numbered.

@@ -20,4 +20,22 @@ nlohmann::ordered_json to_json(const Walk_counts& c) {
           {"exact_fallbacks", c.predicates.fallbacks}};
 }
 
+nlohmann::ordered_json to_json(const Edge_counts& c) {
+  return {{"checked", c.edges},
+          {"same_cell", c.same_cell},
+          {"convex_pair", c.convex_pair},
+          {"same_chain", c.same_chain},
+          {"chain_facets", c.chain_facets},
+          {"clear", c.clear},
+          {"event_sweeps", c.event_sweeps},
+          {"changed", c.changed},
+          {"floods", c.floods},
+          {"flooded_cells", c.flooded_cells},
+          {"pierced", c.pierced},
+          {"searches", c.searches},
+          {"search_sweeps", c.search_sweeps},
+          {"search_walls", c.search_walls},
+          {"search_misses", c.search_misses}};
+}
+
 }  // namespace cellwalk::cli

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_CLI_COUNTS_JSON_H
 #define CELLWALK_CLI_COUNTS_JSON_H
 
+#include <cellwalk/edge/sweep.h>
 #include <cellwalk/walk/walk.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,6 +11,8 @@
 namespace cellwalk::cli {
 
 nlohmann::ordered_json to_json(const Walk_counts& counts);
+/// Without those of walks.
+nlohmann::ordered_json to_json(const Edge_counts& counts);
 
 }  // namespace cellwalk::cli
 

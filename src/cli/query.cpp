@@ -40,24 +40,6 @@ struct Query_options {
   Build_options build{.keep_map = false};
 };
 
-nlohmann::ordered_json to_json(const Edge_counts& c) {
-  return {{"edges", c.edges},
-          {"same_cell", c.same_cell},
-          {"convex_pair", c.convex_pair},
-          {"same_chain", c.same_chain},
-          {"chain_facets", c.chain_facets},
-          {"changed", c.changed},
-          {"event_sweeps", c.event_sweeps},
-          {"floods", c.floods},
-          {"flooded_cells", c.flooded_cells},
-          {"clear", c.clear},
-          {"searches", c.searches},
-          {"search_sweeps", c.search_sweeps},
-          {"search_walls", c.search_walls},
-          {"search_misses", c.search_misses},
-          {"walk", cli::to_json(c.walk)}};
-}
-
 /// Writes the answers and says how many there are of each status.
 template <int D, std::size_t N>
 void report(const Query_options& options, const Snapshot<D>& snapshot,
@@ -135,7 +117,9 @@ void query_environment(const Query_options& options, const Environment<D>& envir
           const auto& [p, target, q] = sweep.points;
           return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
         });
-    report(options, snapshot, sweeps, answers, to_json(counts));
+    nlohmann::ordered_json work = cli::to_json(counts);
+    work["walk"] = cli::to_json(counts.walk);
+    report(options, snapshot, sweeps, answers, work);
     draw_row(options, snapshot, locator, sweeps, answers);
   }
 }

@@ -18,7 +18,7 @@ namespace {
 using namespace query_colors;
 using io::Key;
 
-constexpr double thin = 1, medium = 1.6, thick = 2.6, heavy = 3.4, widest = 5.5;
+constexpr double thin = 1, usual = 1.6, thick = 2.6, heavy = 3.4, widest = 5.5;
 
 /// A walk with all that a picture shows of it.
 struct Shown_walk {
@@ -106,7 +106,7 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   const auto& [a, b] = points;
   if (answer.cell == Cell::none) {
     Query_plot plot(snapshot, points, {});
-    plot.dashes(a, b, medium, Layer::lines, motion);
+    plot.dashes(a, b, usual, Layer::lines, motion);
     return plot.write(path, title_of(row, answer, "a"));
   }
   const Shown_walk walk = walk_of(snapshot, locator, a, b, answer);
@@ -115,8 +115,8 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   Query_plot plot(snapshot, points, tints);
   plot.key(Key::patch, visited, "cells visited");
   const Point<2> end = answer.contact ? answer.contact->point : b;
-  plot.line(a, end, medium, Layer::lines, motion);
-  if (answer.contact) plot.dashes(end, b, medium, Layer::lines, motion);
+  plot.line(a, end, usual, Layer::lines, motion);
+  if (answer.contact) plot.dashes(end, b, usual, Layer::lines, motion);
   plot.key(Key::line, motion, answer.contact ? "the motion from a towards b" : "the motion from a to b");
   for (const Half_facet f : walk.crossed) plot.facet(f, heavy, crossed);
   if (!walk.crossed.empty()) plot.key(Key::line, crossed, "facets crossed");
@@ -143,7 +143,7 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   const auto& [p, t, q] = points;
   if (answer.cell == Cell::none) {
     Query_plot plot(snapshot, points, {});
-    plot.dashes(p, q, medium, Layer::lines, motion);
+    plot.dashes(p, q, usual, Layer::lines, motion);
     return plot.write(path, title_of(row, answer, "p"));
   }
   const Particle<2> start = locator.particle_at(p), still = locator.particle_at(q);
@@ -164,7 +164,7 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   for (const Half_facet f : before) plot.facet(f, widest, chain);
   if (!before.empty()) plot.key(Key::line, chain, "chain of pq: the facets it passes");
   if (!way.result.contact) {
-    plot.dashes(t, q, medium, Layer::lines, motion);
+    plot.dashes(t, q, usual, Layer::lines, motion);
     plot.key(Key::dashes, motion, "tq after the motion");
     plot.key(Key::patch, along_edge, "cells the temporary particle visits");
     for (const Half_facet f : along.crossed) plot.facet(f, thick, crossed, Layer::kept_facets);

@@ -13,12 +13,12 @@ namespace {
 using namespace query_colors;
 using io::Color;
 
-constexpr int panel_width = 800;                                       // pixels
-constexpr double least_shape = 0.3, largest_shape = 1.1;               // height of a panel beside its width
-constexpr double width_share = 0.0024;                                 // of what is shown: a line of width 1
-constexpr double margin_share = 0.2;                                   // of it: round the motion
-constexpr double grid_width = 0.6, wall_width = 2.4, spot_size = 2.6;  // in lines
-constexpr double dash = 6, arrow_length = 26;                          // in lines
+constexpr int panel_width = 800;                                        // pixels
+constexpr double least_shape = 0.3, largest_shape = 1.1;                // height of a panel beside its width
+constexpr double width_share = 0.0024;                                  // of what is shown: a line of width 1
+constexpr double margin_share = 0.2;                                    // of it: round the motion
+constexpr double grid_lines = 0.6, wall_lines = 2.4, spot_lines = 2.6;  // in lines
+constexpr double dash = 6, arrow_lines = 26;                            // in lines
 constexpr std::size_t most_numbers = 60;  // of cells: more would only darken the picture
 
 Point<2> middle_of(const Cell_view<2>& view) {
@@ -102,7 +102,7 @@ void Query_plot::add_cell(Cell cell, const Color& color) {
   if (snapshot_.is_solid(cell)) return;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     const bool is_wall = snapshot_.is_impassable(Snapshot<2>::half_facet(cell, i));
-    line(view.point(view.loop(i)[0]), view.point(view.loop(i)[1]), is_wall ? wall_width : grid_width,
+    line(view.point(view.loop(i)[0]), view.point(view.loop(i)[1]), is_wall ? wall_lines : grid_lines,
          is_wall ? Layer::walls : Layer::grid, is_wall ? wall : grid);
   }
 }
@@ -133,7 +133,7 @@ void Query_plot::triangle(const Point<2>& a, const Point<2>& b, const Point<2>& 
 }
 
 void Query_plot::spot(const Point<2>& x, double size, const Color& color) {
-  io::add_disc(panel_.drawing, x, size * spot_size * width_share * unit_, height(Layer::spots),
+  io::add_disc(panel_.drawing, x, size * spot_lines * width_share * unit_, height(Layer::spots),
                material(color));
 }
 
@@ -144,7 +144,7 @@ void Query_plot::point(const Point<2>& x, const std::string& name, const Color& 
 
 void Query_plot::contact(const Point<2>& x, const Vector<2>& normal) {
   spot(x, 1.3, query_colors::contact);
-  io::add_flat_arrow(panel_.drawing, x, normal, arrow_length * width_share * unit_, 2 * width_share * unit_,
+  io::add_flat_arrow(panel_.drawing, x, normal, arrow_lines * width_share * unit_, 2 * width_share * unit_,
                      height(Layer::arrows), material(query_colors::contact));
 }
 

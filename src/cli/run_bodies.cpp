@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cli/counts_json.h"
 #include "cli/kind_names.h"
 
 namespace cellwalk::cli {
@@ -96,13 +97,6 @@ ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
     for (std::size_t k = 0; k < 3; ++k) result["contacts"][feature_names[f]][kind_names[k]] = contacts[f][k];
   if (!notes.empty()) result["notes"] = notes;
   return result;
-}
-
-ordered_json to_json(const Edge_counts& c) {
-  return {{"checked", c.edges},         {"same_cell", c.same_cell}, {"convex_pair", c.convex_pair},
-          {"same_chain", c.same_chain}, {"clear", c.clear},         {"event_sweeps", c.event_sweeps},
-          {"changed", c.changed},       {"floods", c.floods},       {"flooded_cells", c.flooded_cells},
-          {"pierced", c.pierced}};
 }
 
 ordered_json shares_json(const Edge_counts& c) {

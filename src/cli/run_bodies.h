@@ -38,7 +38,6 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene);
 /// Sizes, contacts and notes.
 nlohmann::ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
                                    const std::vector<std::string>& notes);
-nlohmann::ordered_json to_json(const Edge_counts& counts);
 /// The share of edge checks that each certificate decided.
 nlohmann::ordered_json shares_json(const Edge_counts& counts);
 /// Where the catheter is.

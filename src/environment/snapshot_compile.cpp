@@ -2,28 +2,19 @@
 // Compilation of a whole soup: order, sizes, cells, links, planes, convex pairs.
 #include <cellwalk/kernel/error.h>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
+#include "parallel.h"
 #include "plane_compiler.h"
 #include "snapshot_compiler.h"
 #include "space_filling.h"
 
 namespace cellwalk {
 namespace {
-
-template <class F>
-void for_each_parallel(std::size_t n, const F& f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024),
-                    [&](const tbb::blocked_range<std::size_t>& r) {
-                      for (std::size_t i = r.begin(); i < r.end(); ++i) f(i);
-                    });
-}
 
 /// Cells in the order of the Hilbert curve through their vertex means; ties in input order.
 template <int D>

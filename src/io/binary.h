@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: numbers out of binary files, never past their end.
+// Private to io: numbers out of binary files, never past their end, and into them.
 #ifndef CELLWALK_IO_BINARY_H
 #define CELLWALK_IO_BINARY_H
 
@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "text.h"
 
@@ -43,6 +44,16 @@ class Binary_reader {
   std::string_view rest_;
   bool swap_;
 };
+
+/// Values as they lie in memory, to be written.
+template <class T>
+std::string_view bytes_of(const T* values, std::size_t count) {
+  return {reinterpret_cast<const char*>(values), count * sizeof(T)};
+}
+template <class T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return bytes_of(values.data(), values.size());
+}
 
 }  // namespace cellwalk::io
 

@@ -36,14 +36,14 @@ void add(Drawing& drawing, const std::array<Point<3>, 3>& corners, const std::ar
   drawing.triangles.push_back({corners, normals, material});
 }
 
-struct Ring {
+struct Cross_section {
   std::array<Vector<3>, tube_sides> directions;
 };
 
 /// Directions round `axis`, the first one next to `start`.
-Ring make_ring(const Vector<3>& axis, const Vector<3>& start) {
+Cross_section make_ring(const Vector<3>& axis, const Vector<3>& start) {
   const Vector<3> u = unit(start - dot(start, axis) * axis), v = cross(axis, u);
-  Ring ring;
+  Cross_section ring;
   for (int i = 0; i < tube_sides; ++i) {
     const double angle = 2 * std::numbers::pi * i / tube_sides;
     ring.directions[static_cast<std::size_t>(i)] = std::cos(angle) * u + std::sin(angle) * v;
@@ -52,8 +52,8 @@ Ring make_ring(const Vector<3>& axis, const Vector<3>& start) {
 }
 
 /// The side of a cone or cylinder between two rings. `slope` leans the normals along the axis a to b.
-void add_side(Drawing& drawing, const Point<3>& a, double radius_a, const Ring& ring_a, const Point<3>& b,
-              double radius_b, const Ring& ring_b, std::uint32_t material) {
+void add_side(Drawing& drawing, const Point<3>& a, double radius_a, const Cross_section& ring_a,
+              const Point<3>& b, double radius_b, const Cross_section& ring_b, std::uint32_t material) {
   const Vector<3> axis = unit(b - a);
   const double lean = (radius_a - radius_b) / std::max(length(b - a), 1e-300);
   for (std::size_t i = 0; i < tube_sides; ++i) {
@@ -95,7 +95,7 @@ void add_tube(Drawing& drawing, std::span<const Point<3>> line, double radius, s
   if (points.size() == 1) return;
   add_ball(drawing, points.back(), radius, material);
   Vector<3> start = orthogonal(unit(points[1] - points[0]));
-  Ring previous;
+  Cross_section previous;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector<3> in = unit(points[i] - points[i == 0 ? 0 : i - 1]);
     const Vector<3> out = unit(points[i + 1 == points.size() ? i : i + 1] - points[i]);
@@ -103,7 +103,7 @@ void add_tube(Drawing& drawing, std::span<const Point<3>> line, double radius, s
     axis = length(axis) > 1e-6 ? unit(axis) : out;  // a reversal has no middle direction
     // The ring's start is carried along, so that the tube does not twist.
     if (length(cross(start, axis)) < 1e-6) start = orthogonal(axis);
-    const Ring ring = make_ring(axis, start);
+    const Cross_section ring = make_ring(axis, start);
     start = ring.directions[0];
     if (i > 0) add_side(drawing, points[i - 1], radius, previous, points[i], radius, ring, material);
     previous = ring;
@@ -113,7 +113,7 @@ void add_tube(Drawing& drawing, std::span<const Point<3>> line, double radius, s
 void add_arrow(Drawing& drawing, const Point<3>& tail, const Vector<3>& direction, double arrow_length,
                double radius, std::uint32_t material) {
   const Vector<3> axis = unit(direction);
-  const Ring ring = make_ring(axis, orthogonal(axis));
+  const Cross_section ring = make_ring(axis, orthogonal(axis));
   const Point<3> neck = tail + ((1 - head_length) * arrow_length) * axis, tip = tail + arrow_length * axis;
   add_side(drawing, tail, radius, ring, neck, radius, ring, material);
   add_side(drawing, neck, head_radius * radius, ring, tip, 0, ring, material);

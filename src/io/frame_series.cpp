@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& error) {
+[[noreturn]] void fail_at(const fs::path& path, const std::string& what, const std::error_code& error) {
   throw Error(Error_code::other, fmt::format("{}: {} ({})", path.string(), what, error.message()));
 }
 
@@ -24,7 +24,7 @@ std::vector<fs::path> make_directories(const fs::path& directory) {
     missing.insert(missing.begin(), p);
   std::error_code error;
   if (!directory.empty() && !fs::exists(directory) && !fs::create_directories(directory, error))
-    fail(directory, "the directory cannot be made", error);
+    fail_at(directory, "the directory cannot be made", error);
   return missing;
 }
 
@@ -63,7 +63,7 @@ Frame_series::Frame_series(fs::path collection) : collection_(std::move(collecti
   fs::remove_all(temporary_, error);
   if (!fs::create_directory(temporary_, error)) {
     for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, error);
-    fail(temporary_, "the directory cannot be made", error);
+    fail_at(temporary_, "the directory cannot be made", error);
   }
 }
 
@@ -87,12 +87,12 @@ void Frame_series::commit() {
   std::error_code error;
   const bool replaces = fs::exists(frames_);
   if (replaces) fs::rename(frames_, old, error);
-  if (error) fail(frames_, "cannot be replaced", error);
+  if (error) fail_at(frames_, "cannot be replaced", error);
   fs::rename(temporary_, frames_, error);
   if (error) {
     std::error_code ignored;
     if (replaces) fs::rename(old, frames_, ignored);
-    fail(frames_, "cannot be put in place", error);
+    fail_at(frames_, "cannot be put in place", error);
   }
   committed_ = true;
   fs::remove_all(old, error);

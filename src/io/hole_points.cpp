@@ -14,11 +14,11 @@ constexpr int most_halvings = 40;
 
 class Search {
  public:
-  Search(const std::vector<Point<2>>& points, const std::vector<Ring>& rings, std::size_t hole)
+  Search(const std::vector<Point<2>>& points, const std::vector<Point_ring>& rings, std::size_t hole)
       : points_(points), rings_(rings), hole_(hole) {}
 
   std::vector<Point<2>> run() {
-    const Ring& ring = rings_[hole_];
+    const Point_ring& ring = rings_[hole_];
     // The corner that is lowest, then leftmost, is convex: it tells which way round the ring runs.
     const std::size_t n = ring.size();
     std::size_t lowest = 0;
@@ -59,7 +59,7 @@ class Search {
     const Point<2>&a = at(before(i)), &b = at(i), &c = at(after(i));
     Point<2> seen{a[0] / 2 + c[0] / 2, a[1] / 2 + c[1] / 2};
     std::optional<Point<2>> farthest;
-    for (const Ring& ring : rings_)
+    for (const Point_ring& ring : rings_)
       for (std::uint32_t v : ring) {
         const Point<2>& p = points_[v];
         if (turn(a, b, p) * side <= 0 || turn(b, c, p) * side <= 0 || turn(c, a, p) * side < 0) continue;
@@ -85,7 +85,7 @@ class Search {
     bool in_domain = false;
     for (std::size_t r = 0; r < rings_.size(); ++r) {
       bool inside = false;
-      const Ring& ring = rings_[r];
+      const Point_ring& ring = rings_[r];
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Point<2>*u = &points_[ring[i]], *v = &points_[ring[(i + 1) % ring.size()]];
         if (std::max((*u)[1], (*v)[1]) < p[1] || std::min((*u)[1], (*v)[1]) > p[1]) continue;
@@ -101,14 +101,14 @@ class Search {
   }
 
   const std::vector<Point<2>>& points_;
-  const std::vector<Ring>& rings_;
+  const std::vector<Point_ring>& rings_;
   std::size_t hole_;
   Predicate_counts counts_;
 };
 
 }  // namespace
 
-std::vector<Point<2>> hole_points(const std::vector<Point<2>>& points, const std::vector<Ring>& rings,
+std::vector<Point<2>> hole_points(const std::vector<Point<2>>& points, const std::vector<Point_ring>& rings,
                                   std::size_t hole) {
   return Search(points, rings, hole).run();
 }

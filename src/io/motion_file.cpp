@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "binary.h"
 #include "motion_format.h"
 
 namespace cellwalk::io {
@@ -21,11 +22,6 @@ using nlohmann::ordered_json;
 constexpr std::size_t head_alignment = 8;  // arrays begin at a multiple of it
 constexpr double steps_of_16_bits = 65535;
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
-
-template <class T>
-std::string_view bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
 
 std::size_t corner_count(const std::vector<std::vector<std::uint32_t>>& loops) {
   std::size_t count = 0;
@@ -108,7 +104,7 @@ Motion_writer::Motion_writer(std::filesystem::path path, Motion_scene scene)
   file_.write(bytes_of(scene_.faces));
 }
 
-void Motion_writer::add(const Motion_record& record) {
+void Motion_writer::add(const Motion_frame& record) {
   const std::size_t count = record.positions.size();
   if (count != scene_.moving_count() || record.cells.size() != count ||
       record.decisions.size() != scene_.bodies.size())

@@ -13,7 +13,7 @@ namespace {
 
 using detail::Json_node;
 
-constexpr const char* format_name = "cellwalk motion 1";
+constexpr const char* record_format = "cellwalk motion 1";
 
 /// Facets with their vertices, in 2D the corners of a cell in order, and which of them are walls.
 template <int D>
@@ -72,7 +72,7 @@ Motion_record<D> motion_record(const Json_node& root) {
 template <int D>
 void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record) {
   nlohmann::ordered_json json{
-      {"format", format_name},       {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
+      {"format", record_format},     {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
       {"strategy", record.strategy}, {"from", record.from}, {"to", record.to}};
   if (record.cell) json["cell"] = *record.cell;
   json["points"] = record.soup.points;
@@ -90,8 +90,8 @@ Any_motion_record read_motion_record(const std::filesystem::path& path) {
   const Json_node root(*document, name);
   root.expect_keys(
       {"format", "dimension", "note", "kernel", "strategy", "from", "to", "cell", "points", "cells"});
-  if (root.at("format").string() != format_name)
-    root.at("format").fail(fmt::format("expected \"{}\"", format_name));
+  if (root.at("format").string() != record_format)
+    root.at("format").fail(fmt::format("expected \"{}\"", record_format));
   if (root.at("dimension").integer_in(2, 3) == 2) return motion_record<2>(root);
   return motion_record<3>(root);
 }

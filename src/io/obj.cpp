@@ -22,9 +22,9 @@ bool is_keyword(std::string_view word) {
              std::string_view::npos;
 }
 
-class Reader {
+class Obj_reader {
  public:
-  Reader(const std::string& name, std::string_view bytes, Body_elements* body)
+  Obj_reader(const std::string& name, std::string_view bytes, Body_elements* body)
       : in_(name, bytes), body_(body) {}
 
   Surface_soup read(Read_report& report) {
@@ -118,7 +118,7 @@ class Reader {
 Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report,
                        Body_elements* body) {
   report.format = "OBJ";
-  return Reader(name, bytes, body).read(report);
+  return Obj_reader(name, bytes, body).read(report);
 }
 
 }  // namespace cellwalk::io

@@ -29,9 +29,9 @@ struct Raw {
   std::uint32_t head(std::uint32_t halfedge) const { return edges[halfedge / 2][1 - halfedge % 2]; }
 };
 
-class Reader {
+class Ovm_reader {
  public:
-  Reader(const std::string& name, std::string_view text) : in_(name, text) {}
+  Ovm_reader(const std::string& name, std::string_view text) : in_(name, text) {}
 
   Mesh_file read() {
     header();
@@ -234,7 +234,7 @@ class Reader {
 
 }  // namespace
 
-Mesh_file parse_ovm(const std::string& name, std::string_view text) { return Reader(name, text).read(); }
+Mesh_file parse_ovm(const std::string& name, std::string_view text) { return Ovm_reader(name, text).read(); }
 
 Mesh_file read_ovm(const std::filesystem::path& path) { return parse_ovm(path.string(), load(path)); }
 

@@ -84,9 +84,9 @@ class Binary_source : public Source {
   Binary_reader in_;
 };
 
-class Reader {
+class Ply_reader {
  public:
-  Reader(std::unique_ptr<Source> source, Body_elements* body) : in_(std::move(source)), body_(body) {}
+  Ply_reader(std::unique_ptr<Source> source, Body_elements* body) : in_(std::move(source)), body_(body) {}
 
   Surface_soup read(const Ply_header& header, Read_report& report) {
     for (const Ply_element& element : header.elements) {
@@ -207,8 +207,8 @@ Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_rep
   const Ply_header header = read_ply_header(name, bytes);
   const bool text = header.encoding == Ply_encoding::text;
   report.format = text ? "PLY" : "PLY (binary)";
-  if (text) return Reader(std::make_unique<Text_source>(name, bytes, header), body).read(header, report);
-  return Reader(std::make_unique<Binary_source>(name, bytes, header), body).read(header, report);
+  if (text) return Ply_reader(std::make_unique<Text_source>(name, bytes, header), body).read(header, report);
+  return Ply_reader(std::make_unique<Binary_source>(name, bytes, header), body).read(header, report);
 }
 
 }  // namespace cellwalk::io

@@ -15,7 +15,7 @@ namespace cellwalk::io {
 namespace {
 
 constexpr std::string_view magic = "ECCDTRC1";
-constexpr std::size_t header_size = 64, index_size = 4, point_size = 24, answer_size = 1;
+constexpr std::size_t trace_header_size = 64, index_size = 4, point_size = 24, answer_size = 1;
 static_assert(sizeof(Point<3>) == point_size && std::endian::native == std::endian::little,
               "arrays are read and written as they lie in memory");
 
@@ -55,7 +55,7 @@ void check_size(const std::string& name, const Trace& trace, std::uint64_t obsta
       fmt::format("{} obstacles, {} bodies and {} steps", obstacles, trace.bodies, trace.steps);
   if (before_steps > bytes || (a_step > 0 && trace.steps > (bytes - before_steps) / a_step))
     fail(name, fmt::format("announces {}, more than its {} bytes hold: it is cut short, get it whole",
-                           announced, header_size + bytes));
+                           announced, trace_header_size + bytes));
   if (const std::uint64_t rest = bytes - before_steps - trace.steps * a_step; rest > 0)
     fail(name, fmt::format("goes on for {} bytes after the {} that it announces: it is damaged, get it anew",
                            rest, announced));
@@ -102,16 +102,6 @@ std::vector<T> take_array(std::string_view& bytes, std::size_t count) {
   return values;
 }
 
-template <class T>
-std::string_view bytes_of(const T* values, std::size_t count) {
-  return {reinterpret_cast<const char*>(values), count * sizeof(T)};
-}
-
-template <class T>
-std::string_view bytes_of(const std::vector<T>& values) {
-  return bytes_of(values.data(), values.size());
-}
-
 }  // namespace
 
 Trace parse_trace(const std::string& name, std::string_view bytes) {
@@ -120,7 +110,7 @@ Trace parse_trace(const std::string& name, std::string_view bytes) {
   Binary_reader in(name, bytes.substr(magic.size()), false);
   std::uint32_t obstacles = 0;
   Trace trace = take_header(in, obstacles);
-  bytes.remove_prefix(header_size);
+  bytes.remove_prefix(trace_header_size);
   check_size(name, trace, obstacles, bytes.size());
   trace.obstacles = take_array<std::uint32_t>(bytes, obstacles);
   for (char c : take_array<char>(bytes, padding(obstacles)))

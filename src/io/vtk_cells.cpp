@@ -133,9 +133,9 @@ std::optional<Shape> shape_of(int type) {
   }
 }
 
-class Reader {
+class Cell_reader {
  public:
-  Reader(const std::string& name, vtkPoints* points) : name_(name) {
+  Cell_reader(const std::string& name, vtkPoints* points) : name_(name) {
     soup().points = read_points(name, points);
   }
 
@@ -300,13 +300,13 @@ class Reader {
 }  // namespace
 
 Read_elements read_cells(const std::string& name, vtkUnstructuredGrid& grid) {
-  Reader reader(name, grid.GetPoints());
+  Cell_reader reader(name, grid.GetPoints());
   reader.grid(grid);
   return reader.result();
 }
 
 Read_elements read_cells(const std::string& name, vtkPolyData& surface) {
-  Reader reader(name, surface.GetPoints());
+  Cell_reader reader(name, surface.GetPoints());
   reader.surface(surface);
   return reader.result();
 }

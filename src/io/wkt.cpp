@@ -58,7 +58,7 @@ class Parser {
   void ring(bool is_hole) {
     peek();
     ring_lines_.push_back(position_);
-    Ring ring;
+    Point_ring ring;
     list([&] {
       Point<2> p;
       for (double& x : p) x = number();
@@ -85,7 +85,7 @@ class Parser {
       domain.holes.insert(domain.holes.end(), found.begin(), found.end());
     }
     std::set<std::array<std::uint32_t, 2>> seen;
-    for (const Ring& ring : rings_)
+    for (const Point_ring& ring : rings_)
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t a = ring[i], b = ring[(i + 1) % ring.size()];
         if (seen.insert({std::min(a, b), std::max(a, b)}).second) domain.segments.push_back({a, b});
@@ -173,7 +173,7 @@ class Parser {
   std::size_t position_ = 0;
   std::vector<Point<2>> points_;
   std::map<Point<2>, std::uint32_t> index_;
-  std::vector<Ring> rings_;
+  std::vector<Point_ring> rings_;
   std::vector<std::size_t> holes_, ring_lines_;
 };
 

@@ -9,7 +9,7 @@ namespace cellwalk::detail {
 namespace {
 
 /// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the steps that follow.
-constexpr int passes = 12;
+constexpr int relaxation_passes = 12;
 
 /// Takes a vector across one direction to one across another, by the least rotation.
 Vector<2> transported(const Vector<2>& v, const Vector<2>& from, const Vector<2>& to) {
@@ -173,7 +173,7 @@ void relax(const Chain_state<D>& state, const Natural_bend<D>& bend, std::span<P
     a = a - weight(i) * change;
     b = b + weight(i + 1) * change;
   };
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < relaxation_passes; ++pass) {
     for (std::size_t i = count; i-- > 0;) straighten(i);
     for (std::size_t i = count; i-- > 0;) stretch(i);
   }

@@ -11,7 +11,7 @@ namespace {
 
 /// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds change by more
 /// than this share of the fastest.
-constexpr int passes = 32;
+constexpr int impulse_passes = 32;
 constexpr double settled = 1e-9;
 
 /// A place of the body where it met a wall: the mean of some vertices with these weights.
@@ -117,7 +117,7 @@ template <int D>
 void stop_at_walls(std::vector<Place<D>>& places, Impulses<D>& impulses) {
   double fastest = 0;
   for (const Place<D>& place : places) fastest = std::max(fastest, -dot(place.velocity, place.normal));
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < impulse_passes; ++pass) {
     double change = 0;
     for (Place<D>& place : places) {
       const double mobility = impulses.mobility(place, place.normal);

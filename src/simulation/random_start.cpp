@@ -9,14 +9,14 @@ namespace cellwalk::detail {
 namespace {
 
 template <int D>
-struct Box {
+struct Cell_box {
   Point<D> low, high;
 };
 
 template <int D>
-Box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
+Cell_box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
   const Cell_view<D> view = snapshot.view(c);
-  Box<D> box{view.point(0), view.point(0)};
+  Cell_box<D> box{view.point(0), view.point(0)};
   for (std::size_t i = 1; i < view.vertex_count(); ++i)
     for (std::size_t d = 0; d < D; ++d) {
       box.low[d] = std::min(box.low[d], view.point(i)[d]);
@@ -32,7 +32,7 @@ Free_space<D>::Free_space(const Snapshot<D>& snapshot) : snapshot_(snapshot) {
   for (std::uint32_t i = 0; i < snapshot.cell_count(); ++i) {
     const Cell c = snapshot.cell(i);
     if (snapshot.is_solid(c)) continue;
-    const Box<D> box = box_of(snapshot, c);
+    const Cell_box<D> box = box_of(snapshot, c);
     double volume = 1;
     for (std::size_t d = 0; d < D; ++d) volume *= box.high[d] - box.low[d];
     cells_.push_back(i);
@@ -47,7 +47,7 @@ typename Free_space<D>::Place Free_space<D>::draw(Random& random) const {
     const auto at =
         static_cast<std::size_t>(std::upper_bound(sum_.begin(), sum_.end(), drawn) - sum_.begin());
     const Cell c = snapshot_.cell(cells_[std::min(at, cells_.size() - 1)]);
-    const Box<D> box = box_of(snapshot_, c);
+    const Cell_box<D> box = box_of(snapshot_, c);
     Point<D> p;
     for (std::size_t d = 0; d < D; ++d) p[d] = random.real(box.low[d], box.high[d]);
     if (in_closure(snapshot_, c, p)) return {p, c};

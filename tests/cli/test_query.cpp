@@ -11,20 +11,20 @@
 namespace cellwalk::test {
 namespace {
 
-/// Columns of the answers.
-enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
-
 class Query : public Query_table {
  protected:
+  /// Of the answers.
+  enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
+
   Query()
       : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {}
 };
 
-constexpr const char* header = "ax,ay,az,bx,by,bz\n";
+constexpr const char* moves_header = "ax,ay,az,bx,by,bz\n";
 
 TEST_F(Query, AnswersEveryStatusInSpace) {
   succeed({"generate", "hexes", "--cells", "4", "2", "2", "-o", "env.ovm"});
-  const auto rows = query(std::string(header) +
+  const auto rows = query(std::string(moves_header) +
                           "0.5,0.5,0.5,2.5,0.5,0.5\n"   // two cells on
                           "0.5,0.5,0.5,0.5,0.5,-0.5\n"  // through the floor, half way
                           "9,9,9,1,1,1\n"               // from outside
@@ -40,11 +40,11 @@ TEST_F(Query, AnswersEveryStatusInSpace) {
 
 TEST_F(Query, SaysHowManyAndWhatWasInvalid) {
   succeed({"generate", "hexes", "--cells", "2", "-o", "env.ovm"});
-  query(std::string(header) + "1,1,1,1,1,1.5\n1,1,1,1,1,9\n1,1,1,nan,1,1\n1,1,1,1,1/3,1\n1,1,1,1\n");
+  query(std::string(moves_header) + "1,1,1,1,1,1.5\n1,1,1,1,1,9\n1,1,1,nan,1,1\n1,1,1,1,1/3,1\n1,1,1,1\n");
   EXPECT_EQ(said_, "out.csv: 5 motions: 1 free, 1 contact, 3 invalid\n");
   EXPECT_TRUE(warned_.starts_with("cellwalk: queries.csv:4: ")) << warned_;
   EXPECT_NE(warned_.find("rows marked invalid: 3"), std::string::npos) << warned_;
-  query(std::string(header));
+  query(std::string(moves_header));
   EXPECT_EQ(said_, "out.csv: 0 motions\n");
   EXPECT_EQ(warned_, "");
 }
@@ -90,28 +90,28 @@ TEST_F(Query, RefusesTablesThatMakeNoSense) {
   expect_refused(3, "ax,ax,ay,az,bx,by,bz\n", {"queries.csv:1", "'ax'"});
   expect_failure(3, {"query", "env.ovm", "missing.csv", "-o", "out.csv"}, {"missing.csv"});
   succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
-  expect_refused(3, header, {"queries.csv", "az", "plane"});
+  expect_refused(3, moves_header, {"queries.csv", "az", "plane"});
 }
 
 TEST_F(Query, RefusesEnvironmentsThatAreNotCertified) {
   write("env.ovm", hexahedron_ovm(0.25));
-  expect_refused(4, header, {"env.ovm: ", "planar"});
+  expect_refused(4, moves_header, {"env.ovm: ", "planar"});
   write("env.ovm", "OVM BINARY\n");
-  expect_refused(3, header, {"env.ovm"});
+  expect_refused(3, moves_header, {"env.ovm"});
 }
 
 TEST_F(Query, RefusesCertificatesForKernelsWithoutThem) {
   succeed({"generate", "hexes", "--cells", "2", "-o", "env.ovm"});
   for (const char* kernel : {"lazy", "rational", "double", "double_1e-9", "double_1e-6", "float"})
-    expect_refused(2, header, {"certified", "exact"}, {"--strategy", "certified", "--kernel", kernel});
+    expect_refused(2, moves_header, {"certified", "exact"}, {"--strategy", "certified", "--kernel", kernel});
 }
 
 /// Motions of mixed lengths in the box [0,size]^3, half of them between points of the half-integer lattice.
-std::string random_motions(int count, int size) {
+std::string random_moves(int count, int size) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> anywhere(0, size);
   std::uniform_int_distribution<int> halves(0, 2 * size);
-  std::string text = header;
+  std::string text = moves_header;
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < 6; ++j)
       text += (i % 2 ? std::to_string(anywhere(random)) : std::to_string(halves(random)) + "/2") +
@@ -121,7 +121,7 @@ std::string random_motions(int count, int size) {
 
 TEST_F(Query, ExactKernelsStrategiesAndThreadsGiveTheSameAnswers) {
   succeed({"generate", "lattice", "--cells", "5", "--seed", "3", "-o", "env.ovm"});
-  const std::string motions = random_motions(4000, 5);
+  const std::string motions = random_moves(4000, 5);
   const auto rows = query(motions, {"--json", "counts.json"});
   const auto report = nlohmann::json::parse(text("counts.json"));
   EXPECT_GT(report.at("status").at("free"), 400);
@@ -151,7 +151,7 @@ TEST_F(Query, ExactKernelsStrategiesAndThreadsGiveTheSameAnswers) {
 
 TEST_F(Query, InexactKernelsAnswerEveryRow) {
   succeed({"generate", "lattice", "--cells", "4", "--rotated", "--scale", "0.125", "-o", "env.ovm"});
-  const std::string motions = random_motions(500, 2);
+  const std::string motions = random_moves(500, 2);
   for (const char* kernel : {"double", "double_1e-9", "double_1e-6", "float"})
     EXPECT_EQ(query(motions, {"--kernel", kernel}).size(), 500u);
 }

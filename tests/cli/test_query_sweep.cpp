@@ -12,11 +12,11 @@
 namespace cellwalk::test {
 namespace {
 
-/// Columns of the answers.
-enum Column { row, status, time, x, y, z, kind, body, nx, ny, nz, cells, cell };
-
 class Query_sweep : public Query_table {
  protected:
+  /// Of the answers.
+  enum Column { row, status, time, x, y, z, kind, body, nx, ny, nz, cells, cell };
+
   Query_sweep()
       : Query_table(
             {"row", "status", "time", "x", "y", "z", "kind", "body", "nx", "ny", "nz", "cells", "cell"}) {
@@ -37,8 +37,6 @@ constexpr const char* space = "px,py,pz,tx,ty,tz,qx,qy,qz\n";
 constexpr const char* round_obstacle_2 = "0.5,0.5,4.5,0.5,2.5,4.5\n";
 constexpr const char* round_obstacle_3 = "0.5,2.5,0.5,4.5,2.5,0.5,2.5,2.5,4.5\n";
 
-double number(const std::string& text) { return std::stod(text); }
-
 TEST_F(Query_sweep, AnswersEveryStatusInThePlane) {
   make_room(2);
   const auto rows = query(std::string(plane) +
@@ -56,11 +54,11 @@ TEST_F(Query_sweep, AnswersEveryStatusInThePlane) {
             (Row{"1", "contact", "0.75", "0.5", "5", "", "facet", "vertex", "0", "-1", "", "5", "20"}));
   // The line from q = (1/2,7/2) through the corner (2,2) meets the way of p at x = 5/2.
   EXPECT_EQ(rows[2][status], "contact");
-  EXPECT_NEAR(number(rows[2][time]), 2. / 3, 1e-15);
+  EXPECT_NEAR(std::stod(rows[2][time]), 2. / 3, 1e-15);
   EXPECT_EQ(rows[2][x] + " " + rows[2][y] + " " + rows[2][z], "2 2 ");
   EXPECT_EQ(rows[2][kind] + " " + rows[2][body], "vertex edge");
-  EXPECT_NEAR(number(rows[2][nx]), -std::sqrt(0.5), 1e-15);
-  EXPECT_NEAR(number(rows[2][ny]), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(std::stod(rows[2][nx]), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(std::stod(rows[2][ny]), -std::sqrt(0.5), 1e-15);
   EXPECT_EQ(rows[3], (Row{"3", "outside", "", "", "", "", "", "", "", "", "", "0", ""}));
   EXPECT_EQ(rows[4][status], "outside");
   EXPECT_EQ(rows[5][status], "outside");
@@ -79,11 +77,11 @@ TEST_F(Query_sweep, AnswersInSpace) {
                           "0.5,2.5,2.5,0.5,1.5,2.5,4.5,2.5,2.5\n");  // the edge begins across it
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0][status] + " " + rows[0][kind] + " " + rows[0][body], "contact edge edge");
-  EXPECT_NEAR(number(rows[0][time]), 1. / 6, 1e-15);
+  EXPECT_NEAR(std::stod(rows[0][time]), 1. / 6, 1e-15);
   EXPECT_EQ(rows[0][x] + " " + rows[0][y] + " " + rows[0][z], "2 2.5 3");
-  EXPECT_NEAR(number(rows[0][nx]), -3 / std::sqrt(10.), 1e-15);
-  EXPECT_EQ(number(rows[0][ny]), 0);
-  EXPECT_NEAR(number(rows[0][nz]), 1 / std::sqrt(10.), 1e-15);
+  EXPECT_NEAR(std::stod(rows[0][nx]), -3 / std::sqrt(10.), 1e-15);
+  EXPECT_EQ(std::stod(rows[0][ny]), 0);
+  EXPECT_NEAR(std::stod(rows[0][nz]), 1 / std::sqrt(10.), 1e-15);
   EXPECT_EQ(rows[1], (Row{"1", "free", "1", "0.5", "0.5", "3.5", "", "", "", "", "", "4", "75"}));
   EXPECT_EQ(rows[2],
             (Row{"2", "contact", "0.5", "2", "2.5", "2.5", "facet", "vertex", "-1", "0", "0", "2", "61"}));
@@ -97,7 +95,7 @@ TEST_F(Query_sweep, ThreeSegmentsMissWhatFitsBetween) {
         dimension == 2 ? std::string(plane) + round_obstacle_2 : std::string(space) + round_obstacle_3;
     const auto triangle = query(motion, {"--sweep", "triangle"}).at(0);
     EXPECT_EQ(triangle[status] + " " + triangle[body], "contact edge");
-    EXPECT_NEAR(number(triangle[time]), 1. / 6, 1e-15);
+    EXPECT_NEAR(std::stod(triangle[time]), 1. / 6, 1e-15);
     EXPECT_EQ(query(motion).at(0), triangle) << "the default";
     EXPECT_EQ(query(motion, {"--sweep", "faces"}).at(0), triangle) << "an edge has no face";
     EXPECT_EQ(query(motion, {"--sweep", "three_segments"}).at(0)[status], "free");
@@ -171,7 +169,7 @@ TEST_F(Query_sweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
 }
 
 /// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of them short.
-std::string random_motions(int count, int size) {
+std::string random_sweeps(int count, int size) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> anywhere(0, size), near(-1, 1);
   std::uniform_int_distribution<int> halves(0, 2 * size), near_halves(-2, 2);
@@ -198,7 +196,7 @@ class Query_sweep_random : public Query_sweep {
     exact_ = query(motions_, {"--json", "counts.json"});
   }
 
-  const std::string motions_ = random_motions(1500, 4);
+  const std::string motions_ = random_sweeps(1500, 4);
   std::vector<Row> exact_;
 };
 
@@ -230,9 +228,9 @@ TEST_F(Query_sweep_random, DichotomicIsWithinItsBoundAndNeverLater) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i][status], exact_[i][status]) << i;
     if (rows[i][status] != "contact") continue;
-    EXPECT_LE(number(rows[i][time]), number(exact_[i][time])) << i;
-    EXPECT_LE(number(exact_[i][time]), number(rows[i][time]) + 1. / 1024) << i;
-    earlier += number(rows[i][time]) < number(exact_[i][time]);
+    EXPECT_LE(std::stod(rows[i][time]), std::stod(exact_[i][time])) << i;
+    EXPECT_LE(std::stod(exact_[i][time]), std::stod(rows[i][time]) + 1. / 1024) << i;
+    earlier += std::stod(rows[i][time]) < std::stod(exact_[i][time]);
   }
   EXPECT_GT(earlier, 20);
 }
@@ -272,7 +270,7 @@ TEST_F(Query_sweep_random, ThreeSegmentsFindNothingElseAndTouchesComeFirst) {
     } else if (exact_[i][status] == "contact") {
       missed += segments[i][status] == "free";
       ASSERT_EQ(stop[i][status], "contact") << i;
-      EXPECT_LE(number(stop[i][time]), number(exact_[i][time])) << i;
+      EXPECT_LE(std::stod(stop[i][time]), std::stod(exact_[i][time])) << i;
     }
   }
   EXPECT_GT(missed, 0);

@@ -10,11 +10,11 @@
 namespace cellwalk::test {
 namespace {
 
-/// Columns of the answers.
-enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
-
 class Query_touch : public Query_table {
  protected:
+  /// Of the answers.
+  enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
+
   Query_touch()
       : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {}
 };

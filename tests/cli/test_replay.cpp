@@ -45,7 +45,7 @@ class Replay : public Program {
   }
 };
 
-constexpr std::size_t moves = 150 * 20 * 8;
+constexpr std::size_t trace_moves = 150 * 20 * 8;
 
 TEST_F(Replay, GivesTheRecordedAnswers) {
   const std::string said = record("t.bin", "out");
@@ -63,12 +63,12 @@ TEST_F(Replay, GivesTheRecordedAnswers) {
     EXPECT_EQ(report["ns_per_vertex_move"], rounds[1]);
     EXPECT_GT(rounds[0], 0);
     const json& counts = report["counts"];
-    EXPECT_EQ(counts["moves"], moves);
+    EXPECT_EQ(counts["moves"], trace_moves);
     EXPECT_GT(counts["vertex_hits"], 100);
     EXPECT_GT(counts["edge_hits"], 20);
     EXPECT_EQ(counts["held"], run["body_counts"]["held"]);
-    EXPECT_GT(counts["in_region"], 0.5 * moves);
-    EXPECT_GT(counts["walks"], moves / 100);
+    EXPECT_GT(counts["in_region"], 0.5 * trace_moves);
+    EXPECT_GT(counts["walks"], trace_moves / 100);
     EXPECT_GT(counts["crossings"], 100);
     EXPECT_TRUE(counts["exact_fallbacks"].is_number());
     double shares = 0;
@@ -102,13 +102,13 @@ TEST_F(Replay, RecordsTheSameBytesAgain) {
   record("a.bin", "a");
   record("b.bin", "b");
   EXPECT_TRUE(text("a.bin") == text("b.bin"));
-  EXPECT_EQ(text("a.bin").size(), 64 + 4 * 8 + 20 * 192 + moves * 25);
+  EXPECT_EQ(text("a.bin").size(), 64 + 4 * 8 + 20 * 192 + trace_moves * 25);
 }
 
 TEST_F(Replay, CountsAnswersThatDiffer) {
   record("t.bin", "out");
   std::string bytes = text("t.bin");
-  bytes[bytes.size() - moves + 1000] ^= 0x04;
+  bytes[bytes.size() - trace_moves + 1000] ^= 0x04;
   write("false.bin", bytes);
   EXPECT_EQ(replay({"false.bin"})["mismatches"], 1);
   bytes[bytes.size() - 1] ^= 0x10;
@@ -128,7 +128,7 @@ TEST_F(Replay, RefusesWhatIsNoTrace) {
   const std::string bytes = text("t.bin");
   write("short.bin", bytes.substr(0, bytes.size() - 1));
   expect_failure(3, {"replay", "short.bin"}, {"short.bin: announces 7 obstacles, 20 bodies and 150 steps"});
-  std::string idle = bytes.substr(0, bytes.size() - moves * 25);
+  std::string idle = bytes.substr(0, bytes.size() - trace_moves * 25);
   idle.replace(24, 4, std::string(4, '\0'));  // no steps
   write("idle.bin", idle);
   expect_failure(3, {"replay", "idle.bin"}, {"idle.bin: 20 bodies and 0 steps: there is nothing to replay"});

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// Hexahedra, spheres with faces and a rod that is led through a grid with solid cells; and a few particles.
-constexpr const char* grid = R"({
+constexpr const char* grid_scene = R"({
   "title": "A grid", "environment": {"generate": "hexes", "cells": [5, 4, 3], "solid": 0.1},
   "particles": [{"count": 4, "speed": 5}],
   "bodies": [{"shape": "hexahedron", "side": 0.4, "count": 12, "seed": 3, "speed": 3, "spin": [1, 0, 0.5]},
@@ -35,24 +35,25 @@ class Run_bodies : public Program {
   json report(const std::string& folder) const { return json::parse(text(folder + "/run.json")); }
   std::string run_grid() const {
     write("rod.csv", rod);
-    write("grid.json", grid);
+    write("grid.json", grid_scene);
     return succeed({"run", "grid.json", "-o", "out"});
   }
 };
 
-const std::vector<std::string> header{"step", "particle", "time", "x",    "y",      "z",       "kind",  "nx",
-                                      "ny",   "nz",       "cell", "body", "vertex", "feature", "number"};
+const std::vector<std::string> contacts_header{"step", "particle", "time",   "x",       "y",
+                                               "z",    "kind",     "nx",     "ny",      "nz",
+                                               "cell", "body",     "vertex", "feature", "number"};
 
 /// Contacts of a table by feature of the body and kind of the wall; checks each row.
 std::map<std::string, std::map<std::string, std::size_t>> count_contacts(
     const std::vector<std::vector<std::string>>& table, std::size_t dimension, std::size_t bodies,
     std::size_t& of_particles) {
-  EXPECT_EQ(table.at(0), header);
+  EXPECT_EQ(table.at(0), contacts_header);
   std::map<std::string, std::map<std::string, std::size_t>> contacts;
   of_particles = 0;
   for (std::size_t i = 1; i < table.size(); ++i) {
     const auto& row = table[i];
-    EXPECT_EQ(row.size(), header.size());
+    EXPECT_EQ(row.size(), contacts_header.size());
     EXPECT_EQ(row[5].empty(), dimension == 2);
     EXPECT_EQ(row[9].empty(), dimension == 2);
     const double nz = dimension == 2 ? 0 : std::stod(row[9]);
@@ -131,7 +132,7 @@ TEST_F(Run_bodies, InThePlane) {
 
 TEST_F(Run_bodies, GiveTheSameBytesEveryTime) {
   write("rod.csv", rod);
-  for (const char* scene : {grid, flat}) {
+  for (const char* scene : {grid_scene, flat}) {
     write("scene.json", scene);
     for (const char* folder : {"a", "b"}) succeed({"run", "scene.json", "-o", folder, "--force"});
     std::size_t compared = 0;
@@ -140,7 +141,7 @@ TEST_F(Run_bodies, GiveTheSameBytesEveryTime) {
       EXPECT_EQ(text(file), read_text(path("b") / file.substr(2))) << file;
       ++compared;
     }
-    EXPECT_EQ(compared, scene == grid ? 21u : 4u);
+    EXPECT_EQ(compared, scene == grid_scene ? 21u : 4u);
   }
 }
 

@@ -3,8 +3,11 @@
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 
+#include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/records/cell_soup.h>
+
+#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
@@ -134,6 +137,14 @@ std::uint64_t hash(const Cell_soup<D>& soup) {
   add(soup.points), add(soup.cell_begin), add(soup.facet_begin), add(soup.vertices);
   add(soup.impassable), add(soup.solid);
   return h;
+}
+
+/// Every cell is convex and closed, no facet belongs to more than two, and they can be glued.
+template <int D>
+void expect_sound(const Cell_soup<D>& soup) {
+  for (std::size_t c = 0; c < soup.cell_count(); ++c) ASSERT_EQ(flaw(soup, c), "") << "cell " << c;
+  EXPECT_EQ(count_facets(soup).crowded, 0u);
+  EXPECT_NO_THROW(glue(soup));
 }
 
 }  // namespace cellwalk::test

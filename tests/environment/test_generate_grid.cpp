@@ -13,15 +13,6 @@
 namespace cellwalk {
 namespace {
 
-using test::flaw;
-
-template <int D>
-void expect_sound(const Cell_soup<D>& soup) {
-  for (std::size_t c = 0; c < soup.cell_count(); ++c) ASSERT_EQ(flaw(soup, c), "") << "cell " << c;
-  EXPECT_EQ(test::count_facets(soup).crowded, 0u);
-  EXPECT_NO_THROW(glue(soup));
-}
-
 /// How many vertices belong to two solid cells.
 template <int D>
 std::size_t vertices_of_two_solid_cells(const Cell_soup<D>& soup) {
@@ -45,7 +36,7 @@ TEST(HexGrid, HasTheCountsOfAGrid) {
   Grid_options<3> options;
   options.cells = {4, 3, 2};
   const auto soup = hex_grid(options);
-  expect_sound(soup);
+  test::expect_sound(soup);
   EXPECT_EQ(soup.cell_count(), 24u);
   EXPECT_EQ(soup.points.size(), 60u);
   EXPECT_EQ(test::count_facets(soup).inner, 3u * 3 * 2 + 4 * 2 * 2 + 4 * 3 * 1);
@@ -127,7 +118,7 @@ TEST(HexGrid, StaysPlanarWhenShearedOrRotated) {
     Grid_options<3> options;
     options.cells = {3, 4, 5};
     options.map = map;
-    expect_sound(hex_grid(options));
+    test::expect_sound(hex_grid(options));
   }
   Grid_options<3> options;
   options.map = sheared<3>(0.1);  // rounds
@@ -139,7 +130,7 @@ TEST(SquareGrid, IsSound) {
   options.cells = {6, 5};
   options.map = rotated<2>();
   const auto soup = square_grid(options);
-  expect_sound(soup);
+  test::expect_sound(soup);
   EXPECT_EQ(test::volume(soup), 30 * 25);
   EXPECT_EQ(test::count_facets(soup).inner, 5u * 5 + 6 * 4);
 }
@@ -150,7 +141,7 @@ TEST(SimplexGrid, TetrahedraConformAndArePositive) {
     options.cells = {5, 4, 3};
     options.jitter = jitter;
     const auto soup = tetrahedral_grid(options);
-    expect_sound(soup);
+    test::expect_sound(soup);
     EXPECT_EQ(soup.cell_count(), 360u);
     EXPECT_EQ(test::count_facets(soup).boundary, 4u * (20 + 15 + 12));
   }
@@ -164,7 +155,7 @@ TEST(SimplexGrid, TrianglesConformAndArePositive) {
   options.jitter = 0.15;
   options.map = scaled<2>(0.1);
   const auto soup = triangle_grid(options);
-  expect_sound(soup);
+  test::expect_sound(soup);
   EXPECT_EQ(soup.cell_count(), 200u);
   EXPECT_EQ(test::count_facets(soup).boundary, 40u);
 }

@@ -12,15 +12,6 @@
 namespace cellwalk {
 namespace {
 
-using test::flaw;
-
-template <int D>
-void expect_sound(const Cell_soup<D>& soup) {
-  for (std::size_t c = 0; c < soup.cell_count(); ++c) ASSERT_EQ(flaw(soup, c), "") << "cell " << c;
-  EXPECT_EQ(test::count_facets(soup).crowded, 0u);
-  EXPECT_NO_THROW(glue(soup));
-}
-
 /// What a world has of each degeneracy.
 struct Variety {
   std::size_t tetrahedra = 0, prisms = 0, pyramids = 0, large = 0;
@@ -66,7 +57,7 @@ TEST(LatticeWorld, MixedWorldsAreSoundAndVaried) {
   Variety sum;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto soup = lattice_world(mixed_lattice_world<3>(seed));
-    expect_sound(soup);
+    test::expect_sound(soup);
     const Variety v = variety(soup);
     sum.tetrahedra += v.tetrahedra, sum.prisms += v.prisms, sum.pyramids += v.pyramids, sum.large += v.large;
     sum.collinear += v.collinear, sum.shared_twice += v.shared_twice, sum.half_walled += v.half_walled;
@@ -89,7 +80,7 @@ TEST(LatticeWorld, MixedWorldsOfThePlaneAreSound) {
     auto options = mixed_lattice_world<2>(seed);
     options.cells = {7, 5};
     const auto soup = lattice_world(options);
-    expect_sound(soup);
+    test::expect_sound(soup);
     for (std::size_t c = 0; c < soup.cell_count(); ++c)
       large += soup.cell_begin[c + 1] - soup.cell_begin[c] > 4;
   }
@@ -112,12 +103,12 @@ TEST(LatticeWorld, StaysPlanarUnderExactMaps) {
     auto options = mixed_lattice_world<3>(5);
     options.cells = {3, 3, 3};
     options.map = map;
-    expect_sound(lattice_world(options));
+    test::expect_sound(lattice_world(options));
   }
   for (const auto& map : {rotated<2>(), sheared<2>(0x1p-30), scaled<2>(0.1)}) {
     auto options = mixed_lattice_world<2>(5);
     options.map = map;
-    expect_sound(lattice_world(options));
+    test::expect_sound(lattice_world(options));
   }
 }
 

@@ -10,12 +10,6 @@
 namespace cellwalk {
 namespace {
 
-void expect_sound(const Cell_soup<2>& soup) {
-  for (std::size_t c = 0; c < soup.cell_count(); ++c) ASSERT_EQ(test::flaw(soup, c), "") << "cell " << c;
-  EXPECT_EQ(test::count_facets(soup).crowded, 0u);
-  EXPECT_NO_THROW(glue(soup));
-}
-
 /// How many free cells can be reached from the first one through passable facets.
 std::size_t reachable(const Cell_soup<2>& soup) {
   const Gluing gluing = glue(soup);
@@ -41,7 +35,7 @@ TEST(Room, AllRoomsAreJoined) {
     Room_options options;
     options.seed = seed;
     const auto soup = room_2d(options);
-    expect_sound(soup);
+    test::expect_sound(soup);
     EXPECT_EQ(reachable(soup), soup.cell_count()) << "seed " << seed;
   }
 }
@@ -51,7 +45,7 @@ TEST(Room, ObstaclesAreHolesOrSolid) {
   const auto hollow = room_2d(options);
   options.keep_obstacles = true;
   const auto filled = room_2d(options);
-  expect_sound(filled);
+  test::expect_sound(filled);
   EXPECT_DOUBLE_EQ(test::volume(filled), 36 * 20);
   EXPECT_LT(test::volume(hollow), 36 * 20 - 6 * 3 * 0.3);
   std::size_t solid = 0;
@@ -74,7 +68,7 @@ TEST(Room, WallsHaveDoors) {
 TEST(Room, IsReproducible) {
   Room_options options;
   options.square = 0.1;
-  expect_sound(room_2d(options));
+  test::expect_sound(room_2d(options));
   EXPECT_EQ(test::hash(room_2d(options)), 5896806670188246803u);
 }
 

@@ -156,9 +156,9 @@ TEST(Split, KeepsWallsAndSolidCells) {
 }
 
 TEST(Split, CutsPlanarCellsThatAreNotConvex) {
-  const Sample_cell<3> ell = prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
+  const Sample_cell<3> angle = prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
   Split_report report;
-  const Cell_soup<3> result = split(ell.soup(), report);
+  const Cell_soup<3> result = split(angle.soup(), report);
   expect_sound(result);
   EXPECT_EQ(exact_volume(result), Rational(6 * 3));
   EXPECT_EQ(report.not_convex, 1u);

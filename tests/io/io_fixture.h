@@ -48,6 +48,13 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// `text` with the first occurrence of `from` replaced; fails the test where there is none.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 /// The message `call` refuses with; fails the test if it does not throw an Error of that code.
 template <class Call>
 std::string refusal(Call call, Error_code code = Error_code::input) {

@@ -41,19 +41,13 @@ std::string said_of(const std::string& name, const std::string& text) {
   return message.substr(path.parent_path().string().size() + 1);
 }
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 // A triangle, a segment that hangs on it, and a vertex of its own at the place of another.
 const Edges flag_edges{{0, 1}, {0, 2}, {1, 2}, {2, 3}};
 const Faces flag_faces{{0, 1, 2}};
-const std::string off = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 3 0\n1 0 0\n3 0 1 2\n2 3 2\n1 4\n";
-const std::string obj =
+const std::string flag_off = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 3 0\n1 0 0\n3 0 1 2\n2 3 2\n1 4\n";
+const std::string flag_obj =
     "o flag\nv 0 0 0\nv 1 0 0\nv 0 1 0\nl 3 4\nv 0 3 0\nv 1 0 0\nf 1/1 2/2 -3\np 5\nl 1 2 \\\n3\n";
-const std::string ply =
+const std::string flag_ply =
     "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\n"
     "element face 1\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\n"
     "property uchar red\nproperty int vertex2\nend_header\n"
@@ -66,9 +60,9 @@ TEST(BodyFile, ReadsEdgesAndFacesInSpace) {
     Notes notes;
   };
   const Case cases[] = {
-      {"b.off", off, "OFF", {"1 facets of fewer than 2 vertices ignored", "1 vertices on no edge"}},
-      {"b.obj", obj, "OBJ", {"statements ignored: o, p", "1 vertices on no edge"}},
-      {"b.ply", ply, "PLY", {"1 vertices on no edge"}}};
+      {"b.off", flag_off, "OFF", {"1 facets of fewer than 2 vertices ignored", "1 vertices on no edge"}},
+      {"b.obj", flag_obj, "OBJ", {"statements ignored: o, p", "1 vertices on no edge"}},
+      {"b.ply", flag_ply, "PLY", {"1 vertices on no edge"}}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
     const auto file = read<3>(c.name, c.text);
@@ -82,7 +76,7 @@ TEST(BodyFile, ReadsEdgesAndFacesInSpace) {
 }
 
 TEST(BodyFile, ReadsFlatFilesInThePlane) {
-  for (const auto& [name, text] : {std::pair{"b.off", off}, {"b.obj", obj}, {"b.ply", ply}}) {
+  for (const auto& [name, text] : {std::pair{"b.off", flag_off}, {"b.obj", flag_obj}, {"b.ply", flag_ply}}) {
     SCOPED_TRACE(name);
     const auto file = read<2>(name, with(text, "0 3 0", "0 3 -0"));
     EXPECT_EQ(file.body.points, (std::vector<Point<2>>{{0, 0}, {1, 0}, {0, 1}, {0, 3}, {1, 0}}));
@@ -93,9 +87,9 @@ TEST(BodyFile, ReadsFlatFilesInThePlane) {
 
 TEST(BodyFile, RefusesAHeightInThePlaneWithItsLine) {
   const std::string what = ": z is 0.5, in a body of the plane: make every z zero, or use it in space";
-  EXPECT_EQ(said_of<2>("b.off", with(off, "0 3 0", "0 3 0.5")), "b.off:6" + what);
-  EXPECT_EQ(said_of<2>("b.obj", with(obj, "0 3 0", "0 3 0.5")), "b.obj:6" + what);
-  EXPECT_EQ(said_of<2>("b.ply", with(ply, "0 3 0", "0 3 0.5")), "b.ply:17" + what);
+  EXPECT_EQ(said_of<2>("b.off", with(flag_off, "0 3 0", "0 3 0.5")), "b.off:6" + what);
+  EXPECT_EQ(said_of<2>("b.obj", with(flag_obj, "0 3 0", "0 3 0.5")), "b.obj:6" + what);
+  EXPECT_EQ(said_of<2>("b.ply", with(flag_ply, "0 3 0", "0 3 0.5")), "b.ply:17" + what);
   EXPECT_EQ(said_of<2>("b.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendfacet\n"),
             "b.stl:5" + what);
   EXPECT_EQ(said_of<2>("b.ovm", with(tetrahedron, "0 0 1", "0 0 0.5")), "b.ovm: vertex 3" + what);
@@ -170,7 +164,7 @@ TEST(BodyFile, ReadsCellsAndDomains) {
 }
 
 TEST(BodyFile, GoesByTheContentAndReadsCompressedFiles) {
-  EXPECT_EQ(read<3>("b.obj", off).report.notes.back(),
+  EXPECT_EQ(read<3>("b.obj", flag_off).report.notes.back(),
             "the extension says OBJ, the content OFF: read by its content");
   const Folder folder;
   gzFile out = gzopen((folder / "c.csv.gz").c_str(), "wb");
@@ -185,23 +179,24 @@ TEST(BodyFile, RefusesWithFileAndLine) {
     std::string text, message;
   };
   const Case cases[] = {
-      {"b.off", with(off, "2 3 2", "2 3 5"),
+      {"b.off", with(flag_off, "2 3 2", "2 3 5"),
        "b.off:9: vertex 5 is out of range: there are 5, counted from 0"},
-      {"b.off", with(off, "0 3 0", "0 1e999 0"),
+      {"b.off", with(flag_off, "0 3 0", "0 1e999 0"),
        "b.off:6: a coordinate: '1e999' is not a number that a double can hold"},
-      {"b.off", with(off, "0 3 0", "0 nan 0"), "b.off:6: a coordinate: 'nan' is not finite"},
-      {"b.obj", with(obj, "l 3 4", "l 3"), "b.obj:5: a line of 1 vertices: at least 2 are needed"},
-      {"b.obj", with(obj, "l 3 4", "l 3 9"), "b.obj:5: a line names vertex 9, of 5"},
-      {"b.obj", with(obj, "l 3 4", "l 3 0"),
+      {"b.off", with(flag_off, "0 3 0", "0 nan 0"), "b.off:6: a coordinate: 'nan' is not finite"},
+      {"b.obj", with(flag_obj, "l 3 4", "l 3"), "b.obj:5: a line of 1 vertices: at least 2 are needed"},
+      {"b.obj", with(flag_obj, "l 3 4", "l 3 9"), "b.obj:5: a line names vertex 9, of 5"},
+      {"b.obj", with(flag_obj, "l 3 4", "l 3 0"),
        "b.obj:5: '0' is not a corner of a line: an index counted from 1, or a negative one"},
-      {"b.obj", with(obj, "l 3 4", "l 3 -4"),
+      {"b.obj", with(flag_obj, "l 3 4", "l 3 -4"),
        "b.obj:5: corner '-4' of a line names a vertex that does not exist"},
-      {"b.obj", with(obj, "f 1/1 2/2 -3", "f 1 2"), "b.obj:8: a face of 2 vertices: at least 3 are needed"},
-      {"b.ply", with(ply, "3 255 2", "3 255 5"), "b.ply:20: edge 0 names vertex 5, of 5"},
-      {"b.ply", with(ply, "3 255 2", "3 255 -1"), "b.ply:20: edge 0 names vertex -1"},
-      {"b.ply", with(ply, "3 255 2\n", ""),
+      {"b.obj", with(flag_obj, "f 1/1 2/2 -3", "f 1 2"),
+       "b.obj:8: a face of 2 vertices: at least 3 are needed"},
+      {"b.ply", with(flag_ply, "3 255 2", "3 255 5"), "b.ply:20: edge 0 names vertex 5, of 5"},
+      {"b.ply", with(flag_ply, "3 255 2", "3 255 -1"), "b.ply:20: edge 0 names vertex -1"},
+      {"b.ply", with(flag_ply, "3 255 2\n", ""),
        "b.ply:20: the file ends where an edge should be: it is cut short"},
-      {"b.ply", with(ply, "int vertex2", "int vertex3"),
+      {"b.ply", with(flag_ply, "int vertex2", "int vertex3"),
        "b.ply:19: the header gives edges no properties 'vertex1' and 'vertex2'"},
       {"b.csv", "x,y\n0,0\n", "b.csv: has no column 'z': its header names x,y"},
       {"b.csv", "x,y,z\n0,0,0\n\n0,one,0\n", "b.csv:4: y: 'one' is not a number that a double can hold"},
@@ -228,20 +223,20 @@ TEST(BodyFile, CutShortNeverCrashes) {
     return refused_truncations(text,
                                [&](const std::string& part) { read_body<3>(folder.write(name, part)); });
   };
-  EXPECT_GE(refused("b.off", off), 19);
-  EXPECT_GE(refused("b.ply", ply), 19);
-  EXPECT_GE(refused("b.obj", obj), 3);
+  EXPECT_GE(refused("b.off", flag_off), 19);
+  EXPECT_GE(refused("b.ply", flag_ply), 19);
+  EXPECT_GE(refused("b.obj", flag_obj), 3);
 }
 
 /// Surfaces are read as before: lines are none of their business.
 TEST(BodyFile, LeavesSurfacesAlone) {
   const Folder folder;
-  const Mesh_file file = read_mesh(folder.write("s.obj", with(obj, "1 0 0", "1 0 1")));
+  const Mesh_file file = read_mesh(folder.write("s.obj", with(flag_obj, "1 0 0", "1 0 1")));
   EXPECT_EQ(std::get<Surface_soup>(file.mesh).facets.size(), 1u);
   EXPECT_EQ(file.report.notes, (Notes{"statements ignored: l, o, p"}));
-  EXPECT_EQ(read_mesh(folder.write("s.ply", with(ply, "1 0 0", "1 0 1"))).report.notes,
+  EXPECT_EQ(read_mesh(folder.write("s.ply", with(flag_ply, "1 0 0", "1 0 1"))).report.notes,
             (Notes{"1 elements 'edge' ignored"}));
-  EXPECT_EQ(read_mesh(folder.write("s.off", with(off, "1 0 0", "1 0 1"))).report.notes,
+  EXPECT_EQ(read_mesh(folder.write("s.off", with(flag_off, "1 0 0", "1 0 1"))).report.notes,
             (Notes{"2 facets of fewer than 3 vertices ignored"}));
 }
 

@@ -32,12 +32,6 @@ const std::string msh_1 =
     "4 4 0 1 4 5 11 8 12\n$ENDELM\n";
 const std::vector<double> volumes{6, 3, 2, 1};  // sixths, in the order of the elements
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 Mesh_file read(const std::string& name, const std::string& text) {
   const Folder folder;
   return read_mesh(folder.write(name, text));

@@ -66,13 +66,6 @@ VProp float "weight"
 
 Cell_soup<3> read_3(const std::string& text) { return std::get<Cell_soup<3>>(parse_ovm("t.ovm", text).mesh); }
 
-/// `text` with its only occurrence of `from` replaced.
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 /// A loop turned so that its lowest vertex comes first.
 std::vector<std::uint32_t> turned(std::span<const std::uint32_t> loop) {
   std::vector<std::uint32_t> v(loop.begin(), loop.end());

@@ -16,12 +16,6 @@ const char* const poly =
 
 using Segments = std::vector<std::array<std::uint32_t, 2>>;
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(Poly, IsRead) {
   Read_report report;
   const Planar_domain domain = parse_poly("t.poly", poly, &report);

@@ -93,7 +93,7 @@ struct Refusal {
 };
 
 /// What goes wrong when a member of a good scene is replaced; the path of the key leads.
-const Refusal refusals[] = {
+const Refusal scene_refusals[] = {
     {"",
      "s.json:1: not valid JSON: syntax error while parsing value - unexpected end of input; expected '[', "
      "'{', or a "
@@ -184,7 +184,7 @@ const Refusal refusals[] = {
 };
 
 TEST(Scene, RefusesWithTheKeyThatIsWrong) {
-  for (const Refusal& r : refusals) {
+  for (const Refusal& r : scene_refusals) {
     try {
       parse_scene("s.json", r.text);
       ADD_FAILURE() << "accepted: " << r.text;

@@ -135,11 +135,11 @@ TEST(SceneBodies, ResolvesFilesAgainstTheFolderOfTheScene) {
   EXPECT_EQ(std::get<std::string>(scene.environment), (folder / "e").string());
 }
 
-struct Refusal {
+struct Body_refusal {
   const char *text, *message;
 };
 
-const Refusal of_space[] = {
+const Body_refusal of_space[] = {
     {"1", "bodies[0]: expected an object {...}"},
     {"{}", "bodies[0]: expected either \"file\" or \"shape\""},
     {R"({"file": "a", "shape": "box"})", "bodies[0]: expected either \"file\" or \"shape\""},
@@ -232,7 +232,7 @@ const Refusal of_space[] = {
 };
 
 TEST(SceneBodies, RefusesWithTheKeyThatIsWrong) {
-  for (const Refusal& r : of_space)
+  for (const Body_refusal& r : of_space)
     EXPECT_EQ(said_of<3>(r.text), std::string("s.json: ") + r.message) << r.text;
   EXPECT_EQ(said_of<2>(R"({"shape": "box"})"),
             "s.json: bodies[0].shape: 'box' is no shape of dimension 2; known are catheter, polygon, "

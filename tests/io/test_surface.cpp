@@ -13,15 +13,15 @@ namespace {
 
 using Facets = std::vector<std::vector<std::uint32_t>>;
 
-const Facets tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-const char* const off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
-const char* const obj =
+const Facets tetrahedron_facets{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+const char* const off_text = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+const char* const obj_text =
     "# a comment\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 std::string ascii_stl(const std::string& end) {
   const Point<3> p[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::string text = "solid thing # 1\n";
-  for (const auto& loop : tetrahedron) {
+  for (const auto& loop : tetrahedron_facets) {
     text += "facet normal 0 0 0\n outer loop\n";
     for (std::uint32_t v : loop)
       text += "  vertex " + std::to_string(p[v][0]) + " " + std::to_string(p[v][1]) + " " +
@@ -36,7 +36,7 @@ std::string binary_stl() {
   std::string bytes("solid, yet binary");
   bytes.resize(80, ' ');
   bytes.append("\4\0\0\0", 4);
-  for (const auto& loop : tetrahedron) {
+  for (const auto& loop : tetrahedron_facets) {
     bytes.append(12, '\0');
     for (std::uint32_t v : loop) bytes.append(reinterpret_cast<const char*>(p[v]), sizeof p[v]);
     bytes.append(2, '\0');
@@ -44,7 +44,7 @@ std::string binary_stl() {
   return bytes;
 }
 
-const char* const ply =
+const char* const ply_text =
     "ply\nformat ascii 1.0\ncomment made here\nelement vertex 4\nproperty double x\nproperty double "
     "y\nproperty double z\n"
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
@@ -54,31 +54,27 @@ Surface_soup parse(const std::string& bytes, Surface_format format, Read_report*
   return parse_surface("t", bytes, format, report);
 }
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 void expect_tetrahedron(const Surface_soup& soup) {
   EXPECT_EQ(soup.points.size(), 4u);
   ASSERT_EQ(soup.facets.size(), 4u);
   for (std::size_t f = 0; f < 4; ++f)
     for (std::size_t i = 0; i < 3; ++i) {
       const Point<3> expected[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-      EXPECT_EQ(soup.points.at(soup.facets[f].at(i)), expected[tetrahedron[f][i]]);
+      EXPECT_EQ(soup.points.at(soup.facets[f].at(i)), expected[tetrahedron_facets[f][i]]);
     }
 }
 
 TEST(Surface, OffIsReadInItsVariants) {
-  expect_tetrahedron(parse(off, Surface_format::off));
-  expect_tetrahedron(parse(with(off, "OFF\n4 4 0", "OFF 4 4 0 # counts"), Surface_format::off));
-  expect_tetrahedron(parse(with(off, "OFF\n", "# first\n\n4 4 0\n").replace(12, 6, ""), Surface_format::off));
+  expect_tetrahedron(parse(off_text, Surface_format::off));
+  expect_tetrahedron(parse(with(off_text, "OFF\n4 4 0", "OFF 4 4 0 # counts"), Surface_format::off));
   expect_tetrahedron(
-      parse(with(off, "OFF\n4 4 0\n0 0 0", "COFF\n4 4 0\n0 0 0 255 0 0 255"), Surface_format::off));
-  expect_tetrahedron(parse(with(off, "3 1 2 3", "3 1 2 3 0.5 0.5 0.5"), Surface_format::off));
+      parse(with(off_text, "OFF\n", "# first\n\n4 4 0\n").replace(12, 6, ""), Surface_format::off));
+  expect_tetrahedron(
+      parse(with(off_text, "OFF\n4 4 0\n0 0 0", "COFF\n4 4 0\n0 0 0 255 0 0 255"), Surface_format::off));
+  expect_tetrahedron(parse(with(off_text, "3 1 2 3", "3 1 2 3 0.5 0.5 0.5"), Surface_format::off));
   Read_report report;
-  expect_tetrahedron(parse(with(off, "3 1 2 3\n", "group hull\n3 1 2 3\n"), Surface_format::off, &report));
+  expect_tetrahedron(
+      parse(with(off_text, "3 1 2 3\n", "group hull\n3 1 2 3\n"), Surface_format::off, &report));
   EXPECT_EQ(report.notes, (std::vector<std::string>{"1 'group' lines ignored"}));
   EXPECT_EQ(report.points, 4u);
   EXPECT_EQ(report.facets, 4u);
@@ -92,7 +88,7 @@ TEST(Surface, OffIsReadAsBinaryToo) {
   };
   for (std::uint32_t n : {4, 4, 0}) append(n);
   for (float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) append(x);
-  for (const auto& loop : tetrahedron) {
+  for (const auto& loop : tetrahedron_facets) {
     append(std::uint32_t{3});
     for (std::uint32_t v : loop) append(v);
     append(std::uint32_t{1});  // one colour
@@ -121,7 +117,7 @@ TEST(Surface, OffIsRefusedWithFileAndLine) {
       {"4 4 0", "4 5 0", "t:11: the file ends where facet 5 of 5 should be: it is cut short"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.to);
-    EXPECT_EQ(refusal([&] { parse(with(off, c.from, c.to), Surface_format::off); }), c.message);
+    EXPECT_EQ(refusal([&] { parse(with(off_text, c.from, c.to), Surface_format::off); }), c.message);
   }
   EXPECT_EQ(refusal([] { parse("OFF\n1 0 0\n0 0 0\n", Surface_format::off); }),
             "t: holds no polygons: a surface is needed");
@@ -129,13 +125,13 @@ TEST(Surface, OffIsRefusedWithFileAndLine) {
 
 TEST(Surface, ObjIsReadInItsVariants) {
   Read_report report;
-  expect_tetrahedron(parse(obj, Surface_format::obj, &report));
+  expect_tetrahedron(parse(obj_text, Surface_format::obj, &report));
   EXPECT_TRUE(report.notes.empty());
-  expect_tetrahedron(parse(with(obj, "f 2 3 4", "g hull\r\nusemtl red\nvt 0 1\nf 2/1/7 3//7 -1/1"),
+  expect_tetrahedron(parse(with(obj_text, "f 2 3 4", "g hull\r\nusemtl red\nvt 0 1\nf 2/1/7 3//7 -1/1"),
                            Surface_format::obj, &report));
   EXPECT_EQ(report.notes, (std::vector<std::string>{"statements ignored: g, usemtl, vt"}));
-  expect_tetrahedron(parse(with(obj, "f 2 3 4", "f 2 \\\n 3 4"), Surface_format::obj));
-  expect_tetrahedron(parse("f 1 3 2\n" + with(obj, "f 1 3 2\n", ""), Surface_format::obj));
+  expect_tetrahedron(parse(with(obj_text, "f 2 3 4", "f 2 \\\n 3 4"), Surface_format::obj));
+  expect_tetrahedron(parse("f 1 3 2\n" + with(obj_text, "f 1 3 2\n", ""), Surface_format::obj));
 }
 
 TEST(Surface, ObjIsRefusedWithFileAndLine) {
@@ -154,7 +150,7 @@ TEST(Surface, ObjIsRefusedWithFileAndLine) {
       {"v 1 0 0", "\x01\x02", "t:3: '\x01\x02' opens no statement of an OBJ file"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.to);
-    EXPECT_EQ(refusal([&] { parse(with(obj, c.from, c.to), Surface_format::obj); }), c.message);
+    EXPECT_EQ(refusal([&] { parse(with(obj_text, c.from, c.to), Surface_format::obj); }), c.message);
   }
 }
 
@@ -205,14 +201,14 @@ TEST(Surface, StlIsRefusedWithFileAndLine) {
 }
 
 TEST(Surface, PlyIsRead) {
-  expect_tetrahedron(parse(ply, Surface_format::ply));
-  std::string big_endian = with(ply, "ascii", "binary_big_endian");
+  expect_tetrahedron(parse(ply_text, Surface_format::ply));
+  std::string big_endian = with(ply_text, "ascii", "binary_big_endian");
   big_endian = with(big_endian.substr(0, big_endian.find("end_header") + 11), "int vertex", "ushort vertex");
   for (double x : {0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.}) {
     const auto* bytes = reinterpret_cast<const char*>(&x);
     for (std::size_t i = sizeof x; i-- > 0;) big_endian.push_back(bytes[i]);
   }
-  for (const auto& loop : tetrahedron) {
+  for (const auto& loop : tetrahedron_facets) {
     big_endian.push_back('\3');
     for (std::uint32_t v : loop) big_endian.append(1, '\0').push_back(static_cast<char>(v));
   }
@@ -244,14 +240,14 @@ TEST(Surface, PlyIsRefusedWithAReason) {
                          "t:17: the file ends where the length of a list should be: it is cut short"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.to);
-    EXPECT_EQ(refusal([&] { parse(with(ply, c.from, c.to), Surface_format::ply); }), c.message);
+    EXPECT_EQ(refusal([&] { parse(with(ply_text, c.from, c.to), Surface_format::ply); }), c.message);
   }
 }
 
 TEST(Surface, CompressedFilesAreRead) {
   const Folder folder;
   gzFile out = gzopen((folder / "t.off.gz").c_str(), "wb");
-  gzwrite(out, off, static_cast<unsigned>(std::strlen(off)));
+  gzwrite(out, off_text, static_cast<unsigned>(std::strlen(off_text)));
   gzclose(out);
   expect_tetrahedron(read_surface(folder / "t.off.gz"));
   const std::string packed = content_of(folder / "t.off.gz");
@@ -268,19 +264,19 @@ TEST(Surface, UnreadableFilesAreNamed) {
   EXPECT_EQ(refusal([&] { read_surface(folder / "none.off"); }),
             (folder / "none.off").string() + ": cannot be opened: check that it exists and may be read");
   EXPECT_EQ(
-      refusal([&] { read_surface(folder.write("t.txt", off)); }),
+      refusal([&] { read_surface(folder.write("t.txt", off_text)); }),
       (folder / "t.txt").string() +
           ": not a surface by its extension: .off, .obj, .stl and .ply are read, also with .gz after it");
 }
 
 TEST(Surface, TruncatedFilesNeverCrash) {
-  EXPECT_GE(refused_truncations(off, [](const std::string& t) { parse(t, Surface_format::off); }), 19);
-  EXPECT_GE(refused_truncations(obj, [](const std::string& t) { parse(t, Surface_format::obj); }), 10);
+  EXPECT_GE(refused_truncations(off_text, [](const std::string& t) { parse(t, Surface_format::off); }), 19);
+  EXPECT_GE(refused_truncations(obj_text, [](const std::string& t) { parse(t, Surface_format::obj); }), 10);
   EXPECT_GE(refused_truncations(ascii_stl(""), [](const std::string& t) { parse(t, Surface_format::stl); }),
             15);
   EXPECT_GE(refused_truncations(binary_stl(), [](const std::string& t) { parse(t, Surface_format::stl); }),
             20);
-  EXPECT_GE(refused_truncations(ply, [](const std::string& t) { parse(t, Surface_format::ply); }), 18);
+  EXPECT_GE(refused_truncations(ply_text, [](const std::string& t) { parse(t, Surface_format::ply); }), 18);
 }
 
 }  // namespace

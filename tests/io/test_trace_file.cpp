@@ -27,14 +27,14 @@ class Bytes {
   std::string text_ = "ECCDTRC1";
 };
 
-// Where the parts of `sample()` lie.
+// Where the parts of `sample_trace()` lie.
 constexpr std::size_t nx_at = 8, bodies_at = 20, steps_at = 24, obstacles_at = 28, fraction_at = 40,
                       speed_at = 56, indices_at = 64, padding_at = 76, starts_at = 80,
                       targets_at = starts_at + 192, answers_at = targets_at + 2 * 192,
                       size = answers_at + 2 * 8;
 
 /// A grid of 3 x 4 x 5 cells of which 3 are solid, one body, two steps.
-std::string sample() {
+std::string sample_trace() {
   Bytes bytes;
   bytes.count(3).count(4).count(5).count(1).count(2).count(3).count(0x0123456789abcdef, 8);
   bytes.number(0.05).number(0.25).number(1e-2);
@@ -51,8 +51,8 @@ std::string count(std::uint32_t value) { return Bytes().count(value).text().subs
 std::string number(double value) { return Bytes().number(value).text().substr(8); }
 
 TEST(TraceFile, ReadsWhatIsThere) {
-  ASSERT_EQ(sample().size(), size);
-  const Trace trace = parse_trace("t.bin", sample());
+  ASSERT_EQ(sample_trace().size(), size);
+  const Trace trace = parse_trace("t.bin", sample_trace());
   EXPECT_EQ(trace.nx, 3u);
   EXPECT_EQ(trace.ny, 4u);
   EXPECT_EQ(trace.nz, 5u);
@@ -79,14 +79,14 @@ TEST(TraceFile, ReadsWhatIsThere) {
 TEST(TraceFile, IsWrittenAsItWasRead) {
   const Folder folder;
   const auto path = folder / "out.bin";
-  write_trace(path, parse_trace("t.bin", sample()));
-  EXPECT_EQ(content_of(path), sample());
+  write_trace(path, parse_trace("t.bin", sample_trace()));
+  EXPECT_EQ(content_of(path), sample_trace());
   Trace trace = read_trace(path);
   trace.obstacles.pop_back();  // an even number of them needs no padding
   trace.steps = 0, trace.targets.clear(), trace.answers.clear();
   write_trace(path, trace);
-  EXPECT_EQ(content_of(path), with(sample(), steps_at, count(0) + count(2)).substr(0, indices_at + 8) +
-                                  sample().substr(starts_at, 192));
+  EXPECT_EQ(content_of(path), with(sample_trace(), steps_at, count(0) + count(2)).substr(0, indices_at + 8) +
+                                  sample_trace().substr(starts_at, 192));
   trace = read_trace(path);
   EXPECT_EQ(trace.moves(), 0u);
   trace.bodies = 0, trace.start_positions.clear(), trace.obstacles.clear();
@@ -101,51 +101,54 @@ TEST(TraceFile, RefusesDamage) {
     std::string bytes, message;
   } cases[] = {
       {"", "is no trace: it does not begin with ECCDTRC1; name a file of recorded motion"},
-      {with(sample(), 7, "2"),
+      {with(sample_trace(), 7, "2"),
        "is no trace: it does not begin with ECCDTRC1; name a file of recorded motion"},
-      {sample().substr(0, 63), "the file ends where the header should be: it is cut short"},
-      {sample().substr(0, size - 1),
+      {sample_trace().substr(0, 63), "the file ends where the header should be: it is cut short"},
+      {sample_trace().substr(0, size - 1),
        "announces 3 obstacles, 1 bodies and 2 steps, more than its 671 bytes hold: it is cut short, get it "
        "whole"},
-      {sample().substr(0, indices_at + 2),
+      {sample_trace().substr(0, indices_at + 2),
        "announces 3 obstacles, 1 bodies and 2 steps, more than its 66 bytes hold: it is cut short, get it "
        "whole"},
-      {sample() + "x",
+      {sample_trace() + "x",
        "goes on for 1 bytes after the 3 obstacles, 1 bodies and 2 steps that it announces: it is damaged, "
        "get "
        "it anew"},
-      {with(sample(), obstacles_at, count(0xffffffff)),
+      {with(sample_trace(), obstacles_at, count(0xffffffff)),
        "announces 4294967295 obstacles, 1 bodies and 2 steps, more than its 672 bytes hold: it is cut short, "
        "get "
        "it whole"},
-      {with(sample(), bodies_at, count(0xffffffff) + count(0xffffffff)),
+      {with(sample_trace(), bodies_at, count(0xffffffff) + count(0xffffffff)),
        "announces 3 obstacles, 4294967295 bodies and 4294967295 steps, more than its 672 bytes hold: it is "
        "cut "
        "short, get it whole"},
       // 2^29 bodies and 2^27 steps: the number of bytes, 200 x 2^56, does not fit 64 bits.
-      {with(sample(), bodies_at, count(1u << 29) + count(1u << 27)),
+      {with(sample_trace(), bodies_at, count(1u << 29) + count(1u << 27)),
        "announces 3 obstacles, 536870912 bodies and 134217728 steps, more than its 672 bytes hold: it is cut "
        "short, get it whole"},
-      {with(sample(), nx_at, count(0)),
+      {with(sample_trace(), nx_at, count(0)),
        "a grid of 0 x 4 x 5 cells: there must be some, and no more than 32-bit indices name"},
-      {with(sample(), nx_at, count(1u << 16) + count(1u << 16) + count(2)),
+      {with(sample_trace(), nx_at, count(1u << 16) + count(1u << 16) + count(2)),
        "a grid of 65536 x 65536 x 2 cells: there must be some, and no more than 32-bit indices name"},
-      {with(sample(), nx_at, count(0xffffffff) + count(0xffffffff) + count(0xffffffff)),
+      {with(sample_trace(), nx_at, count(0xffffffff) + count(0xffffffff) + count(0xffffffff)),
        "a grid of 4294967295 x 4294967295 x 4294967295 cells: there must be some, and no more than 32-bit "
        "indices name"},
-      {with(sample(), fraction_at, number(nan)),
+      {with(sample_trace(), fraction_at, number(nan)),
        "a number of the header is not finite: the trace is damaged"},
-      {with(sample(), speed_at, number(inf)), "a number of the header is not finite: the trace is damaged"},
-      {with(sample(), indices_at + 8, count(60)), "obstacle 2 is cell 60, of 60: the trace is damaged"},
-      {with(sample(), indices_at + 4, count(0)), "obstacle 1 is cell 0, after cell 0: obstacles must ascend"},
-      {with(sample(), indices_at + 8, count(6)), "obstacle 2 is cell 6, after cell 7: obstacles must ascend"},
-      {with(sample(), padding_at + 3, "\1"),
+      {with(sample_trace(), speed_at, number(inf)),
+       "a number of the header is not finite: the trace is damaged"},
+      {with(sample_trace(), indices_at + 8, count(60)), "obstacle 2 is cell 60, of 60: the trace is damaged"},
+      {with(sample_trace(), indices_at + 4, count(0)),
+       "obstacle 1 is cell 0, after cell 0: obstacles must ascend"},
+      {with(sample_trace(), indices_at + 8, count(6)),
+       "obstacle 2 is cell 6, after cell 7: obstacles must ascend"},
+      {with(sample_trace(), padding_at + 3, "\1"),
        "the bytes after the obstacles, which fill up to eight, are not zero: it is damaged"},
-      {with(sample(), starts_at + 3 * 24 + 8, number(nan)),
+      {with(sample_trace(), starts_at + 3 * 24 + 8, number(nan)),
        "vertex 3 of body 0 starts at a coordinate that is not finite"},
-      {with(sample(), targets_at + (8 + 5) * 24, number(-inf)),
+      {with(sample_trace(), targets_at + (8 + 5) * 24, number(-inf)),
        "the target of vertex 5 of body 0 in step 1 has a coordinate that is not finite"},
-      {with(sample(), answers_at + 2, "\x80"),
+      {with(sample_trace(), answers_at + 2, "\x80"),
        "the answer to vertex 2 of body 0 in step 0 has an unknown bit: it is 128"}};
   for (const auto& c : cases)
     EXPECT_EQ(refusal([&] { parse_trace("t.bin", c.bytes); }), "t.bin: " + c.message);
@@ -154,7 +157,7 @@ TEST(TraceFile, RefusesDamage) {
 TEST(TraceFile, RefusesToWriteWhatItWouldNotRead) {
   const Folder folder;
   const auto path = folder / "out.bin";
-  const Trace good = parse_trace("t.bin", sample());
+  const Trace good = parse_trace("t.bin", sample_trace());
   const auto message_of = [&](auto change) {
     Trace trace = good;
     change(trace);
@@ -178,7 +181,7 @@ TEST(TraceFile, DamagedAtRandom) {
   std::size_t read = 0, refused = 0;
   std::set<std::string> reasons;
   for (int i = 0; i < 5000; ++i) {
-    std::string bytes = sample();
+    std::string bytes = sample_trace();
     for (unsigned n = 1 + random() % 3; n > 0; --n)
       bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : size - 8)] = static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());

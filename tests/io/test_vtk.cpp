@@ -30,12 +30,6 @@
 namespace cellwalk::io {
 namespace {
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 Mesh_file read(const std::string& name, const std::string& text) {
   const Folder folder;
   return read_mesh(folder.write(name, text));

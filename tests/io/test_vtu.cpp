@@ -11,7 +11,7 @@
 namespace cellwalk::io {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Byte_list = std::vector<std::uint8_t>;
 
 Cell_soup<3> two_cells() {
   Cell_soup<3> soup;
@@ -30,7 +30,7 @@ TEST(Vtu, CellsHaveTheirTypes) {
   add_tetrahedron(soup, 1, 9, 10, 11);
   soup.solid[2] = 1;
   const Vtu_grid grid = vtu_of_cells(soup);
-  EXPECT_EQ(grid.types, (Bytes{12, 42, 10}));
+  EXPECT_EQ(grid.types, (Byte_list{12, 42, 10}));
   EXPECT_EQ(grid.connectivity,
             (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 4, 7, 6, 5, 8, 1, 9, 10, 11}));
   EXPECT_EQ(grid.offsets, (std::vector<std::int64_t>{8, 13, 17}));
@@ -43,12 +43,12 @@ TEST(Vtu, ACellOfSixQuadsThatIsNoHexahedronStaysAPolyhedron) {
   soup.points.resize(8);
   add_hexahedron(soup, {0, 1, 2, 3, 4, 5, 6, 7});
   soup.vertices[4] = 0;  // the top now shares a corner with the base
-  EXPECT_EQ(vtu_of_cells(soup).types, (Bytes{42}));
+  EXPECT_EQ(vtu_of_cells(soup).types, (Byte_list{42}));
 }
 
 TEST(Vtu, WallsAreTheBoundaryAndTheImpassableFacetsOnce) {
   Cell_soup<3> soup = two_cells();
-  EXPECT_EQ(vtu_of_walls(soup).types, (Bytes{9, 9, 9, 9, 9, 5, 5, 5, 5}));
+  EXPECT_EQ(vtu_of_walls(soup).types, (Byte_list{9, 9, 9, 9, 9, 5, 5, 5, 5}));
   soup.impassable[1] = 1;  // between the two cells, said by one of them
   const Vtu_grid walls = vtu_of_walls(soup);
   EXPECT_EQ(walls.cell_count(), 10u);
@@ -57,8 +57,8 @@ TEST(Vtu, WallsAreTheBoundaryAndTheImpassableFacetsOnce) {
   Cell_soup<2> plane;
   plane.points = {{0, 0}, {1, 0}, {0, 1}};
   add_polygon(plane, std::vector<std::uint32_t>{0, 1, 2});
-  EXPECT_EQ(vtu_of_walls(plane).types, (Bytes{3, 3, 3}));
-  EXPECT_EQ(vtu_of_cells(plane).types, (Bytes{5}));
+  EXPECT_EQ(vtu_of_walls(plane).types, (Byte_list{3, 3, 3}));
+  EXPECT_EQ(vtu_of_cells(plane).types, (Byte_list{5}));
 }
 
 TEST(Vtu, TextCanBeRead) {

@@ -32,7 +32,7 @@ Scene<D> thrown(std::uint32_t count, double speed, std::uint64_t seed) {
   return scene;
 }
 
-struct Seen {
+struct Seen_contacts {
   std::size_t by_vertex = 0, by_edge = 0, of_particles = 0;
 };
 
@@ -40,7 +40,7 @@ struct Seen {
 /// solid cell, and that every contact of a body lies in a wall and names what there is.
 template <int D>
 void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<D>>& solid, int steps,
-                 Seen& seen) {
+                 Seen_contacts& seen) {
   constexpr double margin = 1e-9;
   for (int i = 0; i < steps; ++i) {
     world.step();
@@ -87,7 +87,7 @@ TEST(WorldBodies, NothingPassesAWall2) {
   scene.gravity = {0, -1};
   World<2> world(snapshot, scene, {generate_body(Polygon_shape{5, 0.3})});
   ASSERT_EQ(world.bodies().size(), 15u);
-  Seen seen;
+  Seen_contacts seen;
   run_checked<2>(world, {6, 6}, {{2, 2}, {4, 2}, {3, 4}}, 300, seen);
   EXPECT_GT(seen.by_vertex, 300u);
   EXPECT_GT(seen.by_edge, 20u);
@@ -99,7 +99,7 @@ TEST(WorldBodies, NothingPassesAWall2) {
 TEST(WorldBodies, NothingPassesAWall3) {
   const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});  // cell x + 4 (y + 4 z)
   World<3> world(snapshot, thrown<3>(10, 2, 9), {generate_body(Hexahedron_shape{0.4, false})});
-  Seen seen;
+  Seen_contacts seen;
   run_checked<3>(world, {4, 4, 3}, {{1, 1, 1}, {2, 2, 1}}, 200, seen);
   EXPECT_GT(seen.by_vertex, 100u);
   EXPECT_GT(seen.by_edge, 10u);

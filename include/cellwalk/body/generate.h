@@ -7,7 +7,12 @@
 #include <cellwalk/records/body_shape.h>
 #include <cellwalk/records/body_soup.h>
 
+#include <cstdint>
+
 namespace cellwalk {
+
+/// A body of more vertices is a mistake.
+inline constexpr std::uint32_t most_generated_vertices = 1U << 24;
 
 /// The paper's hexahedron: 8 vertices, 12 edges; with faces 18 edges, 12 triangles counterclockwise seen from outside.
 /// \throw Error(usage) unless the side is a positive number

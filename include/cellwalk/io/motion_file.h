@@ -23,7 +23,7 @@ class Motion_writer {
   Motion_writer(std::filesystem::path path, Motion_scene scene);
 
   /// Appends a record. Cost: a few bytes a point. \pre as many positions, cells and decisions as the scene says
-  void add(const Motion_record& record);
+  void add(const Motion_frame& record);
 
   /// \throw Error(usage) unless there are as many records as the scene says; Error(other) if the file cannot be written
   void commit();

@@ -42,7 +42,8 @@ class Random {
   /// Puts the values into random order.
   template <class T>
   void shuffle(std::vector<T>& values) {
-    for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[below(i)]);
+    using std::swap;  // or that of T
+    for (std::size_t i = values.size(); i > 1; --i) swap(values[i - 1], values[below(i)]);
   }
 
  private:

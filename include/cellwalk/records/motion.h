@@ -65,7 +65,7 @@ struct Motion_scene {
 };
 
 /// One record: views of the caller's arrays.
-struct Motion_record {
+struct Motion_frame {
   std::span<const Point<3>> positions;  ///< of all that moves
   std::span<const std::uint32_t>
       cells;  ///< for each a cell in whose closure it lies, by its number in the input

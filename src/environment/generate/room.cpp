@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "check_option.h"
 #include "ear_clipping.h"
 
 namespace cellwalk {
 namespace {
+
+using detail::check_option;
 
 /// Squares that an obstacle has for itself along each axis.
 constexpr std::uint32_t block_size = 3;
@@ -164,24 +167,21 @@ class Rooms {
   Cell_soup<2> soup_;
 };
 
-void check(bool holds, const char* message) {
-  if (!holds) throw Error(Error_code::usage, message);
-}
-
 }  // namespace
 
 Cell_soup<2> room_2d(const Room_options& options) {
   double squares = 1;
   for (int axis : {0, 1}) {
-    check(options.rooms[axis] > 0, "rooms: give at least 1 room along each axis");
-    check(options.room_size[axis] >= block_size,
-          "rooms: a room must have at least 3 squares along each axis");
-    check(options.door >= 1 && options.door <= options.room_size[axis],
-          "rooms: the door must have at least 1 square and not more than the wall");
+    check_option(options.rooms[axis] > 0, "rooms: give at least 1 room along each axis");
+    check_option(options.room_size[axis] >= block_size,
+                 "rooms: a room must have at least 3 squares along each axis");
+    check_option(options.door >= 1 && options.door <= options.room_size[axis],
+                 "rooms: the door must have at least 1 square and not more than the wall");
     squares *= static_cast<double>(options.rooms[axis]) * options.room_size[axis];
   }
-  check(squares <= 1e8, "rooms: too large; give fewer or smaller rooms");
-  check(options.square > 0 && std::isfinite(options.square), "rooms: the edge of a square must be positive");
+  check_option(squares <= 1e8, "rooms: too large; give fewer or smaller rooms");
+  check_option(options.square > 0 && std::isfinite(options.square),
+               "rooms: the edge of a square must be positive");
   return Rooms(options).build();
 }
 

@@ -9,8 +9,12 @@
 #include <cmath>
 #include <limits>
 
+#include "check_option.h"
+
 namespace cellwalk {
 namespace {
+
+using detail::check_option;
 
 constexpr int segments_per_tube = 10;
 
@@ -99,15 +103,11 @@ Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cel
   return fill_implicit(shape);
 }
 
-void check(bool holds, const char* message) {
-  if (!holds) throw Error(Error_code::usage, message);
-}
-
 void check(const Vessel_options& o) {
-  check(o.generations >= 0 && o.generations <= 6, "vessel: the generations must lie in [0,6]");
-  check(o.length >= 3 && o.length <= 100, "vessel: the length of the trunk must lie in [3,100] radii");
-  check(o.curvature >= 0 && o.curvature <= 1, "vessel: the curvature must lie in [0,1]");
-  check(o.radius > 0 && std::isfinite(o.radius), "vessel: the radius must be positive");
+  check_option(o.generations >= 0 && o.generations <= 6, "vessel: the generations must lie in [0,6]");
+  check_option(o.length >= 3 && o.length <= 100, "vessel: the length of the trunk must lie in [3,100] radii");
+  check_option(o.curvature >= 0 && o.curvature <= 1, "vessel: the curvature must lie in [0,1]");
+  check_option(o.radius > 0 && std::isfinite(o.radius), "vessel: the radius must be positive");
 }
 
 }  // namespace
@@ -154,17 +154,18 @@ Cell_soup<3> branching_vessel(const Vessel_options& options) {
   double thinnest = options.radius;
   for (const Tube& tube : tubes) thinnest = std::min(thinnest, tube.radii.back());
   const double cell_size = options.cell_size * options.radius;
-  check(cell_size > 0 && cell_size <= 0.8 * thinnest && cell_size >= options.radius / 100,
-        "vessel: the cell size must lie between a hundredth of the trunk's radius and four fifths of the "
-        "thinnest branch's; "
-        "give a smaller one, or fewer generations");
+  check_option(
+      cell_size > 0 && cell_size <= 0.8 * thinnest && cell_size >= options.radius / 100,
+      "vessel: the cell size must lie between a hundredth of the trunk's radius and four fifths of the "
+      "thinnest branch's; "
+      "give a smaller one, or fewer generations");
   return fill_tubes(tubes, thinnest, cell_size);
 }
 
 Tube bulging_tube_line(const Bulge_options& o) {
-  check(o.length >= 3 && o.length <= 100, "tube: the length must lie in [3,100] radii");
-  check(o.bend >= 0 && o.bend <= 1, "tube: the bend must lie in [0,1]");
-  check(o.radius > 0 && std::isfinite(o.radius), "tube: the radius must be positive");
+  check_option(o.length >= 3 && o.length <= 100, "tube: the length must lie in [3,100] radii");
+  check_option(o.bend >= 0 && o.bend <= 1, "tube: the bend must lie in [0,1]");
+  check_option(o.radius > 0 && std::isfinite(o.radius), "tube: the radius must be positive");
   const double half = o.length * o.radius / 2;
   // The curve rises to half the height of the point it heads for.
   return make_tube({-half, 0, 0}, {0, 0, 4 * o.bend * half}, {half, 0, 0}, o.radius, o.radius, -1);
@@ -172,11 +173,11 @@ Tube bulging_tube_line(const Bulge_options& o) {
 
 Cell_soup<3> bulging_tube(const Bulge_options& options) {
   std::vector<Tube> tubes{bulging_tube_line(options)};
-  check(options.bulge_radius == 0 || (options.bulge_radius >= 0.5 && options.bulge_radius <= 20),
-        "tube: the bulge's radius must be 0 or lie in [0.5,20] radii");
-  check(std::abs(options.bulge_offset) <= 20, "tube: the bulge's offset must lie in [-20,20] radii");
-  check(options.cell_size >= 0.01 && options.cell_size <= 0.5,
-        "tube: the cell size must lie in [0.01,0.5] of the tube's radius");
+  check_option(options.bulge_radius == 0 || (options.bulge_radius >= 0.5 && options.bulge_radius <= 20),
+               "tube: the bulge's radius must be 0 or lie in [0.5,20] radii");
+  check_option(std::abs(options.bulge_offset) <= 20, "tube: the bulge's offset must lie in [-20,20] radii");
+  check_option(options.cell_size >= 0.01 && options.cell_size <= 0.5,
+               "tube: the cell size must lie in [0.01,0.5] of the tube's radius");
   if (options.bulge_radius > 0) {
     const Point<3> top = tubes[0].points[segments_per_tube / 2];
     const Point<3> centre = top + Vector<3>{0, 0, options.bulge_offset * options.radius};
