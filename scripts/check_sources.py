@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Looks at every source by itself: a build in batches hides what a source forgets to include, a plain one does not.
+
+    scripts/check_sources.py [FOLDER ...]      only sources in these folders of the project
+
+Nothing is optimised or written; it takes a second or two a source. The build type and what is found are those of build/release.
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build/sources"
+
+
+def commands(folders):
+    """The sources of the project in these folders, and how the compiler is called for each."""
+    for entry in json.loads((BUILD / "compile_commands.json").read_text()):
+        source = pathlib.Path(entry["file"])
+        if source.is_relative_to(ROOT / "build") or not any(source.is_relative_to(folder) for folder in folders):
+            continue
+        words = shlex.split(entry["command"])
+        at = words.index("-o")
+        yield source, words[:at] + words[at + 2:] + ["-fsyntax-only"]
+
+
+def complaint(command):
+    done = subprocess.run(command[1], cwd=BUILD, capture_output=True, text=True)
+    return done.stderr if done.returncode != 0 or " warning: " in done.stderr else ""
+
+
+def main(names):
+    folders = [(ROOT / name).resolve() for name in names or ["."]]
+    configure = ["cmake", "--preset", "release", "-B", str(BUILD), "-DCMAKE_UNITY_BUILD=OFF", "-DCMAKE_CXX_COMPILER_LAUNCHER="]
+    configured = subprocess.run(configure, cwd=ROOT, capture_output=True, text=True)
+    if configured.returncode != 0:
+        sys.exit(configured.stdout + configured.stderr)
+    sources = list(commands(folders))
+    if not sources:
+        sys.exit(f"sources: there is none in {', '.join(names)}")
+    bad = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for (source, _), said in zip(sources, pool.map(complaint, sources)):
+            if said:
+                bad += 1
+                print(f"sources: {source.relative_to(ROOT)} by itself:\n{said}", file=sys.stderr)
+    if bad > 0:
+        sys.exit(f"sources: {bad} of {len(sources)} do not stand alone")
+    print(f"sources: each of {len(sources)} compiles by itself")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
