@@ -4,7 +4,7 @@
 
     scripts/check_sources.py [FOLDER ...]      only sources in these folders of the project
 
-Nothing is optimised or written; it takes a second or two a source. The build type and what is found are those of build/release.
+Nothing is optimised or written; it takes a second or two a source. What build/release, where there is one, compiles by itself anyway is left out.
 """
 import concurrent.futures
 import json
@@ -16,13 +16,21 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/sources"
+RELEASE = ROOT / "build/release"
+
+
+def entries(build):
+    commands = build / "compile_commands.json"
+    return json.loads(commands.read_text()) if commands.exists() else []
 
 
 def commands(folders):
     """The sources of the project in these folders, and how the compiler is called for each."""
-    for entry in json.loads((BUILD / "compile_commands.json").read_text()):
+    alone = {entry["file"] for entry in entries(RELEASE)}
+    for entry in entries(BUILD):
         source = pathlib.Path(entry["file"])
-        if source.is_relative_to(ROOT / "build") or not any(source.is_relative_to(folder) for folder in folders):
+        generated = source.is_relative_to(ROOT / "build")
+        if generated or entry["file"] in alone or not any(source.is_relative_to(folder) for folder in folders):
             continue
         words = shlex.split(entry["command"])
         at = words.index("-o")

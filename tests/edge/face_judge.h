@@ -20,7 +20,7 @@
 
 namespace cellwalk::test {
 
-struct Seen {
+struct Face_seen {
   int registered = 0, pierced = 0, pierced_together = 0;
   int sweeps = 0, hits = 0, face_only = 0, through_vertex = 0, at_once = 0, inside_hits = 0;
   int landed = 0, leaves_through = 0, sides_checked = 0, flat = 0, chosen = 0;
@@ -36,7 +36,7 @@ using Sides = std::map<std::size_t, int>;
 class Judge {
  public:
   Judge(const Snapshot<3>& snapshot, std::string name, const Wall_list<3>& walls, Face_body& body,
-        bool generic, Seen& seen)
+        bool generic, Face_seen& seen)
       : snapshot_(snapshot),
         name_(std::move(name)),
         walls_(walls),
@@ -186,13 +186,13 @@ class Judge {
   const Wall_list<3>& walls_;
   Face_body& body_;
   bool generic_;
-  Seen& seen_;
+  Face_seen& seen_;
   Sides sides_;
 };
 
 /// Registering says that a face is pierced if a wall pierces it; and else only where two walls meet in its plane.
 inline void check_piercing(const Wall_list<3>& walls, Face_body& body, bool is_valid, bool generic,
-                           Seen& seen) {
+                           Face_seen& seen) {
   bool is_pierced = false;
   for (const auto& wall : walls.polygons) is_pierced |= pierces(body.triangle(), wall);
   ++seen.registered;

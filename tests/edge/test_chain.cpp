@@ -9,14 +9,14 @@
 namespace cellwalk::test {
 namespace {
 
-struct Seen {
+struct Chain_seen {
   int edges = 0, blocked = 0, other_sides = 0, passed = 0, unproved = 0, refuted = 0;
 };
 
 /// Chains lead from one end to the other, there and back, and what is proved passed is passed.
 template <int D>
-Seen check_chains(bool generic) {
-  Seen seen;
+Chain_seen check_chains(bool generic) {
+  Chain_seen seen;
   Walk_counts counts;
   for (std::uint64_t number = 0; number < 3 * oracle::world_kinds; ++number) {
     Edge_world<D> w(number, generic);
@@ -62,7 +62,7 @@ Seen check_chains(bool generic) {
 
 template <int D>
 void test_chains() {
-  const Seen generic = check_chains<D>(true), degenerate = check_chains<D>(false);
+  const Chain_seen generic = check_chains<D>(true), degenerate = check_chains<D>(false);
   EXPECT_GT(generic.edges, 1000);
   EXPECT_GT(generic.passed, 300);
   EXPECT_GT(generic.refuted, 300);

@@ -17,7 +17,7 @@ namespace {
 
 std::size_t worlds(bool generic) { return oracle::scaled_count((generic ? 1 : 2) * oracle::world_kinds); }
 
-void report(const char* what, const Seen& seen) {
+void report(const char* what, const Face_seen& seen) {
   const Face_counts& c = seen.counts;
   std::cout << what << ": " << seen.sweeps << " sweeps, " << seen.hits << " met by a wall (" << seen.face_only
             << " by no edge, " << seen.through_vertex << " at a vertex, " << seen.inside_hits
@@ -32,8 +32,8 @@ void report(const char* what, const Seen& seen) {
             << seen.wrong_rests << "\n";
 }
 
-Seen sweep(bool generic) {
-  Seen seen;
+Face_seen sweep(bool generic) {
+  Face_seen seen;
   for (std::uint64_t number = 0; number < worlds(generic); ++number) {
     Edge_world<3> w(number, generic);
     for (int k = 0; k < 40; ++k) {
@@ -59,8 +59,8 @@ Seen sweep(bool generic) {
 }
 
 /// Few and small walls, large faces: walls come through their insides.
-Seen sweep_among_spikes() {
-  Seen seen;
+Face_seen sweep_among_spikes() {
+  Face_seen seen;
   const std::size_t count = oracle::scaled_count(8);
   for (std::uint64_t number = 0; number < count; ++number) {
     Random random(number);
@@ -104,12 +104,12 @@ Seen sweep_among_spikes() {
   return seen;
 }
 
-void expect_no_fault(const Seen& seen) {
+void expect_no_fault(const Face_seen& seen) {
   EXPECT_EQ(seen.misses + seen.false_blocks + seen.wrong_times + seen.wrong_rests, 0);
 }
 
 TEST(Face, NeverMissesASpike) {
-  const Seen seen = sweep_among_spikes();
+  const Face_seen seen = sweep_among_spikes();
   expect_no_fault(seen);
   if (oracle::scaled_count(10) < 10) return;  // too few to meet everything
   EXPECT_GT(seen.registered, 50);
@@ -119,7 +119,7 @@ TEST(Face, NeverMissesASpike) {
 }
 
 TEST(Face, NeverMissesAWallInGeneralPosition) {
-  const Seen seen = sweep(true);
+  const Face_seen seen = sweep(true);
   report("generic", seen);
   expect_no_fault(seen);
   if (worlds(true) < oracle::world_kinds) return;
@@ -129,7 +129,7 @@ TEST(Face, NeverMissesAWallInGeneralPosition) {
 }
 
 TEST(Face, NeverMissesAWallInDegeneratePositions) {
-  const Seen seen = sweep(false);
+  const Face_seen seen = sweep(false);
   report("degenerate", seen);
   expect_no_fault(seen);
   if (worlds(false) < 2 * oracle::world_kinds) return;

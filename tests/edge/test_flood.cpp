@@ -9,13 +9,13 @@
 namespace cellwalk::test {
 namespace {
 
-struct Seen {
+struct Flood_seen {
   int triangles = 0, clear = 0, crossed = 0, undecided = 0;
 };
 
 template <int D>
-Seen flood(bool generic) {
-  Seen seen;
+Flood_seen flood(bool generic) {
+  Flood_seen seen;
   Edge_counts counts;
   for (std::uint64_t number = 0; number < 3 * oracle::world_kinds; ++number) {
     Edge_world<D> w(number, generic);
@@ -43,7 +43,7 @@ Seen flood(bool generic) {
 
 template <int D>
 void test_floods() {
-  const Seen generic = flood<D>(true), degenerate = flood<D>(false);
+  const Flood_seen generic = flood<D>(true), degenerate = flood<D>(false);
   EXPECT_GT(generic.clear, 200);
   EXPECT_GT(generic.crossed, 200);
   EXPECT_EQ(generic.undecided, 0);

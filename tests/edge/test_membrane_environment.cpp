@@ -38,11 +38,11 @@ Triangle on_axes(Random& random) {
   return t;
 }
 
-struct Seen {
+struct Membrane_seen {
   int triangles = 0, walks = 0, blocked = 0;
 };
 
-void check_membrane(const Triangle& t, std::span<const Point<3>> inside, Seen& seen) {
+void check_membrane(const Triangle& t, std::span<const Point<3>> inside, Membrane_seen& seen) {
   ++seen.triangles;
   Build_report report;
   const Environment<3> environment = membrane_environment(t, inside, &report);
@@ -103,7 +103,7 @@ std::vector<Point<3>> points_round(const Triangle& t, Random& random, double siz
 template <class Make>
 void check_kind(const char* kind, int triangles, double size, Make make) {
   Random random(7);
-  Seen seen;
+  Membrane_seen seen;
   while (seen.triangles < triangles) {
     const Triangle t = make(random);
     if (!are_collinear(t[0], t[1], t[2])) check_membrane(t, points_round(t, random, size), seen);

@@ -13,7 +13,7 @@
 namespace cellwalk::test {
 namespace {
 
-struct Seen {
+struct Sweep_seen {
   int sweeps = 0, free = 0, by_vertex = 0, by_edge = 0, touched_only = 0, at_start = 0,
       missed_by_segments = 0;
   int exhaustive_equal = 0, exhaustive_earlier = 0, exhaustive_later = 0, exhaustive_none = 0;
@@ -26,7 +26,7 @@ constexpr double tolerance = 0x1p-12;
 /// A sweep by all searches and policies. `exact` is the complete one with an exact search.
 template <int D>
 void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& target, const Particle<D>& q,
-             const Chain& chain, const Sweep_result<D>& exact, bool generic, Seen& seen) {
+             const Chain& chain, const Sweep_result<D>& exact, bool generic, Sweep_seen& seen) {
   const auto answer = [&](const Sweep_options& options) {
     return sweep_edge(w.snapshot, p, target, q, chain, options, seen.counts);
   };
@@ -87,8 +87,8 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
 }
 
 template <int D>
-Seen run(bool generic) {
-  Seen seen;
+Sweep_seen run(bool generic) {
+  Sweep_seen seen;
   const std::size_t worlds = oracle::scaled_count(2 * oracle::world_kinds);
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(number, generic);
@@ -133,7 +133,7 @@ Seen run(bool generic) {
 template <int D>
 void test_searches() {
   for (const bool generic : {true, false}) {
-    const Seen seen = run<D>(generic);
+    const Sweep_seen seen = run<D>(generic);
     if (oracle::scaled_count(2 * oracle::world_kinds) < 2 * oracle::world_kinds) continue;
     EXPECT_GT(seen.free, 500);
     EXPECT_GT(seen.by_vertex, 100);

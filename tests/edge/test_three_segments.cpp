@@ -11,14 +11,14 @@
 namespace cellwalk::test {
 namespace {
 
-struct Seen {
+struct Three_segments_seen {
   int sweeps = 0, missed = 0, blocked = 0, crossed = 0;
   Edge_counts counts;
 };
 
 template <int D>
-Seen sweep(bool generic) {
-  Seen seen;
+Three_segments_seen sweep(bool generic) {
+  Three_segments_seen seen;
   for (std::uint64_t number = 0; number < 2 * oracle::world_kinds; ++number) {
     Edge_world<D> w(number, generic);
     for (int k = 0; k < 60; ++k) {
@@ -64,7 +64,7 @@ Seen sweep(bool generic) {
 template <int D>
 void test_sweeps() {
   for (const bool generic : {true, false}) {
-    const Seen seen = sweep<D>(generic);
+    const Three_segments_seen seen = sweep<D>(generic);
     EXPECT_GT(seen.sweeps, 1000);
     EXPECT_GT(seen.counts.same_cell, 100u);
     EXPECT_GT(seen.counts.same_chain, 100u);

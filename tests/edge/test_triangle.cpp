@@ -15,7 +15,7 @@ namespace {
 
 constexpr Edge_certificates no_certificates{false, false, false, false};
 
-struct Seen {
+struct Triangle_seen {
   std::uint64_t compared = 0;  ///< with the sweep without certificates
   int sweeps = 0, hits = 0, misses = 0, wrong_times = 0, only_blocked = 0, third_free = 0;
   int blocked = 0, edge_first = 0;  ///< p was; the edge was before
@@ -27,7 +27,7 @@ template <int D>
 void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<D>& target,
                    const std::vector<Cell>& visited, const std::vector<Half_facet>& crossed,
                    const Wall_contact<D>& blocked, const Particle<D>& q, const Chain& chain, bool generic,
-                   Seen& seen) {
+                   Triangle_seen& seen) {
   Particle<D> to = from;
   to.position = target;
   to.cell = visited.back();
@@ -52,8 +52,8 @@ template <int D>
 constexpr std::size_t worlds_of_a_kind = D == 2 ? 20 : 16;
 
 template <int D>
-Seen sweep(bool generic) {
-  Seen seen;
+Triangle_seen sweep_triangles(bool generic) {
+  Triangle_seen seen;
   const std::size_t worlds = oracle::scaled_count(worlds_of_a_kind<D> * oracle::world_kinds);
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(number, generic);
@@ -122,9 +122,9 @@ Seen sweep(bool generic) {
 }
 
 template <int D>
-void test_sweeps() {
+void test_triangles() {
   for (const bool generic : {true, false}) {
-    const Seen seen = sweep<D>(generic);
+    const Triangle_seen seen = sweep_triangles<D>(generic);
     EXPECT_EQ(seen.misses, 0);
     EXPECT_EQ(seen.wrong_times, 0);
     if (oracle::scaled_count(2) < 2) continue;  // too few to meet everything
@@ -142,8 +142,8 @@ void test_sweeps() {
   }
 }
 
-TEST(Triangle, NeverMissesACrossing2) { test_sweeps<2>(); }
-TEST(Triangle, NeverMissesACrossing3) { test_sweeps<3>(); }
+TEST(Triangle, NeverMissesACrossing2) { test_triangles<2>(); }
+TEST(Triangle, NeverMissesACrossing3) { test_triangles<3>(); }
 
 }  // namespace
 }  // namespace cellwalk::test

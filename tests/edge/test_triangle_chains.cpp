@@ -19,7 +19,7 @@ namespace {
 
 using Faults = std::array<int, static_cast<std::size_t>(Sweep_fault::count)>;
 
-struct Seen {
+struct Chains_seen {
   int judged = 0;                                 ///< sweeps
   int p_blocked = 0;                              ///< p was
   int in_line = 0;                                ///< p moved in the line of the edge
@@ -41,7 +41,7 @@ int misses(const Faults& faults) { return faults[static_cast<std::size_t>(Sweep_
 /// A sweep, and what is said of it.
 template <int D>
 void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const Way<D>& way,
-           const Particle<D>& q, const Chain& before, const Chain_result<D>& result, Seen& seen) {
+           const Particle<D>& q, const Chain& before, const Chain_result<D>& result, Chains_seen& seen) {
   const auto motion = motion_of(w.world.soup, w.snapshot, way, q, before);
   const oracle::Outcomes outcomes = oracle.judge(motion);
   const auto fault = fault_of(oracle, motion, outcomes, w.snapshot, result);
@@ -70,7 +70,7 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
 
 /// Edges of one world, one end of which is moved on and on.
 template <int D>
-void sweep(Edge_world<D>& w, int edges, Seen& seen) {
+void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
   const oracle::Chain_oracle<D> oracle(w.world.soup);
   for (int k = 0; k < edges; ++k) {
     Particle<D> p = w.start();
@@ -100,7 +100,7 @@ void sweep(Edge_world<D>& w, int edges, Seen& seen) {
   }
 }
 
-void report(const std::string& name, const Seen& seen) {
+void report(const std::string& name, const Chains_seen& seen) {
   const Edge_counts& c = seen.counts;
   std::cout << name << ": " << seen.judged << " sweeps, p blocked " << seen.p_blocked << ", in line "
             << seen.in_line << "; same cell " << c.same_cell << ", same chain " << c.same_chain << ", clear "
@@ -119,7 +119,7 @@ template <int D>
 void test_worlds() {
   const std::size_t worlds = oracle::scaled_count(6 * oracle::world_kinds);
   for (const bool generic : {true, false}) {
-    Seen seen;
+    Chains_seen seen;
     int beside = 0;
     for (std::uint64_t number = 0; number < worlds; ++number) {
       Edge_world<D> w(first_world + number, generic);
@@ -148,7 +148,7 @@ TEST(TriangleChains, AreRight3) { test_worlds<3>(); }
 template <int D>
 void test_spikes() {
   const std::size_t worlds = oracle::scaled_count(24);
-  Seen seen;
+  Chains_seen seen;
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(spikes<D>(number), number, number % 4 == 3);
     sweep(w, 30, seen);
@@ -167,7 +167,7 @@ TEST(TriangleChains, AreRightAmongSpikes3) { test_spikes<3>(); }
 template <int D>
 void test_sliding() {
   const std::size_t worlds = oracle::scaled_count(24);
-  Seen seen;
+  Chains_seen seen;
   int beside = 0;
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(sheets<D>(number), number, false);
