@@ -16,7 +16,7 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 io=(libgmsh-dev libvtk9-dev)
 python=(pybind11-dev python3-dev python3-numpy)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev clang-format chromium)
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 tools=(clang clang-tidy ccache)
 documentation=(doxygen graphviz)
@@ -41,7 +41,7 @@ case "$purpose" in
   test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
   ci) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" ccache) ;;
   dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${tools[@]}") ;;
-  package) packages+=("${io[@]}" "${python[@]}" dpkg-dev debootstrap) ;;
+  package) packages+=("${io[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
   docs) packages=("${documentation[@]}") ;;
