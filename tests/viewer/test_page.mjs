@@ -139,7 +139,7 @@ test('keys step and play, the mouse turns, f fits', async () => {
   await press('Home');
   const start = await look(page);
   await press(' ');
-  await page.waitForFunction(() => Number(document.getElementById('slider').value) > 4, null, { timeout: patience });
+  await holds(async () => await record(page) > 4, 'it plays');
   await press(' ');
   const stopped = await record(page);
   await page.waitForTimeout(300);
