@@ -26,7 +26,7 @@ target_compile_options(cellwalk_options INTERFACE -ffp-contract=off)
 add_library(cellwalk_warnings INTERFACE)
 target_compile_options(cellwalk_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 
-# Sources in batches (CMAKE_UNITY_BUILD, on in all presets but dev) compile two to three times as fast: what a header costs is parsed and
+# Sources in batches (CMAKE_UNITY_BUILD, on in all presets but dev) compile in about half the time: what a header costs is parsed and
 # optimised once a batch. So names in anonymous namespaces must differ within a layer. In a batch gcc takes sources for headers, in
 # which types of anonymous namespaces would be a mistake.
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
