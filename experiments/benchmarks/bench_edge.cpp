@@ -84,7 +84,7 @@ void check_edges(benchmark::State& state, Check check) {
         ++counts.edges;
         result = find_chain(grid(), e.p, e.q, counts.walk);
       } else if (check == Check::three_segments) {
-        result = check_third_segment<3>(grid(), e.chain, crossed, e.p, e.q, counts);
+        result = check_third_segment<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts);
       } else {
         result = sweep_triangle<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts);
       }

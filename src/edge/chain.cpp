@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "confirm.h"
 #include "link.h"
 
 namespace cellwalk {
@@ -53,11 +54,20 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                            Walk_counts& counts) {
+  bool on_planes = false;
+  return detail::find_chain(snapshot, p, q, counts, on_planes);
+}
+
+template <int D>
+Chain_result<D> detail::find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                                   Walk_counts& counts, bool& on_planes) {
   Chain_result<D> result;
   std::vector<Half_facet> crossed;
   Walk_options options;
   options.crossed = &crossed;
   const Walk_result<D> walked = walk(snapshot, p, q.position, counts, options);
+  on_planes = walked.on_planes;
+  result.has_choice = walked.had_choice;
   if (walked.status != Walk_status::arrived) {
     result.contact = walked.contact;
     return result;
@@ -109,6 +119,7 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
 #define CELLWALK_INSTANTIATE(D)                                                                      \
   template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
                                          Walk_counts&);                                              \
+  template Chain_result<D> detail::find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, Walk_counts&, bool&); \
   template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
   template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);

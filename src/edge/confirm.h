@@ -3,17 +3,23 @@
 #ifndef CELLWALK_EDGE_CONFIRM_H
 #define CELLWALK_EDGE_CONFIRM_H
 
-#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/triangle.h>
 
 namespace cellwalk::detail {
 
-/// True proves that the triangle swept by the edge pq is free, with its chain in `result`: the ends share a cell, or lie in two
-/// cells whose union is convex, or the edge passes the chain it had before, led on by what p crossed. Else `result` is that of
-/// a walk along the edge.
+/// True proves that the triangle swept by the edge pq while p goes its way is free, with its chain in `result`: the ends share a
+/// cell, or lie in two cells whose union is convex, or the edge passes the chain it had before, led on by what p crossed. Else
+/// `result` is that of a walk along the edge. Where the triangle lies in the plane of walls that begin inside of it, so that the edge
+/// may have a choice of sides, nothing is proved.
+/// \pre !way.blocked
 template <int D>
-bool is_confirmed(const Snapshot<D>& snapshot, const Chain& before, std::span<const Half_facet> crossed,
-                  const Particle<D>& p, const Particle<D>& q, const Edge_certificates& certificates,
-                  Chain_result<D>& result, Edge_counts& counts);
+bool is_confirmed(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
+                  const Edge_certificates& certificates, Chain_result<D>& result, Edge_counts& counts);
+
+/// As cellwalk::find_chain(); also whether q lies on the plane of a facet of a cell that the segment was walked through.
+template <int D>
+Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                           Walk_counts& counts, bool& on_planes);
 
 }  // namespace cellwalk::detail
 

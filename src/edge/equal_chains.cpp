@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "equal_chains.h"
 
+#include <cellwalk/walk/detail/star.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -40,7 +42,9 @@ class Linked {
           continue;
         }
         if (is_wall) {
-          wall = f;
+          if (wall == Half_facet::none || is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)),
+                                                           snapshot.facet_of(wall)))
+            wall = f;
           continue;
         }
         const Cell next = snapshot.neighbor(f);

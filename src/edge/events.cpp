@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "events.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "edge_contact.h"
@@ -9,6 +10,7 @@
 #include "in_line.h"
 #include "moving_walk.h"
 #include "plainly_equal.h"
+#include "rational_segment.h"
 #include "relink.h"
 
 namespace cellwalk::detail {
@@ -29,6 +31,7 @@ class Events {
          std::optional<double> until)
       : snapshot_(snapshot),
         triangle_{way.from.position, way.to.position, q.position},
+        first_(way.from.cell),
         start_(way.from.cell),
         q_(q),
         counts_(counts) {
@@ -60,17 +63,25 @@ class Events {
                are_equal(snapshot_, exact_segment(), start_, chain, other, parting);
       };
       Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
-      const std::optional<Chain> next_chain =
-          walk.from(start_) ? walk.chain() : relink(snapshot_, line, start_, q_, chain);
-      if (!next_chain) {
+      std::optional<Moment<D>> next;
+      const bool is_found = walk.from(start_);
+      // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell which one it goes.
+      const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
+      const auto relinked =
+          is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
+      if (relinked) {
+        chain = relinked->chain;
+        if (relinked->end < Moment<D>(1.0)) next = relinked->end;
+      } else if (is_found) {
+        chain = walk.chain();
+      } else {
         chain.clear();
         result.impact = to_time(time.value());
         result.contact = contact(result.impact, line, exact_segment(),
                                  walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }
-      chain = *next_chain;
-      std::optional<Moment<D>> next = end_of(chain, line);
+      if (const auto end = end_of(chain, line); end && (!next || *end < *next)) next = *end;
       if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
       if (!next) break;
       time = *next;
@@ -79,15 +90,38 @@ class Events {
   }
 
  private:
+  /// Whether a wall near the triangle lies in its plane; looked for once.
+  bool lies_in_wall_plane(const Moving_line<D>& line) {
+    if (!in_wall_plane_) in_wall_plane_ = has_wall_in_plane(snapshot_, line, first_);
+    return *in_wall_plane_;
+  }
+
   void plan(const Way<D>& way) {
     std::size_t passed = 0;
     for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
       const std::size_t first = passed;
       Cell cell = way.visited[i];
       while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
-      steps_.push_back({exit_time<D>(snapshot_.view(way.visited[i]), triangle_.a, triangle_.b, counts_),
-                        way.crossed.subspan(first, passed - first), cell});
+      const auto facets = way.crossed.subspan(first, passed - first);
+      steps_.push_back({passing_time(facets), facets, cell});
     }
+  }
+
+  /// The first time at which p lies in all of some facets, which it passes together.
+  Moment<D> passing_time(std::span<const Half_facet> facets) const {
+    if (facets.size() == 1) {
+      const Half_facet f = facets.front();
+      const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), triangle_.a,
+                                       triangle_.b, counts_);
+      if (side.has_root()) return Moment<D>::root_of(side);
+      if (side.at_1() != 0) return {};  // a lies in it
+    }
+    const Rational_segment<D> way_of_p(triangle_.a, triangle_.b);
+    Fraction time = 0;
+    for (const Half_facet f : facets)
+      if (const auto met = way_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
+        time = std::max<Fraction>(time, met->low);
+    return Moment<D>(time);
   }
 
   /// The next time at which one of the signs changes that make the edge pass its chain.
@@ -126,11 +160,13 @@ class Events {
 
   const Snapshot<D>& snapshot_;
   const Swept_triangle<D> triangle_;
-  Cell start_;  ///< of p
+  const Cell first_;  ///< of p before it moves
+  Cell start_;        ///< of p
   const Particle<D>& q_;
   Walk_counts& counts_;
   std::vector<Step<D>> steps_;
   std::optional<Moment<D>> limit_;  ///< no event from then on matters
+  std::optional<bool> in_wall_plane_;
 };
 
 }  // namespace

@@ -24,7 +24,9 @@ class Moving_walk {
     Walk_counts& counts = line_.counts();
     bool outside = false;
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (side<Exact>(cell, i, q_.position, counts) <= 0) continue;
+      const int side_of_q = side<Exact>(cell, i, q_.position, counts);
+      if constexpr (D == 3) in_plane_ = in_plane_ || (side_of_q == 0 && line_.holds_triangle(cell, i));
+      if (side_of_q <= 0) continue;
       outside = true;
       const Exit exit = exit_through(cell, i, line_);
       if (exit.kind == Exit::none) continue;
@@ -34,6 +36,8 @@ class Moving_walk {
   }
 
   const Chain& chain() const { return chain_; }
+  /// True if a cell that it came to has a facet in the plane of the triangle.
+  bool is_in_plane() const { return in_plane_; }
   /// The first wall that was in the way.
   Half_facet wall() const { return wall_; }
 
@@ -83,6 +87,7 @@ class Moving_walk {
   Chain chain_;
   Half_facet wall_ = Half_facet::none;
   int dead_ends_ = 0;
+  bool in_plane_ = false;
 };
 
 }  // namespace cellwalk::detail

@@ -2,12 +2,10 @@
 #include "relink.h"
 
 #include <algorithm>
-#include <set>
-#include <utility>
 
 #include "equal_chains.h"
-#include "link.h"
 #include "may_meet.h"
+#include "ordered_ways.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -34,13 +32,28 @@ class Relinking {
         now_(at(line.time().value())),
         pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)) {}
 
-  std::optional<Chain> run() {
+  std::optional<Relinked<D>> run() {
     find_cells();
     if (!lies_in_plane()) return {};
-    const Rational_segment<D> after = at(middle(line_.time().value(), next_root().value()));
-    if (!from(after, start_, 0)) return {};
-    return found_;
+    const Moment<D> end = next_root();
+    const Rational_segment<D> after = at(middle(line_.time().value(), end.value()));
+    Ordered_ways<D, Relinking> ways(snapshot_, after, q_, *this, line_.counts());
+    if (!ways.find(start_)) return {};
+    return Relinked<D>{ways.chain(), end};
   }
+
+  /// True if a way is not equal to the chain up to where its last cell begins.
+  bool is_wrong(const Chain& way) const {
+    auto pieces = pieces_of<D>(snapshot_, now_, start_, {way.data(), way.size()}, 1);
+    pieces.pop_back();
+    return !pieces.empty() && parting_of(snapshot_, now_, pieces_, pieces);
+  }
+  bool is_accepted(const Chain& way) const {
+    Half_facet wall = Half_facet::none;
+    return are_equal(snapshot_, now_, start_, chain_, way, wall);
+  }
+  /// There are two sides only: which of them comes after the one preferred is no question.
+  bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
 
  private:
   Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
@@ -78,42 +91,6 @@ class Relinking {
     return end;
   }
 
-  /// Goes on from a cell in which the edge is at t; true once at q. Ways to the same place are as good as each other, since
-  /// all are equal to the chain.
-  bool from(const Rational_segment<D>& after, Cell c, const Fraction& t) {
-    if (parts() || !seen_.emplace(c, t).second) return false;
-    if (arrive(c)) return true;
-    const Cell_view<D> cell = snapshot_.view(c);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (snapshot_.is_impassable(f)) continue;
-      const std::optional<Span> met = after.in_facet(cell, i);
-      if (!met || met->high < t) continue;
-      found_.push_back(f);
-      if (from(after, snapshot_.neighbor(f), std::max<Fraction>(t, met->low))) return true;
-      found_.pop_back();
-    }
-    return false;
-  }
-
-  /// True if what is found so far is not equal to the chain up to where its last cell begins.
-  bool parts() const {
-    auto pieces = pieces_of<D>(snapshot_, now_, start_, {found_.data(), found_.size()}, 1);
-    pieces.pop_back();
-    return !pieces.empty() && parting_of(snapshot_, now_, pieces_, pieces);
-  }
-
-  bool arrive(Cell c) {
-    const Cell_view<D> cell = snapshot_.view(c);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i)
-      if (side<Exact>(cell, i, q_.position, line_.counts()) > 0) return false;
-    const std::size_t before = found_.size();
-    Half_facet wall = append_link(snapshot_, found_, c, q_.cell, q_.position, line_.counts());
-    if (wall == Half_facet::none && are_equal(snapshot_, now_, start_, chain_, found_, wall)) return true;
-    found_.resize(before);
-    return false;
-  }
-
   const Snapshot<D>& snapshot_;
   const Moving_line<D>& line_;
   const Cell start_;
@@ -122,21 +99,20 @@ class Relinking {
   const Rational_segment<D> now_;
   const std::vector<Piece> pieces_;  ///< of the chain
   std::vector<Cell> cells_;
-  std::set<std::pair<Cell, Fraction>> seen_;
-  Chain found_;
 };
 
-/// False proves that no facet of cells linked with the edge holds the triangle.
+/// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the triangle.
 template <int D>
-bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start) {
+bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, bool of_walls) {
   Flooded cells{start};
   for (std::size_t head = 0; head < cells.size(); ++head) {
     const Cell c = cells[head];
-    if (holds_triangle(snapshot, line, c)) return true;
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (snapshot.is_impassable(f)) continue;
+      const bool is_wall = snapshot.is_impassable(f);
+      if ((is_wall || !of_walls) && line.holds_triangle(cell, i)) return true;
+      if (is_wall) continue;
       const Cell next = snapshot.neighbor(f);
       if (std::find(cells.begin(), cells.end(), next) == cells.end() &&
           may_be_near(cell, i, line.triangle(), line.counts()))
@@ -148,16 +124,20 @@ bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, C
 
 }  // namespace
 
+bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, Cell start) {
+  return may_lie_in_plane(snapshot, line, start, true);
+}
+
 template <int D>
-std::optional<Chain> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
-                            const Particle<D>& q, const Chain& chain) {
-  if (!may_lie_in_plane(snapshot, line, start)) return {};
+std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
+                                  const Particle<D>& q, const Chain& chain) {
+  if (!may_lie_in_plane(snapshot, line, start, false)) return {};
   return Relinking<D>(snapshot, line, start, q, chain).run();
 }
 
-template std::optional<Chain> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell, const Particle<2>&,
+template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell, const Particle<2>&,
                                         const Chain&);
-template std::optional<Chain> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell, const Particle<3>&,
+template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell, const Particle<3>&,
                                         const Chain&);
 
 }  // namespace cellwalk::detail

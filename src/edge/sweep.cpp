@@ -46,10 +46,10 @@ Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Par
     return result;
   }
   Chain_result<D> result =
-      check_third_segment(snapshot, before, way.crossed, way.to, q, counts, options.certificates);
-  if (!result.contact) return result;
-  // The contact is one on the edge at its end; when the motion came to it, and whether it is only that the temporary particle
-  // took another side of a wall in which the edge lies, is for the events to say.
+      check_third_segment(snapshot, way, q, before, counts, options.certificates);
+  if (!result.contact && !result.has_choice) return result;
+  // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
+  // goes on, is for the events to say.
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, way, q, before, counts.walk);
 }

@@ -6,20 +6,17 @@
 namespace cellwalk {
 
 template <int D>
-Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Chain& before,
-                                    std::span<const Half_facet> crossed, const Particle<D>& p,
-                                    const Particle<D>& q, Edge_counts& counts,
+Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                    const Chain& before, Edge_counts& counts,
                                     const Edge_certificates& certificates) {
   Chain_result<D> result;
-  if (!detail::is_confirmed(snapshot, before, crossed, p, q, certificates, result, counts)) ++counts.changed;
+  if (!detail::is_confirmed(snapshot, way, q, before, certificates, result, counts)) ++counts.changed;
   return result;
 }
 
-template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Chain&, std::span<const Half_facet>,
-                                                const Particle<2>&, const Particle<2>&, Edge_counts&,
-                                                const Edge_certificates&);
-template Chain_result<3> check_third_segment<3>(const Snapshot<3>&, const Chain&, std::span<const Half_facet>,
-                                                const Particle<3>&, const Particle<3>&, Edge_counts&,
-                                                const Edge_certificates&);
+template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
+                                                const Chain&, Edge_counts&, const Edge_certificates&);
+template Chain_result<3> check_third_segment<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
+                                                const Chain&, Edge_counts&, const Edge_certificates&);
 
 }  // namespace cellwalk

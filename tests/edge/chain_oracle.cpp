@@ -160,7 +160,7 @@ std::optional<Chain_class> class_of(const Integer_complex<D>& complex, const Mov
   return state;
 }
 
-/// The way of p: its cells, and when it leaves each.
+/// The way of p: its cells, and when it changes from each to the next, or leaves the last one.
 template <int D>
 class Timetable {
  public:
@@ -169,30 +169,34 @@ class Timetable {
       const int cell = segment.number_of(c);
       if (cell < 0) throw std::invalid_argument("p is never in its cell");
       cells_.push_back(cell);
-      exits_.push_back(segment.exit_time(cell));
     }
     for (std::size_t i = 0; i + 1 < cells_.size(); ++i) {
-      if (i > 0 && !(exits_[i - 1] < exits_[i]))
-        throw std::invalid_argument("p leaves a cell before it comes");
-      const Linked_cut cut(segment.cut(exits_[i]));
+      const Share since = changes_.empty() ? Share{0, 1} : changes_.back();
+      const std::optional<Share> change = segment.first_time_in(motion.passed[i], since);
+      if (!change) throw std::invalid_argument("p is never where its cells are linked");
+      changes_.push_back(*change);
+      const Linked_cut cut(segment.cut(*change));
       const int here = cut.at[0][static_cast<std::size_t>(cells_[i])];
       if (here < 0 || here != cut.at[0][static_cast<std::size_t>(cells_[i + 1])])
         throw std::invalid_argument("the cells of p are not linked where it changes them");
     }
-    if (!motion.blocked && exits_.back() < Share{1, 1}) throw std::invalid_argument("p does not arrive");
+    end_ = segment.exit_time(cells_.back());
+    if (!motion.blocked && end_ < Share{1, 1}) throw std::invalid_argument("p does not arrive");
   }
 
-  const std::vector<Share>& exits() const { return exits_; }
-  /// The cell of p at a time at which it leaves none.
+  /// When p leaves the last cell.
+  const Share& end() const { return end_; }
+  /// The cell of p at a time at which it changes none.
   int cell_at(const Share& time) const {
     std::size_t i = 0;
-    while (i + 1 < cells_.size() && exits_[i] < time) ++i;
+    while (i + 1 < cells_.size() && changes_[i] < time) ++i;
     return cells_[i];
   }
 
  private:
   std::vector<int> cells_;
-  std::vector<Share> exits_;
+  std::vector<Share> changes_;
+  Share end_;
 };
 
 }  // namespace
@@ -210,7 +214,7 @@ Outcomes Chain_oracle<D>::judge(const Edge_motion<D>& motion) const {
   const int q_cell = segment.number_of(motion.q_cell);
   if (q_cell < 0) throw std::invalid_argument("q is not in its cell");
   Outcomes outcomes;
-  if (motion.blocked) outcomes.end = timetable.exits().back();
+  if (motion.blocked) outcomes.end = timetable.end();
   std::vector<Share> times = segment.critical_times();
   times.erase(std::remove_if(times.begin(), times.end(), [&](const Share& t) { return outcomes.end < t; }),
               times.end());

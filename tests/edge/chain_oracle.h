@@ -15,8 +15,10 @@ namespace cellwalk::oracle {
 /// An edge pq whose end p moves from a to b. Cells and half-facets are those of the soup.
 template <int D>
 struct Edge_motion {
-  Point<D> a, b, q;
+  Point<D> a{}, b{}, q{};
   std::vector<std::uint32_t> way;  ///< the cells of p, in order
+  /// The passable half-facets between one cell of the way and the next: p changes from it to that once it lies in all of them.
+  std::vector<std::vector<std::uint32_t>> passed;
   std::uint32_t q_cell = 0;
   std::vector<std::uint32_t> chain;  ///< of the edge aq: half-facets, each seen from the side of p
   bool blocked = false;              ///< p does not get further than its last cell

@@ -228,6 +228,22 @@ Share Moving_segment<D>::exit_time(int cell) const {
   return span.high;
 }
 
+template <int D>
+std::optional<Share> Moving_segment<D>::first_time_in(const std::vector<std::uint32_t>& half_facets,
+                                                      const Share& since) const {
+  Share first = since;
+  std::vector<Span> spans;
+  for (const std::uint32_t f : half_facets) {
+    const int facet = facet_of(f);
+    Span span;
+    if (facet < 0 || !clip_way(span, facets_[static_cast<std::size_t>(facet)].sides)) return {};
+    if (first < span.low) first = span.low;
+    spans.push_back(span);
+  }
+  if (std::any_of(spans.begin(), spans.end(), [&](const Span& span) { return span.high < first; })) return {};
+  return first;
+}
+
 template class Moving_segment<2>;
 template class Moving_segment<3>;
 

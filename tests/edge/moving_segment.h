@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "edge/integer_complex.h"
@@ -65,6 +66,8 @@ class Moving_segment {
 
   /// The last time at which p is in a cell. \pre it is there at some time
   Share exit_time(int cell) const;
+  /// The first time, not before another, at which p lies in all of some passable half-facets of the soup.
+  std::optional<Share> first_time_in(const std::vector<std::uint32_t>& half_facets, const Share& since) const;
 
   bool is_point(const Share& time) const;  ///< p is at q
 

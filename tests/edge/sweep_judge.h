@@ -53,10 +53,20 @@ oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& sn
                                 way.to.position,
                                 q.position,
                                 {},
+                                {},
                                 snapshot.index(q.cell),
                                 soup_chain(soup, snapshot, before),
                                 way.blocked};
   for (const Cell c : way.visited) motion.way.push_back(snapshot.index(c));
+  const std::vector<std::uint32_t> crossed = soup_chain(soup, snapshot, {way.crossed.begin(), way.crossed.end()});
+  auto passed = way.crossed.begin();
+  for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
+    auto& facets = motion.passed.emplace_back();
+    for (Cell cell = way.visited[i]; cell != way.visited[i + 1]; ++passed) {
+      facets.push_back(crossed[static_cast<std::size_t>(passed - way.crossed.begin())]);
+      cell = snapshot.neighbor(*passed);
+    }
+  }
   return motion;
 }
 

@@ -30,13 +30,14 @@ Three_segments_seen sweep(bool generic) {
       // The end is moved on and on, so that chains grow, shrink and turn.
       for (int step = 0; step < 6 && !edge.contact; ++step) {
         const Point<D> a = p.position;
+        const Particle<D> from = p;
         std::vector<Half_facet> crossed;
         w.choose_kind();
         const auto walked =
             move(w.snapshot, p, w.target(p), seen.counts.walk, {Walk_strategy::certified, nullptr, &crossed});
         if (walked.status != Walk_status::arrived) continue;
         const std::uint64_t proved_before = seen.counts.same_cell + seen.counts.same_chain;
-        edge = check_third_segment(w.snapshot, edge.chain, crossed, p, q, seen.counts);
+        edge = check_third_segment<D>(w.snapshot, {from, p, {}, crossed}, q, edge.chain, seen.counts);
         const bool proved = seen.counts.same_cell + seen.counts.same_chain > proved_before;
         const bool is_hit = w.walls.is_crossed(a, p.position, q.position);
         ++seen.sweeps;

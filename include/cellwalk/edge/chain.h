@@ -53,6 +53,8 @@ struct Chain_result {
   /// side of the walls there than the one that q is on.
   std::optional<Wall_contact<D>> contact;
   Exact_time impact{};  ///< of a sweep's contact: contact->time before it was rounded
+  /// Of find_chain(): the segment runs along a wall from its rim on, and has chains on both sides of it.
+  bool has_choice = false;
 };
 
 /// Walks a temporary particle from p to q.

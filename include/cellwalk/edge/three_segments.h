@@ -4,22 +4,20 @@
 #ifndef CELLWALK_EDGE_THREE_SEGMENTS_H
 #define CELLWALK_EDGE_THREE_SEGMENTS_H
 
-#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/triangle.h>
 
 namespace cellwalk {
 
-/// Checks the edge pq after p has moved along a straight way and stands where it is now; q stood still. `before` is the
-/// chain of the edge as it was, `crossed` what p crossed on its way (Walk_options::crossed).
+/// Checks the edge pq after p has gone its way; q stood still. `before` is the chain of the edge as it was.
 ///
 /// Where the edge passes its old chain still, the whole triangle that it swept is proved free. Elsewhere a temporary
 /// particle is walked from p to q, and only that segment is checked: obstacles inside the triangle that cross neither it nor
 /// the way of p are missed.
-/// \pre `before` is the chain of the edge before the move; the walk of p arrived
+/// \pre `before` is the chain of the edge before the move; !way.blocked
 /// Cost: a few ns if p and q share a cell or the chain is empty; some ten signs a facet of the chain; else a walk.
 template <int D>
-Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Chain& before,
-                                    std::span<const Half_facet> crossed, const Particle<D>& p,
-                                    const Particle<D>& q, Edge_counts& counts,
+Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                    const Chain& before, Edge_counts& counts,
                                     const Edge_certificates& certificates = {});
 
 }  // namespace cellwalk

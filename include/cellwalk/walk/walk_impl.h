@@ -94,6 +94,7 @@ class Walker {
     const Cell_view<D> cell = snapshot_.view(cell_);
     on_planes_ = false;
     const Exit exit = find_exit(cell);
+    result_.on_planes |= on_planes_;
     // Where the motion runs in the boundary of the cell, walls may begin on it before it leaves.
     if (Kernel::is_exact && in_boundary_ && on_planes_) {
       const Exit place = detail::next_in_boundary(cell, a_, b_, passed_, exit.kind == Exit::arrived, counts_);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// All ways of a segment through cells, in the order of sides in which a walk takes them. Theory: docs/sweep.md, choices.
+#ifndef CELLWALK_EDGE_ORDERED_WAYS_H
+#define CELLWALK_EDGE_ORDERED_WAYS_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/walk/detail/star.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "rational_segment.h"
+
+namespace cellwalk::detail {
+
+/// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on, it has several
+/// sides to go on along: first comes the one on which it lies once it is displaced, then the others as the rule orders them.
+///
+/// Rule: is_wrong(chain) gives a beginning up, is_accepted(chain) takes a whole chain, comes_before(cell, cell) orders the cells of
+/// sides that are not preferred.
+template <int D, class Rule>
+class Ordered_ways {
+ public:
+  Ordered_ways(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, const Particle<D>& q,
+               const Rule& rule, Walk_counts& counts)
+      : snapshot_(snapshot), segment_(segment), q_(q), rule_(rule), counts_(counts) {
+    const Point<D> p = segment.at(0).rounded();  // less than an ulp off
+    for (int k = 0; k < D; ++k) {
+      low_[k] = std::min(std::nextafter(p[k], -std::numeric_limits<double>::infinity()), q.position[k]);
+      high_[k] = std::max(std::nextafter(p[k], std::numeric_limits<double>::infinity()), q.position[k]);
+    }
+  }
+
+  /// True if there is one from a cell of the start to that of q, or one linked with it there.
+  /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they begin and end.
+  bool find(Cell start) { return from(start, 0); }
+
+  const Chain& chain() const { return chain_; }
+
+ private:
+  /// A cell linked with the one that the segment is in, and what it needs to be gone on in.
+  struct Place {
+    Cell cell;
+    std::size_t parent;
+    Half_facet facet;  ///< of the parent
+    bool holds_more = true, is_displaced = true;
+    Fraction end{1};  ///< up to there the cell meets the segment in the same facets
+  };
+
+  /// Goes on from a cell in which the segment is at t. Ways to the same place are as good as each other.
+  bool from(Cell c, const Fraction& t) {
+    if (rule_.is_wrong(chain_) || !seen_.emplace(c, t).second) return false;
+    std::vector<Place> places = linked(c, t);
+    const bool is_end = t == Fraction(1);
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (is_end ? places[k].cell == q_.cell : places[k].holds_more) order.push_back(k);
+    if (!is_end)
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+        if (places[x].is_displaced != places[y].is_displaced) return places[x].is_displaced;
+        return !places[x].is_displaced &&
+               rule_.comes_before(snapshot_.view(places[x].cell), snapshot_.view(places[y].cell));
+      });
+    for (const std::size_t k : order) {
+      const std::size_t before = chain_.size();
+      append_way(places, k);
+      if (is_end ? rule_.is_accepted(chain_) : from(places[k].cell, places[k].end)) return true;
+      chain_.resize(before);
+    }
+    return false;
+  }
+
+  std::vector<Place> linked(Cell c, const Fraction& t) {
+    std::vector<Place> places{{c, 0, Half_facet::none}};
+    for (std::size_t head = 0; head < places.size(); ++head) {
+      const Cell_view<D> cell = snapshot_.view(places[head].cell);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+        if (is_apart(cell, i)) continue;
+        const std::optional<Span> met = segment_.in_facet(cell, i);
+        if (!met) continue;
+        for (const Fraction& end : {met->low, met->high})
+          if (t < end && end < places[head].end) places[head].end = end;
+        if (t < met->low || met->high < t) continue;
+        const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
+        places[head].holds_more &= side_of_q <= 0;
+        places[head].is_displaced &= side_of_q < 0 || (side_of_q == 0 && displaced_side(cell, i) < 0);
+        const Half_facet f = Snapshot<D>::half_facet(places[head].cell, i);
+        if (snapshot_.is_impassable(f)) continue;
+        const Cell next = snapshot_.neighbor(f);
+        if (std::none_of(places.begin(), places.end(), [next](const Place& p) { return p.cell == next; }))
+          places.push_back({next, head, f});
+      }
+    }
+    return places;
+  }
+
+  /// True if all of a facet has smaller or greater coordinates than the segment.
+  bool is_apart(const Cell_view<D>& cell, std::size_t i) const {
+    const auto loop = cell.loop(i);
+    for (int k = 0; k < D; ++k) {
+      const auto is_below = [&](std::uint16_t v) { return cell.point(v)[k] < low_[k]; };
+      const auto is_above = [&](std::uint16_t v) { return cell.point(v)[k] > high_[k]; };
+      if (std::all_of(loop.begin(), loop.end(), is_below) || std::all_of(loop.begin(), loop.end(), is_above))
+        return true;
+    }
+    return false;
+  }
+
+  void append_way(const std::vector<Place>& places, std::size_t k) {
+    const std::size_t end = chain_.size();
+    for (; k != 0; k = places[k].parent) chain_.push_back(places[k].facet);
+    std::reverse(chain_.begin() + static_cast<std::ptrdiff_t>(end), chain_.end());
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Rational_segment<D>& segment_;
+  const Particle<D>& q_;
+  const Rule& rule_;
+  Walk_counts& counts_;
+  Point<D> low_{}, high_{};  ///< of a box that holds the segment
+  std::set<std::pair<Cell, Fraction>> seen_;
+  Chain chain_;
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_ORDERED_WAYS_H
