@@ -52,7 +52,7 @@ int main() {
   Walk_counts own, shipped;
   int different = 0, contacts = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Particle<3> particle = locator.particle_at(lattice_point(33));
+    const Particle<3> particle = locator.particle_at(lattice_point(33)).value();
     const Point<3> target = lattice_point(36);
     const auto a =
         walk<Small_integers>(snapshot, particle, target, own, {.strategy = Walk_strategy::exit_rule});

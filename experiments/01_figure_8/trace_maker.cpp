@@ -108,9 +108,7 @@ Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_
       center[static_cast<Eigen::Index>(k)] = random.real(0, static_cast<double>(options.cells[k]));
     const auto positions = flyer.placed(center);
     // Most places are refused, and cheaply so where a vertex is not in free space.
-    if (std::ranges::any_of(positions,
-                            [&](const Point<3>& x) { return locator.particle_at(x).cell == Cell::none; }))
-      continue;
+    if (std::ranges::any_of(positions, [&](const Point<3>& x) { return !locator.particle_at(x); })) continue;
     try {
       const Trace_body body(snapshot, locator, positions);
       starts.insert(starts.end(), positions.begin(), positions.end());

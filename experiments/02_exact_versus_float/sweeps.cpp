@@ -125,8 +125,7 @@ class Sweep_trial {
     note(0, of_fault(test::fault_of(chains_, motion, outcomes, scene_.snapshot, triangle)));
     const bool is_third_free =
         !move.is_blocked &&
-        !check_third_segment<D>(scene_.snapshot, move.way(), move.q, move.before, counts)
-             .contact;
+        !check_third_segment<D>(scene_.snapshot, move.way(), move.q, move.before, counts).contact;
     note(1, of_answer(is_third_free, may_be_free, may_be_blocked));
     for (std::size_t k = 0; k < kernel_count; ++k) {
       const Walk_status status = walk_both(kernels_[k], move);

@@ -75,8 +75,8 @@ class Moves {
     const Point<D> y = x + edge_ * random_direction<D>(random_);
     move.target = x + setting_.step * random_direction<D>(random_);
     expected = expected_hits<D>(x, move.target, y, side_);
-    move.p = locator_.particle_at(x);
-    move.q = locator_.particle_at(y);
+    move.p = locator_.particle_at(x).value_or(Particle<D>{});
+    move.q = locator_.particle_at(y).value_or(Particle<D>{});
     if (move.p.cell == Cell::none || move.q.cell == Cell::none) return false;
     Walk_counts counts;
     const Chain_result<D> before = find_chain(snapshot(), move.p, move.q, counts);

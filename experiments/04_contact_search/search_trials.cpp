@@ -92,9 +92,9 @@ std::vector<Trial<D>> draw(const Scene<D>& scene, Random& random, std::size_t wa
     Trial<D>& t = trials[found];
     Point<D> x;
     for (std::size_t k = 0; k < D; ++k) x[k] = random.real(low[k], high[k]);
-    t.p = locator.particle_at(x);
+    t.p = locator.particle_at(x).value_or(Particle<D>{});
     if (t.p.cell == Cell::none) continue;
-    t.q = locator.particle_at(x + scene.edge * random_direction<D>(random));
+    t.q = locator.particle_at(x + scene.edge * random_direction<D>(random)).value_or(Particle<D>{});
     if (t.q.cell == Cell::none) continue;
     const Chain_result<D> before = find_chain(snapshot, t.p, t.q, counts.walk);
     if (before.contact) continue;

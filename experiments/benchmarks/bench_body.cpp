@@ -139,13 +139,13 @@ const std::deque<Blocked>& blocked() {
         q[k] = p[k] + random.real(-1, 1);
         t[k] = p[k] + random.real(-0.3, 0.3);
       }
-      const Particle<3> from = locator.particle_at(p), to = locator.particle_at(q);
-      if (from.cell == Cell::none || to.cell == Cell::none) continue;
-      const Chain_result<3> edge = find_chain(scene(), from, to, counts.walk);
+      const auto from = locator.particle_at(p), to = locator.particle_at(q);
+      if (!from || !to) continue;
+      const Chain_result<3> edge = find_chain(scene(), *from, *to, counts.walk);
       if (edge.contact) continue;
-      const auto swept = sweep_edge(scene(), from, t, to, edge.chain, {}, counts);
+      const auto swept = sweep_edge(scene(), *from, t, *to, edge.chain, {}, counts);
       if (!swept.contact || swept.contact->body != Body_feature::edge) continue;
-      const Blocked motion{from, to, t, edge.chain};
+      const Blocked motion{*from, *to, t, edge.chain};
       found.push_back(motion);
     }
     return found;

@@ -57,7 +57,7 @@ std::vector<Edge> edges(double length) {
       q[k] = p[k] + length * random.real(-1, 1) / 1.7;
       t[k] = p[k] + reach * random.real(-1, 1);
     }
-    e = {locator.particle_at(p), locator.particle_at(q), {}, {t, p}};
+    e = {locator.particle_at(p).value(), locator.particle_at(q).value(), {}, {t, p}};
     e.chain = find_chain(grid(), e.p, e.q, counts).chain;
   }
   return result;
@@ -148,9 +148,9 @@ std::vector<Swept> swept_faces(const Snapshot<3>& snapshot, double length, bool 
       x[1][k] = x[0][k] + reach * random.real(-1, 1);
       for (const int j : {2, 3}) x[j][k] = x[0][k] + length * random.real(-1, 1) / 1.7;
     }
-    const Particle<3> p = locator.particle_at(x[0]), t = locator.particle_at(x[1]);
+    const Particle<3> p = locator.particle_at(x[0]).value(), t = locator.particle_at(x[1]).value();
     const Way<3> way{p, t, {}, {}, false}, back{t, p, {}, {}, false};
-    Swept s{{way, back}, locator.particle_at(x[2]), locator.particle_at(x[3]), {}};
+    Swept s{{way, back}, locator.particle_at(x[2]).value(), locator.particle_at(x[3]).value(), {}};
     Walk_counts& walks = edge_counts.walk;
     const auto qr = find_chain(snapshot, s.q, s.r, walks), pq = find_chain(snapshot, p, s.q, walks),
                rp = find_chain(snapshot, s.r, p, walks), tq = find_chain(snapshot, t, s.q, walks);

@@ -87,7 +87,7 @@ Motions motions(const World& w, Start start, double reach) {
       p[k] = side / 2 + spread * (unit() - 0.5);
       t[k] = std::clamp(p[k] + reach * (2 * unit() - 1), 0.5, side - 0.5);
     }
-    m.particles.push_back(w.locator->particle_at(p));
+    m.particles.push_back(w.locator->particle_at(p).value());
     m.targets[0].push_back(t);
     m.targets[1].push_back(p);
     m.hints.push_back(w.delaunay.locate({p[0], p[1], p[2]}));

@@ -26,8 +26,8 @@ constexpr io::Color face_color{0.30, 0.45, 0.80, 0.55}, blocked_face{0.85, 0.35,
 struct Move {
   Move(const Snapshot<3>& snapshot, const Point<3>& target) {
     const Locator<3> locator(snapshot);
-    const Particle<3> from = locator.particle_at(a), at_q = locator.particle_at(q),
-                      at_r = locator.particle_at(r);
+    const Particle<3> from = locator.particle_at(a).value(), at_q = locator.particle_at(q).value(),
+                      at_r = locator.particle_at(r).value();
     Edge_counts counts;
     const Chain pq = find_chain(snapshot, from, at_q, counts.walk).chain,
                 pr = find_chain(snapshot, from, at_r, counts.walk).chain,

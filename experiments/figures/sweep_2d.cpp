@@ -47,14 +47,14 @@ struct Case {
         }()),
         snapshot(environment.snapshot()) {
     const Locator<2> locator(snapshot);
-    p = locator.particle_at(a);
-    end = locator.particle_at(q);
+    p = locator.particle_at(a).value();
+    end = locator.particle_at(q).value();
     before = find_chain(snapshot, p, end, counts.walk).chain;
     met = cells_met<2>(snapshot, p.cell, {a, b, q});
     Walk_options options;
     options.visited = &traversed;
     require(!walk(snapshot, p, b, counts.walk, options).contact, "p itself is free");
-    walk(snapshot, locator.particle_at(b), q, counts.walk, options);
+    walk(snapshot, locator.particle_at(b).value(), q, counts.walk, options);
   }
   Sweep_result<2> sweep(const Sweep_options& options, const Point<2>& target = b) {
     return sweep_edge(snapshot, p, target, end, before, options, counts);

@@ -40,7 +40,7 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
                                                              {1, 0, 0.75, 0.125}});
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
-  const Particle<3> p = locator.particle_at(a), end = locator.particle_at(q);
+  const Particle<3> p = locator.particle_at(a).value(), end = locator.particle_at(q).value();
   Edge_counts counts;
   const Chain_result<3> before = find_chain(snapshot, p, end, counts.walk);
   require(!before.contact, "3D: the edge is free at its start");
@@ -68,7 +68,7 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   Walk_options options;
   options.visited = &traversed;
   walk(snapshot, p, b, counts.walk, options);
-  walk(snapshot, locator.particle_at(b), q, counts.walk, options);
+  walk(snapshot, locator.particle_at(b).value(), q, counts.walk, options);
 
   Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
              triangle =

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::vector<Particle<3>> particles;
   {
     const Locator<3> locator(snapshot);
-    for (std::size_t i = 0; i < n; ++i) particles.push_back(locator.particle_at(points[i]));
+    for (std::size_t i = 0; i < n; ++i) particles.push_back(locator.particle_at(points[i]).value());
   }
   Outcome outcome{std::vector<Walk_status>(n), std::vector<double>(n), std::vector<Cell>(n)};
   Walk_counts counts;

@@ -28,7 +28,8 @@ class Particles {
           const py::gil_scoped_release released;
           for_each_chunk(at.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-              particles[i] = is_usable(at[i]) ? world.locator.particle_at(at[i]) : Particle<D>{at[i]};
+              particles[i] = (is_usable(at[i]) ? world.locator.particle_at(at[i]) : std::nullopt)
+                                 .value_or(Particle<D>{at[i]});
           });
         },
         *world_);

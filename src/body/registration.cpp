@@ -44,23 +44,14 @@ class Registration {
 
   /// A particle for each side of the walls at a vertex.
   Sides sides(std::uint32_t v, const Locator<D>& locator) {
-    const Location<D> location = locator.locate(soup_.points[v]);
-    if (location.status != Location_status::free)
+    Sides result = locator.particles_at(soup_.points[v]);
+    if (result.empty())
       throw Error(
           Error_code::outside,
-          fmt::format(
-              "vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
-              location.status == Location_status::solid ? "in a solid cell" : "outside the environment"));
-    Sides result;
-    for (const Cell cell : location.cells) {
-      const Particle<D> here{soup_.points[v], cell, location.dimension, 0};
-      // Cells are linked at a point if a segment of no length has a chain from one to the other.
-      const auto is_linked = [&](const Particle<D>& other) {
-        return !find_chain(snapshot_, other, here, counts_).contact;
-      };
-      if (std::none_of(result.begin(), result.end(), is_linked)) result.push_back(here);
-      if (location.sides <= 1) break;
-    }
+          fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
+                      locator.locate(soup_.points[v]).status == Location_status::solid
+                          ? "in a solid cell"
+                          : "outside the environment"));
     return result;
   }
 

@@ -38,16 +38,15 @@ Shown_walk shown_walk(const Snapshot<2>& snapshot, const Particle<2>& particle, 
   return walk;
 }
 
-/// That of an answer, of those from all cells that hold the start.
+/// That of an answer, of those from all sides of the start.
 Shown_walk walk_of(const Snapshot<2>& snapshot, const Locator<2>& locator, const Point<2>& from,
                    const Point<2>& to, const Answer<2>& answer) {
-  const Location<2> start = locator.locate(from);
-  for (const Cell cell : start.sides > 1 ? start.cells : std::vector{start.cell}) {
-    Shown_walk walk = shown_walk(snapshot, {from, cell, start.dimension, 0}, to);
+  for (const Particle<2>& start : locator.particles_at(from)) {
+    Shown_walk walk = shown_walk(snapshot, start, to);
     if (walk.result.cell == answer.cell && walk.result.contact.has_value() == answer.contact.has_value())
       return walk;
   }
-  return shown_walk(snapshot, locator.particle_at(from), to);
+  return shown_walk(snapshot, locator.particle_at(from).value(), to);
 }
 
 /// The vertices of the environment that a walk passes through: those on its line at which it changes cells.
@@ -146,7 +145,7 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
     plot.dashes(p, q, usual, Layer::lines, motion);
     return plot.write(path, title_of(row, answer, "p"));
   }
-  const Particle<2> start = locator.particle_at(p), still = locator.particle_at(q);
+  const Particle<2> start = locator.particle_at(p).value(), still = locator.particle_at(q).value();
   Walk_counts counts;
   const Chain before = find_any_chain(snapshot, start, still, counts).chain;
   const Shown_walk way = shown_walk(snapshot, start, t);

@@ -146,7 +146,7 @@ void Run_motion<D>::follow(std::size_t number, const Point<D>& position) {
   Walk_counts counts;
   if (move(snapshot_, follower, position, counts).status == Walk_status::arrived) return;
   if (!locator_) locator_.emplace(snapshot_);
-  follower = locator_->particle_at(position);
+  follower = locator_->particle_at(position).value();
 }
 
 template <int D>

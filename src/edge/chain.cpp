@@ -116,12 +116,13 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
   return true;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                      \
-  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
-                                         Walk_counts&);                                              \
-  template Chain_result<D> detail::find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, Walk_counts&, bool&); \
-  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
-  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
+#define CELLWALK_INSTANTIATE(D)                                                                              \
+  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&,         \
+                                         Walk_counts&);                                                      \
+  template Chain_result<D> detail::find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
+                                                 Walk_counts&, bool&);                                       \
+  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                              \
+  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);                      \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -49,8 +49,7 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Way<D>& way, const 
   };
   // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
   // through its inside.
-  if (certificates.same_cell && chain.empty() &&
-      (p.dimension == D || q.dimension == D || has_no_choice())) {
+  if (certificates.same_cell && chain.empty() && (p.dimension == D || q.dimension == D || has_no_choice())) {
     ++counts.same_cell;
     result = {};
     return true;

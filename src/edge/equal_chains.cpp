@@ -42,8 +42,8 @@ class Linked {
           continue;
         }
         if (is_wall) {
-          if (wall == Half_facet::none || is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)),
-                                                           snapshot.facet_of(wall)))
+          if (wall == Half_facet::none ||
+              is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
             wall = f;
           continue;
         }

@@ -111,8 +111,8 @@ class Events {
   Moment<D> passing_time(std::span<const Half_facet> facets) const {
     if (facets.size() == 1) {
       const Half_facet f = facets.front();
-      const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), triangle_.a,
-                                       triangle_.b, counts_);
+      const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f),
+                                       triangle_.a, triangle_.b, counts_);
       if (side.has_root()) return Moment<D>::root_of(side);
       if (side.at_1() != 0) return {};  // a lies in it
     }

@@ -62,7 +62,8 @@ std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, 
       result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
   if (is_crossed) return {};
   if (options.sweep == Sweep::three_segments)
-    return result.contact || result.has_choice ? chain_by_events(snapshot, way, q, before, counts) : result.chain;
+    return result.contact || result.has_choice ? chain_by_events(snapshot, way, q, before, counts)
+                                               : result.chain;
   if (options.certificates.flood) {
     const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
     switch (ask_walls(snapshot, way.from.cell, triangle, counts)) {

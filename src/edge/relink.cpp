@@ -135,9 +135,9 @@ std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line
   return Relinking<D>(snapshot, line, start, q, chain).run();
 }
 
-template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell, const Particle<2>&,
-                                        const Chain&);
-template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell, const Particle<3>&,
-                                        const Chain&);
+template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
+                                              const Particle<2>&, const Chain&);
+template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
+                                              const Particle<3>&, const Chain&);
 
 }  // namespace cellwalk::detail

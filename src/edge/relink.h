@@ -30,9 +30,9 @@ bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, 
 inline bool has_wall_in_plane(const Snapshot<2>&, const Moving_line<2>&, Cell) { return false; }
 
 extern template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
-                                               const Particle<2>&, const Chain&);
+                                                     const Particle<2>&, const Chain&);
 extern template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
-                                               const Particle<3>&, const Chain&);
+                                                     const Particle<3>&, const Chain&);
 
 }  // namespace cellwalk::detail
 

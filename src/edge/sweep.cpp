@@ -45,8 +45,7 @@ Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Par
     walk_start(snapshot, result.chain, way.crossed);
     return result;
   }
-  Chain_result<D> result =
-      check_third_segment(snapshot, way, q, before, counts, options.certificates);
+  Chain_result<D> result = check_third_segment(snapshot, way, q, before, counts, options.certificates);
   if (!result.contact && !result.has_choice) return result;
   // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
   // goes on, is for the events to say.

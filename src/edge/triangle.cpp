@@ -24,8 +24,7 @@ Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, c
     result.chain = before;
     return result;
   }
-  if (detail::is_confirmed(snapshot, way, q, before, certificates, result, counts))
-    return result;
+  if (detail::is_confirmed(snapshot, way, q, before, certificates, result, counts)) return result;
   ++counts.changed;
   const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
   if (certificates.flood && !result.contact && is_clear(snapshot, way.from.cell, triangle, counts))

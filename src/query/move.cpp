@@ -46,17 +46,15 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 template <class Kernel, int D>
 Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
                  const Point<D>& to, const Move_options& options, Edge_counts& counts) {
-  const Location<D> start = locator.locate(from);
-  const bool has_sides = start.sides > 1;
+  const std::vector<Particle<D>> starts = locator.particles_at(from);
   Answer<D> best;
   best.status = Motion_status::outside;
-  for (const Cell cell : start.cells) {
-    const Particle<D> particle{from, cell, start.dimension, 0};
-    const Answer<D> result = move_from<Kernel>(snapshot, particle, to, options, has_sides, counts);
+  for (const Particle<D>& start : starts) {
+    const Answer<D> result = move_from<Kernel>(snapshot, start, to, options, starts.size() > 1, counts);
     const bool further = result.status == Motion_status::free ||
                          (result.contact && best.contact && result.contact->impact > best.contact->impact);
     if (best.status == Motion_status::outside || further) best = result;
-    if (!has_sides || best.status == Motion_status::free) break;
+    if (best.status == Motion_status::free) break;
   }
   return best;
 }

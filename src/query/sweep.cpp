@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/query/sweep.h>
 
-#include <algorithm>
 #include <list>
 #include <vector>
 
@@ -15,24 +14,6 @@ struct Start {
   Chain chain;
 };
 
-/// A particle for each side of a point, in the first cell of that side; none outside free space.
-template <int D>
-std::vector<Particle<D>> particles_at(const Snapshot<D>& snapshot, const Locator<D>& locator,
-                                      const Point<D>& x, Walk_counts& counts) {
-  const Location<D> location = locator.locate(x);
-  std::vector<Particle<D>> particles;
-  for (const Cell cell : location.cells) {
-    if (particles.size() == static_cast<std::size_t>(location.sides)) break;
-    const Particle<D> particle{x, cell, location.dimension, 0};
-    // Cells are linked at a point if a segment of no length has a chain from one to the other.
-    const auto is_linked = [&](const Particle<D>& other) {
-      return !find_chain(snapshot, other, particle, counts).contact;
-    };
-    if (std::none_of(particles.begin(), particles.end(), is_linked)) particles.push_back(particle);
-  }
-  return particles;
-}
-
 /// False if the edge crosses a wall.
 template <int D>
 bool find_start_chain(const Snapshot<D>& snapshot, Start<D>& start, Walk_counts& counts) {
@@ -45,8 +26,8 @@ bool find_start_chain(const Snapshot<D>& snapshot, Start<D>& start, Walk_counts&
 template <int D>
 std::list<Start<D>> starts(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& p_at,
                            const Point<D>& q_at, Walk_counts& counts) {
-  const auto all_p = particles_at(snapshot, locator, p_at, counts);
-  const auto all_q = particles_at(snapshot, locator, q_at, counts);
+  const auto all_p = locator.particles_at(p_at);
+  const auto all_q = locator.particles_at(q_at);
   std::list<Start<D>> found;
   for (const Particle<D>& p : all_p)
     for (const Particle<D>& q : all_q) {

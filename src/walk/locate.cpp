@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/walk/detail/signs.h>
+#include <cellwalk/walk/detail/star.h>
 #include <cellwalk/walk/locate.h>
 
 #include <boost/geometry.hpp>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace cellwalk {
 namespace {
@@ -74,34 +74,71 @@ Locator<D>& Locator<D>::operator=(Locator&&) noexcept = default;
 
 namespace {
 
-/// Classes of cells joined by passable facets that contain p. All cells that contain p are in `cells`.
+/// A cell whose closure holds a point, and the class of those linked with it there.
 template <int D>
-int count_sides(const Snapshot<D>& s, const std::vector<Cell>& cells, const Point<D>& p) {
-  std::vector<std::size_t> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i];
-    return i;
-  };
-  int sides = static_cast<int>(cells.size());
-  Walk_counts counts;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell_view<D> cell = s.view(cells[i]);
-    for (std::size_t f = 0; f < cell.facet_count(); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(cells[i], f);
-      if (s.is_impassable(facet)) continue;
-      // p lies in both closed cells; it lies in this facet if it is on its plane and the neighbour holds it,
-      // unless the two cells share several coplanar facets.
-      const auto it = std::find(cells.begin(), cells.end(), s.neighbor(facet));
-      if (it == cells.end() || detail::side<Exact>(cell, f, p, counts) != 0) continue;
-      if (!detail::in_facet(cell, f, p)) continue;
-      const std::size_t a = root(i), b = root(static_cast<std::size_t>(it - cells.begin()));
-      if (a == b) continue;
-      parent[a] = b;
-      --sides;
+struct Found {
+  Cell cell;
+  std::size_t side;
+  std::vector<std::size_t> facets;  ///< those whose planes hold the point
+};
+
+/// Classes of cells joined by passable facets that contain p. All cells that contain p are given.
+template <int D>
+void join_sides(const Snapshot<D>& s, std::vector<Found<D>>& found, const Point<D>& p) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Cell_view<D> cell = s.view(found[i].cell);
+    for (const std::size_t f : found[i].facets) {
+      const Half_facet facet = Snapshot<D>::half_facet(found[i].cell, f);
+      // The neighbour holds p too if this facet does, but may share several coplanar facets.
+      if (s.is_impassable(facet) || !detail::in_facet(cell, f, p)) continue;
+      const auto other = std::find_if(found.begin(), found.end(),
+                                      [next = s.neighbor(facet)](const auto& x) { return x.cell == next; });
+      if (other == found.end()) continue;
+      const std::size_t from = other->side, to = found[i].side;
+      for (Found<D>& x : found)
+        if (x.side == from) x.side = to;
     }
   }
-  return sides;
+}
+
+/// What the order of sides goes by: whether the point lies there once it is displaced, then the corners of the first cell.
+template <int D>
+struct Side_rank {
+  std::size_t side;
+  bool is_displaced = false;
+  std::vector<Point<D>> corners;
+
+  bool operator<(const Side_rank& other) const {
+    if (is_displaced != other.is_displaced) return is_displaced;
+    return corners < other.corners;
+  }
+};
+
+template <int D>
+std::vector<Side_rank<D>> ordered_sides(const Snapshot<D>& s, const std::vector<Found<D>>& found) {
+  std::vector<Side_rank<D>> ranks;
+  for (const Found<D>& x : found) {
+    auto rank = std::find_if(ranks.begin(), ranks.end(), [&](const auto& r) { return r.side == x.side; });
+    if (rank == ranks.end()) rank = ranks.insert(ranks.end(), {x.side});
+    const Cell_view<D> cell = s.view(x.cell);
+    rank->is_displaced |= std::all_of(x.facets.begin(), x.facets.end(),
+                                      [&](std::size_t f) { return detail::displaced_side(cell, f) < 0; });
+    std::vector<Point<D>> corners;
+    for (std::size_t v = 0; v < cell.vertex_count(); ++v) corners.push_back(cell.point(v));
+    std::sort(corners.begin(), corners.end());
+    if (rank->corners.empty() || corners < rank->corners) rank->corners = std::move(corners);
+  }
+  std::sort(ranks.begin(), ranks.end());
+  return ranks;
+}
+
+/// Of the lowest cell of the complex on which p, a point of the closed cell, lies.
+template <int D>
+std::uint16_t dimension_at(const Snapshot<D>& s, Cell c, const Point<D>& p) {
+  const Cell_view<D> cell = s.view(c);
+  Walk_counts counts;
+  return detail::lowest_dimension(
+      cell, p, [&](std::size_t f) { return detail::side<Exact>(cell, f, p, counts) == 0; });
 }
 
 }  // namespace
@@ -116,6 +153,7 @@ Location<D> Locator<D>::locate(const Point<D>& p) const {
   std::sort(candidates.begin(), candidates.end());
   bool in_solid = false;
   Walk_counts counts;
+  std::vector<Found<D>> found;
   for (const std::uint32_t i : candidates) {
     const Cell c = s.cell(i);
     const Cell_view<D> cell = s.view(c);
@@ -127,34 +165,45 @@ Location<D> Locator<D>::locate(const Point<D>& p) const {
       if (side == 0) on.push_back(f);
     }
     if (!inside) continue;
-    if (s.is_solid(c)) {
+    if (s.is_solid(c))
       in_solid = true;
-      continue;
-    }
-    if (location.cells.empty()) {
-      location.cell = c;
-      location.dimension = detail::lowest_dimension(
-          cell, p, [&](std::size_t f) { return std::find(on.begin(), on.end(), f) != on.end(); });
-    }
-    location.cells.push_back(c);
+    else
+      found.push_back({c, found.size(), std::move(on)});
   }
-  if (location.cells.empty()) {
+  if (found.empty()) {
     if (in_solid) location.status = Location_status::solid;
     return location;
   }
   location.status = Location_status::free;
-  location.sides = location.cells.size() == 1 ? 1 : count_sides(s, location.cells, p);
+  if (found.size() > 1) join_sides(s, found, p);
+  for (const Side_rank<D>& rank : ordered_sides(s, found)) {
+    for (const Found<D>& x : found) {
+      if (x.side != rank.side) continue;
+      location.cells.push_back(x.cell);
+      location.side_of_cell.push_back(location.sides);
+    }
+    ++location.sides;
+  }
+  location.cell = location.cells.front();
+  location.dimension = dimension_at(s, location.cell, p);
   return location;
 }
 
 template <int D>
-Particle<D> Locator<D>::particle_at(const Point<D>& p) const {
+std::optional<Particle<D>> Locator<D>::particle_at(const Point<D>& p) const {
   const Location<D> location = locate(p);
-  Particle<D> particle;
-  particle.position = p;
-  particle.cell = location.cell;
-  particle.dimension = location.dimension;
-  return particle;
+  if (location.status != Location_status::free) return {};
+  return Particle<D>{p, location.cell, location.dimension, 0};
+}
+
+template <int D>
+std::vector<Particle<D>> Locator<D>::particles_at(const Point<D>& p) const {
+  const Location<D> location = locate(p);
+  std::vector<Particle<D>> particles;
+  for (std::size_t i = 0; i < location.cells.size(); ++i)
+    if (static_cast<int>(particles.size()) == location.side_of_cell[i])
+      particles.push_back({p, location.cells[i], dimension_at(index_->snapshot, location.cells[i], p), 0});
+  return particles;
 }
 
 template class Locator<2>;

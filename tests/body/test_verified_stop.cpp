@@ -14,7 +14,7 @@ using test::rooms;
 
 template <int D>
 Particle<D> particle_at(const Snapshot<D>& snapshot, const Point<D>& p) {
-  return Locator<D>(snapshot).particle_at(p);
+  return Locator<D>(snapshot).particle_at(p).value();
 }
 
 TEST(VerifiedStop, StopsInTheWallPlaneWhereThatIsADouble) {

@@ -56,7 +56,7 @@ class Edge_world {
 
  private:
   Particle<D> on_any_side(const Point<D>& x) {
-    Particle<D> particle = locator.particle_at(x);
+    Particle<D> particle = locator.particle_at(x).value_or(Particle<D>{x});
     if (particle.cell == Cell::none) return particle;
     const auto cells = locator.locate(x).cells;
     particle.cell = cells[source_.random().below(cells.size())];

@@ -58,7 +58,8 @@ oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& sn
                                 soup_chain(soup, snapshot, before),
                                 way.blocked};
   for (const Cell c : way.visited) motion.way.push_back(snapshot.index(c));
-  const std::vector<std::uint32_t> crossed = soup_chain(soup, snapshot, {way.crossed.begin(), way.crossed.end()});
+  const std::vector<std::uint32_t> crossed =
+      soup_chain(soup, snapshot, {way.crossed.begin(), way.crossed.end()});
   auto passed = way.crossed.begin();
   for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
     auto& facets = motion.passed.emplace_back();

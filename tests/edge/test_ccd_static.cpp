@@ -51,7 +51,7 @@ TEST(CcdStatic, VertexAndFace) {
     EXPECT_EQ(expected.any(), row.labels[0]);
 
     const Environment<3> environment = membrane_environment(obstacle, std::array{from, to});
-    const Particle<3> p = Locator<3>(environment.snapshot()).particle_at(from);
+    const Particle<3> p = Locator<3>(environment.snapshot()).particle_at(from).value();
     ASSERT_NE(p.cell, Cell::none);
     const auto contact = first_touch(environment.snapshot(), p, to, counts);
     EXPECT_EQ(contact.has_value(), row.labels[0]);
@@ -117,7 +117,7 @@ void check_motion(const Environment<3>& environment, const std::array<Point<3>, 
   const Edge_touch expected = touch_of_motion(m, membrane);
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
-  const Particle<3> p = locator.particle_at(m.p0), q = locator.particle_at(m.q0);
+  const Particle<3> p = locator.particle_at(m.p0).value(), q = locator.particle_at(m.q0).value();
   ++seen.motions;
   seen.collisions += expected.any();
   const Chain_result<3> edge = find_chain(snapshot, p, q, seen.counts.walk);

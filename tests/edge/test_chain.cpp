@@ -91,8 +91,8 @@ TEST(Chain, IsReducedWhereTheEndWalksAlongIt) {
   const Snapshot<3> snapshot = row(4);
   const Locator<3> locator(snapshot);
   Walk_counts counts;
-  Particle<3> p = locator.particle_at({0.5, 0.5, 0.5});
-  const Particle<3> q = locator.particle_at({3.5, 0.25, 0.5});
+  Particle<3> p = locator.particle_at({0.5, 0.5, 0.5}).value();
+  const Particle<3> q = locator.particle_at({3.5, 0.25, 0.5}).value();
   Chain chain = find_chain(snapshot, p, q, counts).chain;
   ASSERT_EQ(chain.size(), 3u);
   const auto walk_to = [&](const Point<3>& target) {

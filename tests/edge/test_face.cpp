@@ -82,8 +82,8 @@ Face_seen sweep_among_spikes() {
       return Point<3>{random.real(0.3, 3.7), random.real(0.3, 3.7), random.real(0.3, 3.7)};
     };
     for (int k = 0; k < 60; ++k) {
-      const Particle<3> p = locator.particle_at(anywhere()), q = locator.particle_at(anywhere()),
-                        r = locator.particle_at(anywhere());
+      const auto particle = [&] { return locator.particle_at(anywhere()).value_or(Particle<3>{}); };
+      const Particle<3> p = particle(), q = particle(), r = particle();
       if (p.cell == Cell::none || q.cell == Cell::none || r.cell == Cell::none) continue;
       Face_body body(snapshot);
       const bool is_valid = body.place({p, q, r});

@@ -78,7 +78,7 @@ void check_membrane(const Triangle& t, std::span<const Point<3>> inside, Membran
   for (const Point<3>& from : inside) {
     EXPECT_EQ(locator.locate(t[0] + 4.0 * (from - t[0])).status, Location_status::free);
     for (const Point<3>& to : inside) {
-      Particle<3> particle = locator.particle_at(from);
+      Particle<3> particle = locator.particle_at(from).value();
       ASSERT_NE(particle.cell, Cell::none);
       const bool is_blocked = move(snapshot, particle, to, counts).status == Walk_status::contact;
       EXPECT_EQ(is_blocked, touch_of_point(from, to, t).any());

@@ -27,11 +27,17 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
              const Point<D>& p, Located& tally) {
   const Place place = oracle.place(p);
   const Location<D> location = locator.locate(p);
-  const Particle<D> particle = locator.particle_at(p);
+  const Particle<D> particle = locator.particle_at(p).value_or(Particle<D>{p});
   ++tally.points;
   std::vector<std::uint32_t> cells;
   for (Cell c : location.cells) cells.push_back(snapshot.index(c));
-  ASSERT_EQ(cells, place.free_cells) << "all free cells, by index";
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    ASSERT_TRUE(location.side_of_cell[i - 1] < location.side_of_cell[i] ||
+                (location.side_of_cell[i - 1] == location.side_of_cell[i] && cells[i - 1] < cells[i]))
+        << "side by side, each side by index";
+  const std::uint32_t first = cells.empty() ? 0 : cells.front();
+  std::sort(cells.begin(), cells.end());
+  ASSERT_EQ(cells, place.free_cells) << "all free cells";
   ASSERT_EQ(particle.position, p);
   ASSERT_EQ(particle.cell, location.cell);
   if (place.free_cells.empty()) {
@@ -41,7 +47,10 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
     return;
   }
   ASSERT_EQ(location.status, Location_status::free);
-  ASSERT_EQ(snapshot.index(location.cell), place.free_cells.front());
+  ASSERT_EQ(snapshot.index(location.cell), first);
+  const std::vector<Particle<D>> particles = locator.particles_at(p);
+  ASSERT_EQ(particles.size(), static_cast<std::size_t>(place.sides));
+  ASSERT_EQ(particles.front().cell, particle.cell);
   ASSERT_EQ(location.dimension, place.dimension);
   ASSERT_EQ(particle.dimension, place.dimension);
   ASSERT_EQ(location.sides, place.sides);

@@ -50,7 +50,7 @@ TEST(WalkAneurysm, NoParticleEverLeavesTheVessel) {
     while (particle.cell == Cell::none || random.below(500) == 0) {
       Point<3> p;
       for (int i = 0; i < 3; ++i) p[i] = random.real(low[i], high[i]);
-      particle = locator.particle_at(p);
+      particle = locator.particle_at(p).value_or(Particle<3>{});
       has_contact = false;
     }
     // Lengths from 2^-16 to 1/2 of the vessel; after a contact often right to the rounded point of contact.

@@ -44,7 +44,7 @@ Seen walk_worlds(Walk_strategy strategy) {
     Motion_source<D> source(world, number);
     for (int k = 0; k < 200; ++k) {
       const Motion_kind kind = source.kind(false);
-      const Particle<D> particle = locator.particle_at(source.start(kind));
+      const Particle<D> particle = locator.particle_at(source.start(kind)).value_or(Particle<D>{});
       if (particle.cell == Cell::none) continue;
       const Point<D> target = source.target(kind, particle.position, particle.position);
       std::vector<Cell> visited;

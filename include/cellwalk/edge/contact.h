@@ -27,11 +27,12 @@ struct Contact : Wall_contact<D> {
 };
 
 /// The order of contacts: by exact time, then vertices of the body before edges before faces, then features of the environment
-/// in that order, then half-facets.
+/// in that order, then by place and normal, last by half-facets.
 template <int D>
 bool is_before(const Contact<D>& a, const Contact<D>& b) {
   if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
-  return std::tuple(a.body, a.kind, a.facet) < std::tuple(b.body, b.kind, b.facet);
+  return std::tie(a.body, a.kind, a.point, a.normal, a.facet) <
+         std::tie(b.body, b.kind, b.point, b.normal, b.facet);
 }
 
 }  // namespace cellwalk

@@ -7,6 +7,7 @@
 #include <cellwalk/walk/particle.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace cellwalk {
@@ -21,13 +22,16 @@ enum class Location_status {
 template <int D>
 struct Location {
   Location_status status = Location_status::outside;
-  Cell cell = Cell::none;       ///< the free cell of lowest index whose closure holds the point
+  Cell cell = Cell::none;  ///< a free cell whose closure holds the point: the first one of the first side
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex it lies on: D inside, .. 0 on a vertex
-  std::vector<Cell> cells;      ///< all free cells whose closure holds the point, by index
-  /// Sides: classes of `cells` linked at the point (joined by passable facets that contain it). More than
-  /// one: the point lies on a wall or pinch with free space on several sides, and `cell` is an arbitrary but
-  /// fixed choice.
-  int sides = 0;
+  std::vector<Cell>
+      cells;  ///< all free cells whose closure holds the point, side by side, each side by index
+  /// For each of them, which side it is on: 0, 1, .. Sides are classes of cells linked at the point (joined by passable facets
+  /// that contain it). More than one: the point lies on a wall or pinch with free space on several sides. The first side is that
+  /// on which the point lies once it is displaced, see displaced_side(), where that is free; then they are in the order of
+  /// their least corners. So the order does not depend on how cells are numbered.
+  std::vector<int> side_of_cell;
+  int sides = 0;  ///< how many there are
 };
 
 /// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it and not be
@@ -45,8 +49,11 @@ class Locator {
   /// Cost: about 1 us (logarithmic in the number of cells).
   Location<D> locate(const Point<D>& p) const;
 
-  /// A particle at p, or Cell::none as its cell where p is not in free space.
-  Particle<D> particle_at(const Point<D>& p) const;
+  /// A particle at p, on the first side of the walls there. None where p is not in free space.
+  std::optional<Particle<D>> particle_at(const Point<D>& p) const;
+
+  /// A particle for each side of the walls at p, in order. None where p is not in free space.
+  std::vector<Particle<D>> particles_at(const Point<D>& p) const;
 
  private:
   struct Index;

@@ -13,13 +13,13 @@ namespace cellwalk::detail {
 /// \pre a piece of the segment after the place passed last lies in the closed cell; `ends` if it ends there
 /// Cost: some signs; exact numbers where the segment lies in the planes of several facets.
 template <int D>
-Exit next_in_boundary(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, const Exit& passed, bool ends,
-                      Walk_counts& counts);
+Exit next_in_boundary(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, const Exit& passed,
+                      bool ends, Walk_counts& counts);
 
-extern template Exit next_in_boundary<2>(const Cell_view<2>&, const Point<2>&, const Point<2>&, const Exit&, bool,
-                                         Walk_counts&);
-extern template Exit next_in_boundary<3>(const Cell_view<3>&, const Point<3>&, const Point<3>&, const Exit&, bool,
-                                         Walk_counts&);
+extern template Exit next_in_boundary<2>(const Cell_view<2>&, const Point<2>&, const Point<2>&, const Exit&,
+                                         bool, Walk_counts&);
+extern template Exit next_in_boundary<3>(const Cell_view<3>&, const Point<3>&, const Point<3>&, const Exit&,
+                                         bool, Walk_counts&);
 
 }  // namespace cellwalk::detail
 
