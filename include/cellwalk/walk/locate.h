@@ -30,8 +30,8 @@ struct Location {
   int sides = 0;
 };
 
-/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it and not be
-/// edited.
+/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it. Facets may be opened and
+/// closed; after other edits a new one must be made.
 template <int D>
 class Locator {
  public:
@@ -42,6 +42,7 @@ class Locator {
   Locator& operator=(Locator&&) noexcept;
 
   /// \pre p is finite. Exact in every position; correct in disconnected free space.
+  /// \throw Error(usage) if points were moved or cells replaced since it was made
   /// Cost: about 1 us (logarithmic in the number of cells).
   Location<D> locate(const Point<D>& p) const;
 
