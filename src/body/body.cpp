@@ -28,14 +28,20 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
+    : Body(snapshot, locator, soup, {}) {}
+
+template <int D>
+Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+              std::span<const Particle<D>> before)
     : snapshot_(&snapshot),
+      epoch_(snapshot.epoch()),
       positions_(soup.points),
       edges_(soup.edges),
       is_outside_(soup.points.size()),
       outside_near_(soup.points.size()),
       vertex_behind_(soup.points.size()),
       edge_behind_(soup.edges.size()) {
-  detail::Registered<D> registered = detail::register_body(snapshot, locator, soup);
+  detail::Registered<D> registered = detail::register_body(snapshot, locator, soup, before);
   particles_ = std::move(registered.particles);
   chains_ = std::move(registered.chains);
   link_edges();
@@ -44,6 +50,11 @@ Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body
   link_faces();
   Face_counts counts;
   register_faces(Error_code::outside, counts);
+}
+
+template <int D>
+void Body<D>::register_again(const Locator<D>& locator) {
+  *this = Body(*snapshot_, locator, {positions_, edges_, faces_}, particles_);
 }
 
 template <int D>
@@ -72,7 +83,7 @@ Chain Body<D>::seen_from(const Corner& corner) const {
 template <int D>
 std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
                                                     const Body_options& options, Body_counts& counts) {
-  leave_region(counts);
+  leave_region(counts);  // which asks for the epoch
   return try_move(vertex, target, options, counts);
 }
 
@@ -150,6 +161,7 @@ std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
 
 template <int D>
 void Body<D>::validate() const {
+  check_epoch();
   Walk_counts counts;
   for (std::size_t v = 0; v < particles_.size(); ++v) {
     const Particle<D>& p = particles_[v];

@@ -29,6 +29,7 @@ void Body<D>::take_all(std::span<const Point<D>> targets, Body_counts& counts) {
 template <int D>
 bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_options& options,
                             Body_counts& counts) {
+  check_epoch();
   counts.moves += targets.size();
   if (options.clearance && region_ && outside_ == 0 && region_->holds_all(targets)) [[likely]] {
     take_all(targets, counts);
@@ -152,6 +153,7 @@ void Body<D>::catch_up_edge(std::uint32_t edge, Body_counts& counts) {
 
 template <int D>
 void Body<D>::catch_up(Body_counts& counts) {
+  check_epoch();
   note_all_behind();
   for (std::uint32_t v = 0; v < positions_.size(); ++v) catch_up_vertex(v, counts);
   for (std::uint32_t e = 0; e < edges_.size(); ++e) catch_up_edge(e, counts);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -16,9 +17,11 @@ namespace {
 template <int D>
 class Registration {
  public:
-  Registration(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
+  Registration(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+               std::span<const Particle<D>> before)
       : snapshot_(snapshot), soup_(soup), sides_(soup.points.size()), edges_at_(soup.points.size()) {
-    for (std::uint32_t v = 0; v < soup.points.size(); ++v) sides_[v] = sides(v, locator);
+    for (std::uint32_t v = 0; v < soup.points.size(); ++v)
+      sides_[v] = sides(v, locator, before.empty() ? Cell::none : before[v].cell);
     for (std::uint32_t e = 0; e < soup.edges.size(); ++e)
       for (const std::uint32_t v : soup.edges[e]) edges_at_[v].push_back(e);
   }
@@ -42,16 +45,22 @@ class Registration {
 
   std::string place(std::uint32_t v) const { return fmt::format("({})", fmt::join(soup_.points[v], ", ")); }
 
-  /// A particle for each side of the walls at a vertex.
-  Sides sides(std::uint32_t v, const Locator<D>& locator) {
+  /// A particle for each side of the walls at a vertex. If `first` holds the vertex, its side comes first.
+  Sides sides(std::uint32_t v, const Locator<D>& locator, Cell first) {
     Sides result = locator.particles_at(soup_.points[v]);
+    const auto location = [&] { return locator.locate(soup_.points[v]); };
     if (result.empty())
       throw Error(
           Error_code::outside,
           fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
-                      locator.locate(soup_.points[v]).status == Location_status::solid
-                          ? "in a solid cell"
-                          : "outside the environment"));
+                      location().status == Location_status::solid ? "in a solid cell"
+                                                                  : "outside the environment"));
+    if (result.size() == 1 || first == Cell::none) return result;
+    const Location<D> here = location();
+    const auto kept = std::find(here.cells.begin(), here.cells.end(), first);
+    if (kept == here.cells.end()) return result;
+    const auto side = result.begin() + here.side_of_cell[static_cast<std::size_t>(kept - here.cells.begin())];
+    std::rotate(result.begin(), side, side + 1);
     return result;
   }
 
@@ -160,12 +169,14 @@ class Registration {
 }  // namespace
 
 template <int D>
-Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator,
-                            const Body_soup<D>& soup) {
-  return Registration<D>(snapshot, locator, soup).run();
+Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+                            std::span<const Particle<D>> before) {
+  return Registration<D>(snapshot, locator, soup, before).run();
 }
 
-template Registered<2> register_body<2>(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&);
-template Registered<3> register_body<3>(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&);
+template Registered<2> register_body<2>(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&,
+                                        std::span<const Particle<2>>);
+template Registered<3> register_body<3>(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&,
+                                        std::span<const Particle<3>>);
 
 }  // namespace cellwalk::detail

@@ -7,6 +7,7 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
+#include <span>
 #include <vector>
 
 namespace cellwalk::detail {
@@ -17,9 +18,11 @@ struct Registered {
   std::vector<Chain> chains;  ///< of the edges, from their first end to their second
 };
 
+/// `before`, if not empty, says for each vertex where it was registered last: on walls it takes the same side if it can.
 /// \throw Error(outside) as Body does
 template <int D>
-Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
+Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+                            std::span<const Particle<D>> before = {});
 
 }  // namespace cellwalk::detail
 

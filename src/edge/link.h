@@ -53,6 +53,7 @@ Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cel
       if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
     }
   }
+  if (wall == Half_facet::none && !snapshot.is_cell(to)) refuse_removed_cell();
   return wall;
 }
 

@@ -115,6 +115,7 @@ template <int D>
 Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts) {
+  if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // of p, its walk says so
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   Particle<D> moved = p;

@@ -59,8 +59,9 @@ void number_by_appearance(const Cell_soup<D>& soup, std::size_t c, Scratch& s) {
     throw Error(Error_code::input, "cell " + std::to_string(c) + " has more than 16,000 vertices: split it");
 }
 
-/// Turns a loop until its first three vertices do not lie on one line, if three of its vertices do not.
-void turn_off_line(const std::vector<Point<3>>& points, const std::vector<std::uint32_t>& vertices,
+}  // namespace
+
+void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
                    std::span<std::uint16_t> loop) {
   const std::size_t n = loop.size();
   if (n <= 3) return;
@@ -71,11 +72,6 @@ void turn_off_line(const std::vector<Point<3>>& points, const std::vector<std::u
     return;
   }
 }
-
-void turn_off_line(const std::vector<Point<2>>&, const std::vector<std::uint32_t>&,
-                   std::span<std::uint16_t>) {}
-
-}  // namespace
 
 template <int D>
 void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
@@ -135,7 +131,7 @@ void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points,
         s.reached[next.facet] = 1;
         s.queue.push_back(next);
       }
-      turn_off_line(points, out.vertices, {out.shape.loops.data() + loop_start, n});
+      if constexpr (D == 3) turn_off_line(points, out.vertices, {out.shape.loops.data() + loop_start, n});
       out.shape.loop_begin.push_back(static_cast<std::uint16_t>(out.shape.loops.size()));
     }
   }

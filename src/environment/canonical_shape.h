@@ -7,6 +7,7 @@
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cellwalk {
@@ -25,6 +26,11 @@ struct Canonical_cell {
 template <int D>
 void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
                   Canonical_cell& out);
+
+/// Turns a loop until its first three vertices do not lie on one line, if three in a row do not. `vertices` are the points of
+/// the cell's local vertices.
+void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
+                   std::span<std::uint16_t> loop);
 
 extern template void canonicalize<2>(const Cell_soup<2>&, const std::vector<Point<2>>&, std::size_t,
                                      Canonical_cell&);

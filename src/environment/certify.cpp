@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The passes of certification in order, and the simplest of them. Why they suffice: docs/certification.md.
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/kernel/predicates.h>
 
 #include <tbb/parallel_sort.h>
 
@@ -21,6 +22,20 @@ std::string place(const Point<D>& p) {
   for (int i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
   return text + ")";
 }
+
+/// The first facet by whose first vertices no side can be told: all signs against it would be 0. facet_count() if none.
+std::size_t first_without_plane(const Cell_view<3>& cell) {
+  std::size_t i = 0;
+  for (; i < cell.facet_count(); ++i) {
+    const auto loop = cell.loop(i);
+    // Triangles are known to be sound.
+    if (loop.size() > 3 && are_collinear(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2])))
+      break;
+  }
+  return i;
+}
+
+std::size_t first_without_plane(const Cell_view<2>& cell) { return cell.facet_count(); }
 
 /// What is wrong with a facet and its other side; empty if nothing is.
 template <int D>
@@ -58,12 +73,21 @@ void certify_cells(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   const std::uint32_t failure = complex.lowest_failure([&] {
     return [&, check = Cell_checker<D>()](Cell c) mutable {
-      return check(snapshot.view(c)).defect == Cell_defect::none ? complex.no_failure : snapshot.index(c);
+      const Cell_view<D> view = snapshot.view(c);
+      const bool is_sound =
+          check(view).defect == Cell_defect::none && first_without_plane(view) == view.facet_count();
+      return is_sound ? complex.no_failure : snapshot.index(c);
     };
   });
   if (failure == complex.no_failure) return;
   const Cell c = snapshot.cell(failure);
   const Cell_check check = check_cell(snapshot.view(c));
+  if (check.defect == Cell_defect::none) {
+    const Half_facet f = snapshot.half_facet(c, first_without_plane(snapshot.view(c)));
+    refuse(full_name(snapshot, f) +
+           " has its first three vertices on one line, so that no side of it can be told: "
+           "move vertices through Environment only");
+  }
   refuse(name(snapshot, c) + ": " +
          describe(check.defect, name(snapshot, snapshot.half_facet(c, check.facet))) +
          "; split or repair the cell");
@@ -88,8 +112,9 @@ template <int D>
 void certify_distinct_vertices(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   std::vector<std::uint8_t> is_used(snapshot.points().size(), 0);
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
-    for (const std::uint32_t v : snapshot.view(snapshot.cell(i)).vertices) is_used[v] = 1;
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell c = snapshot.cell(i); c != Cell::none)
+      for (const std::uint32_t v : snapshot.view(c).vertices) is_used[v] = 1;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < is_used.size(); ++v)
     if (is_used[v]) vertices.push_back(v);
@@ -104,6 +129,7 @@ void certify_distinct_vertices(const Complex<D>& complex) {
   if (first == complex.no_failure) return;
   const auto cell_with = [&](std::uint32_t v) {
     for (std::size_t i = 0;; ++i) {
+      if (snapshot.cell(i) == Cell::none) continue;
       const auto own = snapshot.view(snapshot.cell(i)).vertices;
       if (std::find(own.begin(), own.end(), v) != own.end()) return name(snapshot, snapshot.cell(i));
     }

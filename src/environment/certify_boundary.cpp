@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that separates two
 // convex polytopes can be moved until it holds D of their vertices.
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
 #include <iterator>
-#include <limits>
-#include <optional>
 #include <vector>
 
+#include "boundary_index.h"
 #include "certify_complex.h"
 #include "certify_polygon.h"
 
 namespace cellwalk::detail {
 namespace {
-
-template <int D>
-using Box_corner = boost::geometry::model::point<double, D, boost::geometry::cs::cartesian>;
-template <int D>
-using Box = boost::geometry::model::box<Box_corner<D>>;
-
-template <int D>
-Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices) {
-  Point<D> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (const std::uint32_t v : vertices)
-    for (int i = 0; i < D; ++i) {
-      low[i] = std::min(low[i], points[v][i]);
-      high[i] = std::max(high[i], points[v][i]);
-    }
-  if constexpr (D == 2) return {{low[0], low[1]}, {high[0], high[1]}};
-  if constexpr (D == 3) return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
 
 using Loop = std::vector<std::uint32_t>;
 
@@ -166,8 +143,8 @@ template <int D>
 std::vector<Boundary_facet<D>> boundary_facets(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   std::vector<Boundary_facet<D>> facets;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
-    append_boundary_facets(snapshot, snapshot.cell(i), facets);
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell c = snapshot.cell(i); c != Cell::none) append_boundary_facets(snapshot, c, facets);
   return facets;
 }
 
@@ -218,45 +195,34 @@ void certify_boundary(const Complex<D>& complex) {
 }
 
 template <int D>
-void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star) {
-  std::vector<Boundary_facet<D>> star_facets;
-  Box<D> star_box = box_of<D>(snapshot.points(), snapshot.view(star[0]).vertices);
-  for (const Cell c : star) {
-    append_boundary_facets(snapshot, c, star_facets);
-    boost::geometry::expand(star_box, box_of<D>(snapshot.points(), snapshot.view(c).vertices));
-  }
-  // Of each cell near the star, the first pair that overlaps.
-  const auto find_overlap = [&](Cell c, Overlap_test<D>& test) -> std::optional<std::pair<Half_facet, Cell>> {
+void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star,
+                              std::span<const Half_facet> near) {
+  std::vector<Boundary_facet<D>> facets;
+  for (const Cell c : star) append_boundary_facets(snapshot, c, facets);
+  Predicate_counts counts;
+  for (const Half_facet f : near) {
+    const Cell c = snapshot.cell_of(f);
+    if (std::find(star.begin(), star.end(), c) != star.end()) continue;
     const Cell_view<D> view = snapshot.view(c);
-    if (!boost::geometry::intersects(star_box, box_of<D>(snapshot.points(), view.vertices))) return {};
-    for (const Boundary_facet<D>& facet : star_facets)
-      if (snapshot.cell_of(facet.facet) != c && test(facet, view)) return std::pair(facet.facet, c);
-    std::vector<Boundary_facet<D>> facets;
-    append_boundary_facets(snapshot, c, facets);
-    for (const Boundary_facet<D>& facet : facets)
-      for (const Cell other : star)
-        if (other != c && test(facet, snapshot.view(other))) return std::pair(facet.facet, other);
-    return {};
-  };
-  std::atomic<std::size_t> first{snapshot.cell_count()};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, snapshot.cell_count(), 4096), [&](const auto& range) {
-    Overlap_test<D> test(snapshot.points());
-    for (std::size_t i = range.begin(); i != range.end() && i < first; ++i) {
-      if (!find_overlap(snapshot.cell(i), test)) continue;
-      std::size_t known = first;
-      while (i < known && !first.compare_exchange_weak(known, i)) {
-      }
-    }
-  });
-  if (first == snapshot.cell_count()) return;
+    const std::size_t k = snapshot.facet_of(f);
+    facets.push_back({f, plane_of_facet<D>(counts, view, k), loop_of(view, k)});
+  }
   Overlap_test<D> test(snapshot.points());
-  const auto [f, c] = *find_overlap(snapshot.cell(first), test);
-  refuse_overlap(snapshot, f, c);
+  for (const Cell c : star) {
+    const Cell_view<D> view = snapshot.view(c);
+    const Box<D> box = box_of<D>(snapshot.points(), view.vertices);
+    for (const Boundary_facet<D>& facet : facets)
+      if (snapshot.cell_of(facet.facet) != c &&
+          boost::geometry::intersects(box, box_of<D>(snapshot.points(), facet.loop)) && test(facet, view))
+        refuse_overlap(snapshot, facet.facet, c);
+  }
 }
 
 template void certify_boundary(const Complex<2>&);
 template void certify_boundary(const Complex<3>&);
-template void certify_boundary_of_star(const Snapshot<2>&, std::span<const Cell>);
-template void certify_boundary_of_star(const Snapshot<3>&, std::span<const Cell>);
+template void certify_boundary_of_star(const Snapshot<2>&, std::span<const Cell>,
+                                       std::span<const Half_facet>);
+template void certify_boundary_of_star(const Snapshot<3>&, std::span<const Cell>,
+                                       std::span<const Half_facet>);
 
 }  // namespace cellwalk::detail

@@ -12,8 +12,8 @@ Complex<D>::Complex(const Snapshot<D>& snapshot) : snapshot_(snapshot) {
   is_cell_.assign(snapshot.half_facet_slots() / 4, 0);
   first_corner_.assign(is_cell_.size(), 0);
   opposite_.assign(snapshot.half_facet_slots(), Half_facet::none);
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) is_cell_[to_index(snapshot.cell(i))] = 1;
   for (std::uint32_t b = 0; b < is_cell_.size(); ++b) {
+    is_cell_[b] = snapshot.is_cell(Cell{b});
     if (!is_cell_[b]) continue;
     first_corner_[b] = static_cast<std::uint32_t>(corner_count_);
     corner_count_ += snapshot.view(Cell{b}).vertex_count();

@@ -125,11 +125,13 @@ std::size_t certify_turns(const Complex<D>& complex);
 template <int D>
 void certify_boundary(const Complex<D>& complex);
 
-/// The same for a certified snapshot of which the cells of `star` have changed their geometry since, each still sound:
-/// looks only at pairs of a cell and a boundary facet of which one belongs to the star.
-/// Cost: a scan over the boxes of all cells; parallel.
+/// The same for a certified snapshot in which a vertex of the boundary has moved since: `star` are the cells that have it, each
+/// still sound, and `near` at least those boundary facets of other cells whose boxes meet the box of the star. Only cells of the
+/// star are tried: docs/certification.md says why that suffices.
+/// Cost: a test of boxes a cell and facet, and an exact test where they meet.
 template <int D>
-void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star);
+void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star,
+                              std::span<const Half_facet> near);
 
 /// Counts everything but the ridges.
 template <int D>

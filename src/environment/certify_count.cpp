@@ -88,10 +88,11 @@ void add_volumes(const Snapshot<D>& snapshot, Certificate& certificate) {
     double all = 0, free = 0;
   };
   const Sums sums = tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, snapshot.cell_count(), 4096), Sums{},
+      tbb::blocked_range<std::size_t>(0, snapshot.cell_slots(), 4096), Sums{},
       [&](const auto& range, Sums sum) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
           const Cell c = snapshot.cell(i);
+          if (c == Cell::none) continue;
           const double v = scaled_volume(snapshot.view(c));
           sum.all += v;
           if (!snapshot.is_solid(c)) sum.free += v;
@@ -111,8 +112,9 @@ template <int D>
 void count_vertices(const Complex<D>& complex, const Classes& corners, Certificate& certificate) {
   const Snapshot<D>& snapshot = complex.snapshot();
   std::vector<std::uint8_t> classes(snapshot.points().size(), 0);  // 0, 1, or 2 for more
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
+    if (c == Cell::none) continue;
     const auto vertices = snapshot.view(c).vertices;
     for (std::uint32_t k = 0; k < vertices.size(); ++k)
       if (corners.is_root(complex.first_corner(c) + k))
@@ -142,8 +144,9 @@ Certificate count_cells(const Complex<D>& complex) {
       }
     };
   });
-  for (std::size_t k = 0; k < snapshot.cell_count(); ++k) {
+  for (std::size_t k = 0; k < snapshot.cell_slots(); ++k) {
     const Cell c = snapshot.cell(k);
+    if (c == Cell::none) continue;
     ++total.cells;
     total.solid_cells += snapshot.is_solid(c);
     total.components += !snapshot.is_solid(c) && cells.is_root(to_index(c));

@@ -7,8 +7,11 @@
 #include <cellwalk/kernel/policies.h>
 
 #include <array>
+#include <memory>
 #include <string>
+#include <utility>
 
+#include "boundary_index.h"
 #include "certify_complex.h"
 #include "edit_map.h"
 
@@ -35,6 +38,16 @@ bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>&
   return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), p) < 0;
 }
 
+/// Keeps an index of the boundary true. Where memory runs out there is none, and it is made anew when it is needed.
+template <int D>
+void follow(std::unique_ptr<detail::Boundary_index<D>>& index,
+            std::span<const typename detail::Boundary_index<D>::Entry> old,
+            std::span<const typename detail::Boundary_index<D>::Entry> now) {
+  std::unique_ptr<detail::Boundary_index<D>> kept = std::move(index);
+  kept->replace(old, now);
+  index = std::move(kept);
+}
+
 }  // namespace
 
 template <int D>
@@ -53,10 +66,7 @@ void Environment<D>::check_half_facet(Half_facet facet) const {
 
 template <int D>
 void Environment<D>::check_cell_name(Cell cell) const {
-  if (to_index(cell) < snapshot_.half_facet_slots() / 4) {
-    const std::uint32_t index = snapshot_.index(cell);
-    if (index < snapshot_.cell_count() && snapshot_.cell(index) == cell) return;
-  }
+  if (snapshot_.is_cell(cell)) return;
   throw Error(Error_code::usage, "there is no cell with the name " + std::to_string(to_index(cell)));
 }
 
@@ -93,13 +103,22 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
   }
   // Every sign is affine in the position of the point, so that the cells stay sound all along the way from where it
   // was, and the angles round inner ridges with them. Only the boundary may run into other cells.
-  if (!on_boundary) return;
-  detail::certify_boundary_of_star<D>(snapshot_, star);
+  if (on_boundary) check_moved_boundary(point, star);
+}
+
+template <int D>
+void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const {
+  std::vector<Half_facet> near = boundary_->meeting(detail::box_of(snapshot_, star));
+  detail::certify_boundary_of_star<D>(snapshot_, star, near);
+  if (allow_duplicates_) return;
+  // In the place of an inner vertex the star would overlap the cells of that.
   const auto points = snapshot_.points();
-  for (std::uint32_t p = 0; p < points.size(); ++p)
-    if (p != point && !allow_duplicates_ && points[p] == points[point])
-      throw Error(Error_code::not_certified, "point " + std::to_string(point) + " cannot move there: point " +
-                                                 std::to_string(p) + " lies in that place");
+  for (const Half_facet f : near)
+    for (const std::uint32_t p : snapshot_.loop(f))
+      if (p != point && points[p] == points[point])
+        throw Error(Error_code::not_certified, "point " + std::to_string(point) +
+                                                   " cannot move there: point " + std::to_string(p) +
+                                                   " lies in that place");
 }
 
 template <int D>
@@ -108,23 +127,30 @@ void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) 
   if (point >= snapshot_.points().size())
     throw Error(Error_code::usage, "there is no point " + std::to_string(point));
   check_finite<D>(position);
+  const Point<D> old_position = snapshot_.point(point);
+  if (position == old_position) return;
   const Star<D> found = find_star(storage, point);
   std::vector<Cell> star;
   for (const Dart<D> d : found.darts)
     star.push_back(snapshot_.cell_of(Half_facet{storage.map.info(d).half_facet()}));
 
-  const Point<D> old_position = snapshot_.point(point);
+  using Boundary = detail::Boundary_index<D>;
+  std::vector<typename Boundary::Entry> old_boundary;
+  if (found.on_boundary) {
+    if (!boundary_) boundary_ = std::make_unique<Boundary>(snapshot_);
+    old_boundary = Boundary::entries(snapshot_, star);
+  }
   snapshot_.move_point(point, position);
   try {
     check_moved_star(point, star, found.on_boundary);
-    for (const Cell c : star) snapshot_.update_geometry(c);
   } catch (...) {
     snapshot_.move_point(point, old_position);
-    for (const Cell c : star) snapshot_.update_geometry(c);
     throw;
   }
+  snapshot_.update_geometry(star);
   for (const Map_vertex<D> vertex : storage.vertices_of(point))
     storage.map.point_of_vertex_attribute(vertex) = to_map_point(position);
+  if (found.on_boundary) follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, star));
 }
 
 template <int D>
@@ -149,7 +175,10 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
   const Flat_cells<D> flat = flatten_cells<D>(storage, facets);
   std::vector<Half_facet> slots;
   const std::array<Cell, 1> removed{cell};
+  using Boundary = detail::Boundary_index<D>;
+  const auto old_boundary = Boundary::entries(snapshot_, removed);
   std::vector<Cell> added = snapshot_.replace_cells(removed, flat.soup, flat.gluing, &slots);
+  if (boundary_) follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, added));
 
   for (std::size_t i = 0; i < facets.size(); ++i)
     storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))] = Dart<D>{};
@@ -172,6 +201,7 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
   template void Environment<D>::check_half_facet(Half_facet) const;                                    \
   template void Environment<D>::check_cell_name(Cell) const;                                           \
   template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const; \
+  template void Environment<D>::check_moved_boundary(std::uint32_t, const std::vector<Cell>&) const;   \
   template void Environment<D>::set_impassable(Half_facet, bool);                                      \
   template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                           \
   template std::vector<Cell> Environment<D>::insert_point(Cell, const Point<D>&);

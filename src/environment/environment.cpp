@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "boundary_index.h"
 #include "in_step.h"
 #include "prepare_soup.h"
 
@@ -80,14 +81,16 @@ const Map_storage<D>& Environment<D>::storage() const {
 template <int D>
 void Environment<D>::freeze() {
   storage_.reset();
+  boundary_.reset();
 }
 
 template <int D>
 Cell_soup<D> Environment<D>::soup() const {
   Cell_soup<D> soup;
   soup.points.assign(snapshot_.points().begin(), snapshot_.points().end());
-  for (std::size_t i = 0; i < snapshot_.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot_.cell_slots(); ++i) {
     const Cell c = snapshot_.cell(i);
+    if (c == Cell::none) continue;
     const std::size_t n = snapshot_.facet_count(c);
     std::size_t facet = 0;
     for (std::size_t k = 0; k < n; ++k) {

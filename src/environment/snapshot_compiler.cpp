@@ -2,6 +2,7 @@
 #include "snapshot_compiler.h"
 
 #include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/predicates.h>
 
 #include <algorithm>
 
@@ -86,6 +87,51 @@ void Snapshot_compiler<D>::clear_block(std::uint32_t block) {
   planes.offset = Float4{-1, -1, -1, -1};
   for (std::size_t lane = 0; lane < 4; ++lane)
     s_.links_[4 * std::size_t{block} + lane] = Snapshot<D>::link_mask;
+}
+
+template <int D>
+void Snapshot_compiler<D>::remove_cell(Cell c) {
+  const std::size_t blocks = s_.block_count(c);
+  for (std::size_t block = to_index(c); block < to_index(c) + blocks; ++block) {
+    clear_block(static_cast<std::uint32_t>(block));
+    s_.planes_[block].offset = Float4{1, 1, 1, 1};
+    for (std::size_t lane = 0; lane < 4; ++lane) s_.links_[4 * block + lane] |= Snapshot<D>::wall_bit;
+    s_.index_[block] = to_index(Cell::none);
+  }
+  s_.shape_[to_index(c)] |= Snapshot<D>::removed_bit | Snapshot<D>::solid_bit;
+}
+
+template <int D>
+void Snapshot_compiler<D>::turn_loops(Cell c) {
+  if constexpr (D == 3) {
+    const Cell_view<3> cell = s_.view(c);
+    const auto is_off_line = [&](std::span<const std::uint16_t> loop) {
+      return loop.size() <= 3 ||
+             !are_collinear(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+    };
+    std::size_t facet = 0;
+    while (facet < cell.facet_count() && is_off_line(cell.loop(facet))) ++facet;
+    if (facet == cell.facet_count()) return;
+    Cell_shape shape = *cell.shape;
+    for (; facet < shape.facet_count(); ++facet) {
+      const std::uint16_t begin = shape.loop_begin[facet], end = shape.loop_begin[facet + 1];
+      turn_off_line(s_.points_, cell.vertices, {shape.loops.data() + begin, shape.loops.data() + end});
+    }
+    const std::uint32_t solid = s_.shape_[to_index(c)] & Snapshot<D>::solid_bit;
+    s_.shape_[to_index(c)] = shape_number(shape) | solid;
+  }
+}
+
+template <int D>
+std::size_t Snapshot_compiler<D>::count_uncertified(Cell c) const {
+  std::size_t uncertified = 0;
+  for (std::size_t i = 0; i < s_.facet_count(c); ++i) {
+    const Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
+    bool certified = block.offset[i % 4] != 0;
+    for (int k = 0; k < D; ++k) certified |= block.normal[k][i % 4] != 0;
+    uncertified += !certified;
+  }
+  return uncertified;
 }
 
 template <int D>

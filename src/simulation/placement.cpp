@@ -31,7 +31,7 @@ Particle<D> place(const Locator<D>& locator, const Point<D>& position, const std
 template <int D>
 World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes,
                 const Body_options& options)
-    : snapshot_(snapshot), scene_(scene), shapes_(std::move(shapes)) {
+    : snapshot_(snapshot), epoch_(snapshot.epoch()), scene_(scene), shapes_(std::move(shapes)) {
   const Locator<D> locator(snapshot);
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const std::string key = fmt::format("particles[{}]", i);

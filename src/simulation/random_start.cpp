@@ -29,9 +29,9 @@ Cell_box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
 
 template <int D>
 Free_space<D>::Free_space(const Snapshot<D>& snapshot) : snapshot_(snapshot) {
-  for (std::uint32_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::uint32_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
-    if (snapshot.is_solid(c)) continue;
+    if (c == Cell::none || snapshot.is_solid(c)) continue;
     const Cell_box<D> box = box_of(snapshot, c);
     double volume = 1;
     for (std::size_t d = 0; d < D; ++d) volume *= box.high[d] - box.low[d];

@@ -23,8 +23,8 @@ Point<D> center(const Snapshot<D>& snapshot, Cell c) {
 template <int D>
 std::vector<Cell> shortest_way(const Snapshot<D>& snapshot, Cell from, Cell to) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(snapshot.cell_count(), never);
-  std::vector<Cell> before(snapshot.cell_count(), Cell::none);
+  std::vector<double> distance(snapshot.cell_slots(), never);
+  std::vector<Cell> before(snapshot.cell_slots(), Cell::none);
   // By distance, then by index: the way does not depend on the order of the snapshot.
   using Entry = std::tuple<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;

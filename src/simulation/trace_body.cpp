@@ -29,7 +29,7 @@ Body_soup<3> trace_body_soup(Trace_positions positions) {
 }
 
 Trace_body::Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace_positions positions)
-    : snapshot_(&snapshot), chains_(trace_edges * trace_vertices) {
+    : snapshot_(&snapshot), epoch_(snapshot.epoch()), chains_(trace_edges * trace_vertices) {
   const Body<3> body(snapshot, locator, trace_body_soup(positions));
   std::ranges::copy(body.particles(), particles_.begin());
   std::size_t edge = 0;
@@ -45,6 +45,7 @@ Chain Trace_body::chain(std::size_t vertex, std::size_t k) const {
 
 Trace_body::Move Trace_body::move(std::size_t vertex, const Point<3>& target, Sweep sweep,
                                   Trace_counts& counts) {
+  snapshot_->check_epoch(epoch_, "this body of a trace was registered: make it anew");
   ++counts.moves;
   Move result;
   const Particle<3> from = particles_[vertex];

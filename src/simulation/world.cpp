@@ -8,7 +8,13 @@
 
 namespace cellwalk {
 template <int D>
+void World<D>::check_epoch() const {
+  snapshot_.check_epoch(epoch_, "this World was made: make a new one");
+}
+
+template <int D>
 void World<D>::step() {
+  check_epoch();
   ++steps_done_;
   contacts_.clear();
   step_free();
@@ -77,6 +83,7 @@ Body_counts World<D>::body_counts(std::size_t body) const {
 
 template <int D>
 void World<D>::validate() {
+  check_epoch();
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle<D>& p = particles_[i];
     if (p.cell != Cell::none && !snapshot_.is_solid(p.cell) && in_closure(snapshot_, p.cell, p.position))
@@ -103,6 +110,7 @@ const Rod<D>* World<D>::catheter() const {
 
 template const Rod<2>* World<2>::catheter() const;
 template const Rod<3>* World<3>::catheter() const;
+template void World<2>::check_epoch() const;
 template void World<2>::step();
 template void World<2>::step_free();
 template void World<2>::step_bodies();
@@ -110,6 +118,7 @@ template Body_counts World<2>::body_counts() const;
 template Body_counts World<2>::body_counts(std::size_t) const;
 template void World<2>::report(std::size_t);
 template void World<2>::validate();
+template void World<3>::check_epoch() const;
 template void World<3>::step();
 template void World<3>::step_free();
 template void World<3>::step_bodies();

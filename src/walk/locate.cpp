@@ -42,10 +42,11 @@ struct Locator<D>::Index {
               Corner(up(high[0]), up(high[1]), up(high[2]))};
   }
 
-  explicit Index(const Snapshot<D>& s) : snapshot(s) {
+  explicit Index(const Snapshot<D>& s) : snapshot(s), geometry_epoch(s.geometry_epoch()) {
     std::vector<Entry> entries;
     entries.reserve(s.cell_count());
-    for (std::uint32_t i = 0; i < s.cell_count(); ++i) {
+    for (std::uint32_t i = 0; i < s.cell_slots(); ++i) {
+      if (s.cell(i) == Cell::none) continue;
       const Cell_view<D> cell = s.view(s.cell(i));
       Point<D> low = cell.point(0), high = low;
       for (std::size_t v = 1; v < cell.vertex_count(); ++v)
@@ -59,6 +60,7 @@ struct Locator<D>::Index {
   }
 
   const Snapshot<D>& snapshot;
+  std::uint64_t geometry_epoch;  ///< that the boxes are of
   Tree tree;
 };
 
@@ -146,6 +148,7 @@ std::uint16_t dimension_at(const Snapshot<D>& s, Cell c, const Point<D>& p) {
 template <int D>
 Location<D> Locator<D>::locate(const Point<D>& p) const {
   const Snapshot<D>& s = index_->snapshot;
+  s.check_geometry_epoch(index_->geometry_epoch, "this Locator was made: make a new one");
   Location<D> location;
   std::vector<std::uint32_t> candidates;
   for (auto it = index_->tree.qbegin(bgi::intersects(Index::box(p, p))); it != index_->tree.qend(); ++it)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/walk_impl.h>
 
 namespace cellwalk {
@@ -16,6 +17,11 @@ Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
   star_cells += other.star_cells;
   predicates += other.predicates;
   return *this;
+}
+
+void detail::refuse_removed_cell() {
+  throw Error(Error_code::usage,
+              "a particle is in a cell that is not there: locate it again after cells were replaced");
 }
 
 #define CELLWALK_INSTANTIATE(KERNEL, D)                                                                      \

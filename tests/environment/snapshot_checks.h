@@ -70,6 +70,13 @@ Snapshot_facts<D> facts(const Snapshot<D>& snapshot) {
   return result;
 }
 
+template <int D>
+Point<D> mean_of_vertices(const Cell_view<D>& cell) {
+  Point<D> sum{};
+  for (std::size_t i = 0; i < cell.vertex_count(); ++i) sum = sum + cell.point(i);
+  return 1.0 / static_cast<double>(cell.vertex_count()) * sum;
+}
+
 inline int exact_side(const Cell_view<2>& cell, std::size_t facet, const Point<2>& p) {
   Predicate_counts counts;
   const auto loop = cell.loop(facet);

@@ -41,13 +41,6 @@ Half_facet random_half_facet(const Snapshot<D>& snapshot, Random& random) {
   return snapshot.half_facet(c, random.below(snapshot.facet_count(c)));
 }
 
-template <int D>
-Point<D> mean_of_vertices(const Cell_view<D>& cell) {
-  Point<D> sum{};
-  for (std::size_t i = 0; i < cell.vertex_count(); ++i) sum = sum + cell.point(i);
-  return 1.0 / static_cast<double>(cell.vertex_count()) * sum;
-}
-
 /// Edges of a cell (vertices in 2D), which inserting a point turns into facets.
 template <int D>
 std::size_t ridge_count(const Cell_view<D>& cell) {
@@ -96,6 +89,7 @@ void edit_point(Environment<D>& environment, Random& random, Tally& tally) {
   try {
     environment.move_vertex(point, target);
     EXPECT_EQ(snapshot.point(point), target);
+    EXPECT_NO_THROW(environment.certify());
     ++(on_boundary ? tally.moved_on_boundary : tally.moved_inside);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Error_code::not_certified);
@@ -115,7 +109,7 @@ void edit_cell(Environment<D>& environment, Random& random, Tally& tally) {
   const Cell cell = snapshot.cell(index);
   const std::size_t facets = snapshot.facet_count(cell), ridges = ridge_count(snapshot.view(cell)),
                     vertices = snapshot.view(cell).vertex_count(), cells = snapshot.cell_count();
-  Point<D> target = mean_of_vertices(snapshot.view(cell));
+  Point<D> target = test::mean_of_vertices(snapshot.view(cell));
   // Some points lie on a facet, an edge or beyond: they must be refused.
   if (random.chance(0.2)) target = snapshot.view(cell).point(0);
   const auto before = counts(environment);

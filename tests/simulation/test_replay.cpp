@@ -132,6 +132,22 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
   }
 }
 
+TEST(Trace_body, NoticesThatTheEnvironmentWasEdited) {
+  const Trace& trace = crowded();
+  Environment<3> environment = trace_environment(trace);
+  const Locator<3> locator(environment.snapshot());
+  Trace_counts counts;
+  Trace_body body(environment.snapshot(), locator, Trace_positions(&trace.start(0, 0), trace_vertices));
+  body.move(0, trace.target(0, 0, 0), Sweep::triangle, counts);
+  Snapshot<3> edited = environment.snapshot();
+  Trace_body other(edited, locator, Trace_positions(&trace.start(0, 0), trace_vertices));
+  // Of solid cells all facets are walls already.
+  for (std::size_t i = 0; edited.epoch() == environment.snapshot().epoch(); ++i)
+    for (std::size_t k = 0; k < 6; ++k) edited.set_impassable(edited.half_facet(edited.cell(i), k), true);
+  EXPECT_NO_THROW(body.move(1, trace.target(0, 0, 1), Sweep::triangle, counts)) << "that is another snapshot";
+  EXPECT_THROW(other.move(1, trace.target(0, 0, 1), Sweep::triangle, counts), Error);
+}
+
 /// Bodies that locate them report a contact for each move with a hit, at the time at which brute force finds the first edge, or the vertex, at a wall.
 TEST(Trace_body, ReportsContacts) {
   const Trace& trace = crowded();

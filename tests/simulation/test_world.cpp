@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "simulation/worlds.h"
 
@@ -180,6 +183,30 @@ TEST(World, ValidateCatchesAParticleOutsideItsCell) {
   EXPECT_TRUE(in_closure(snapshot, snapshot.cell(0), {0.5, 0, 1}));
   EXPECT_FALSE(in_closure(snapshot, snapshot.cell(0), {std::nextafter(1.0, 2.0), 0.5, 0.5}));
   EXPECT_FALSE(in_closure(snapshot, snapshot.cell(1), {0.5, 0.5, 0.5}));
+}
+
+TEST(World, IsOfTheEnvironmentAsItWasWhenItWasMade) {
+  auto snapshot = rooms<2>({3, 3});
+  const auto scene = cloud_scene<2>(20, 2, 1);
+  World<2> world(snapshot, scene);
+  world.step();
+  for (std::size_t k = 0; k < 4; ++k) snapshot.set_impassable(snapshot.half_facet(snapshot.cell(4), k), true);
+  const std::vector<Particle<2>> before(world.particles().begin(), world.particles().end());
+  for (const auto& use :
+       std::vector<std::function<void()>>{[&] { world.step(); }, [&] { world.validate(); }}) {
+    try {
+      use();
+      ADD_FAILURE() << "an edit was not noticed";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Error_code::usage);
+      EXPECT_NE(std::string(error.what()).find("make a new one"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(world.steps_done(), 1u);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ(world.particles()[i].position, before[i].position);
+  World<2> anew(snapshot, scene);
+  EXPECT_NO_THROW(anew.step());
 }
 
 }  // namespace

@@ -73,6 +73,9 @@ struct Body_counts {
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is moved with
 /// Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
 /// Refers to the snapshot, which must outlive it. Copies are bodies of their own.
+///
+/// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves, registers or checks it
+/// throws Error(usage), until register_again(); what it is made of and where it stands can be asked still.
 template <int D>
 class Body {
  public:
@@ -82,6 +85,14 @@ class Body {
   ///        pierces, and where
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
+
+  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex in a wall keeps the side
+  /// on which it was, if the cell that it was registered in is there still and holds it, and all its edges can be passed from there; else
+  /// any side will do, as in the constructor. Faces in the plane of a wall take their sides anew. Gives a region free of walls up.
+  /// \throw Error(outside) as the constructor, where a wall came to lie in the way: then the body is as it was, and may
+  /// be tried again after another edit. Error(usage) for a locator made before points were moved or cells replaced
+  /// Cost: that of the constructor.
+  void register_again(const Locator<D>& locator);
 
   std::size_t vertex_count() const { return positions_.size(); }
   std::span<const Point<D>> positions() const { return positions_; }
@@ -114,9 +125,9 @@ class Body {
 
   /// Registers what was moved without tests in a region free of walls.
   void catch_up(Body_counts& counts);
-  /// Catches up and gives the region up. To be called before the environment is edited.
+  /// Catches up and gives the region up.
   void leave_region(Body_counts& counts);
-  /// The particles and chains. \pre caught up
+  /// The particles and chains. \pre caught up, and no edit since
   std::span<const Particle<D>> particles() const { return particles_; }
   const Chain& chain(std::size_t edge) const { return chains_[edge]; }
 
@@ -139,6 +150,12 @@ class Body {
     std::uint32_t face, place;
   };
 
+  Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+       std::span<const Particle<D>> before);
+  /// \throw Error(usage) if the environment was edited since the body was registered
+  void check_epoch() const {
+    snapshot_->check_epoch(epoch_, "this body was registered: call Body::register_again(), or make it anew");
+  }
   void link_edges();
   void link_faces();
   void register_faces(Error_code code, Face_counts& counts);
@@ -182,6 +199,7 @@ class Body {
   Chain seen_from(const Corner& corner) const;
 
   const Snapshot<D>* snapshot_;
+  std::uint64_t epoch_;  ///< of the snapshot, when the body was registered
   std::vector<Point<D>> positions_;
   std::vector<Particle<D>> particles_;
   std::vector<std::array<std::uint32_t, 2>> edges_;

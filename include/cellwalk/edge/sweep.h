@@ -56,6 +56,7 @@ struct Sweep_result {
 
 /// Moves p to a target, with an edge from it to q, which stands still.
 /// \pre p and q satisfy I1, `before` is the chain of the edge, the target is finite, options.tolerance lies in (0,1]
+/// \throw Error(usage) for p or q in a cell that an edit removed, if no other has its name yet
 /// Degenerate cases: all are decided, see sweep_triangle(). Cost: that of the walk and the sweep; then of the search:
 /// exact: included; dichotomic: log2(1/tolerance) sweeps; exhaustive: some rational arithmetic for each wall of the cells.
 template <int D>

@@ -19,6 +19,11 @@ namespace cellwalk {
 template <int D>
 struct Map_storage;  // <cellwalk/environment/map.h>
 
+namespace detail {
+template <int D>
+class Boundary_index;
+}
+
 /// What to do with points of equal coordinates that are not the same vertex.
 enum class Duplicate_vertices { refuse, merge, keep };
 
@@ -73,17 +78,25 @@ class Environment {
   // Edits keep map and snapshot in step; only touched cells are recompiled. They change nothing if they throw an Error:
   // Error(usage) if frozen, or for a facet, point or cell that is not there; Error(input) for a position that is not
   // finite; Error(not_certified) if the result would not be certified, with the reason.
+  //
+  // They ask nobody: what moves in the environment does not know of them, nor they of it. Each that changes anything raises
+  // Snapshot::epoch(), and a Body that was registered before throws Error(usage) until Body::register_again(). Particles of one's
+  // own must be located again after move_vertex and insert_point. Not to be called while anything moves.
 
   /// Makes a facet impassable, or passable: not on the boundary, nor between a solid and a free cell.
   /// Cost: constant.
   void set_impassable(Half_facet facet, bool wall);
 
-  /// Moves a vertex. Every cell that has it must stay exactly convex and positive, its facets exactly planar.
-  /// Cost: that of the cells around it; on the boundary a scan over all cells too, since it may run into any.
+  /// Moves a vertex. Every cell that has it must stay exactly convex and positive, its facets exactly planar. What counts is
+  /// where it ends: a vertex on the boundary may go there through other cells of the environment. Names of cells and facets stay;
+  /// the loop of a facet may start at another vertex.
+  /// Cost: that of the cells around it (about 2 us each); on the boundary that of the boundary facets near them too, the first
+  /// time a look at all facets.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
   /// Splits a cell into the star of a new point strictly inside it: one cell a facet, the first of which takes the index
-  /// of the old cell, the others new indices. Returns them. Names of other cells and facets stay.
+  /// of the old cell, the others new indices. Returns them. Names of other cells and facets stay; that of the old cell is gone,
+  /// and later edits may give it to another.
   /// Cost: constant.
   std::vector<Cell> insert_point(Cell cell, const Point<D>& position);
 
@@ -97,9 +110,12 @@ class Environment {
   void check_half_facet(Half_facet facet) const;
   void check_cell_name(Cell cell) const;
   void check_moved_star(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary) const;
+  void check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
+  std::unique_ptr<detail::Boundary_index<D>>
+      boundary_;  ///< made when a vertex of the boundary moves for the first time
   bool allow_duplicates_ = false;
 };
 

@@ -40,7 +40,7 @@ template <int D>
 using Float_point = std::array<float, static_cast<std::size_t>(D)>;
 
 /// Four planes: signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and offset
-/// -1.
+/// -1: nothing is outside of them. Those of a removed cell have offset 1: everything is.
 template <int D>
 struct alignas(D == 3 ? 64 : 16) Plane_block {
   std::array<Float4, D> normal;

@@ -13,13 +13,18 @@
 #include <cellwalk/records/cell_soup.h>
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
+
+struct Canonical_cell;
 
 /// A cell of a snapshot. Not the index of the input: see Snapshot::index().
 enum class Cell : std::uint32_t { none = 0xffffffffu };
@@ -45,13 +50,22 @@ class Snapshot {
                           std::vector<Half_facet>* slots = nullptr);
 
   // --- cells
-  std::size_t cell_count() const { return cell_of_index_.size(); }
-  /// The cell with the given index of the input.
+  std::size_t cell_count() const { return cell_of_index_.size() - free_indices_.size(); }
+  /// Upper bound of the indices of cells: cell_count(), and more where replace_cells() left some free.
+  std::size_t cell_slots() const { return cell_of_index_.size(); }
+  /// The cell with the given index of the input; Cell::none if it is free. \pre index < cell_slots()
   Cell cell(std::size_t index) const { return Cell{cell_of_index_[index]}; }
+  /// True if there is a cell of this name. Edits that replace cells take names away; later ones may give them to other cells.
+  /// A name that is gone is one of a solid cell, everything is outside of it, and walls are all round.
+  bool is_cell(Cell c) const {
+    return to_index(c) < shape_.size() && !(shape_[to_index(c)] & (continuation_bit | removed_bit));
+  }
   /// The index of a cell in the input: what users see.
   std::uint32_t index(Cell c) const { return index_[to_index(c)]; }
   bool is_solid(Cell c) const { return shape_[to_index(c)] & solid_bit; }
+  /// What a cell looks like, until the next edit. \pre is_cell(c)
   Cell_view<D> view(Cell c) const {
+    assert(is_cell(c));
     const Cell_shape& shape = shapes_[shape_[to_index(c)] & shape_mask];
     return {&shape, {vertices_.data() + vertex_begin_[to_index(c)], shape.vertex_count}, points_};
   }
@@ -136,23 +150,43 @@ class Snapshot {
   /// Facets whose plane could not be certified (they are always decided exactly).
   std::size_t uncertified_planes() const { return uncertified_planes_; }
 
+  // --- state
+  /// Counts the edits: every update below that changes what a walk may see raises it.
+  std::uint64_t epoch() const { return epoch_; }
+  /// The epoch as of which cells are what and where they are: opening and closing facets does not raise it.
+  std::uint64_t geometry_epoch() const { return geometry_epoch_; }
+  /// \throw Error(usage) if the environment was edited after `known`, an epoch: "... was edited after `what_and_advice`"
+  void check_epoch(std::uint64_t known, const char* what_and_advice) const {
+    if (known != epoch_) [[unlikely]]
+      refuse_edited(what_and_advice);
+  }
+  /// The same of geometry_epoch().
+  void check_geometry_epoch(std::uint64_t known, const char* what_and_advice) const {
+    if (known != geometry_epoch_) [[unlikely]]
+      refuse_edited(what_and_advice);
+  }
+
   // --- local updates (Environment keeps them in step with the map)
   /// Marks both sides of a facet; convex-pair bits of the two cells follow.
   void set_impassable(Half_facet f, bool wall);
-  /// Moves a point; call update_geometry for every cell that has it.
+  /// Moves a point; call update_geometry for all cells that have it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
   /// Appends a point and returns its index.
   std::uint32_t add_point(const Point<D>& position) {
     points_.push_back(position);
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
-  /// Recomputes planes and convex-pair bits of a cell whose points moved.
-  void update_geometry(Cell c);
+  /// Recomputes what depends on where points are of all cells that have one that moved: where their loops start (the first D
+  /// vertices must not lie on one line), planes and convex-pair bits. Half-facets keep their names.
+  void update_geometry(std::span<const Cell> cells);
   /// Replaces cells by others: `removed` cells go, the cells of `soup` come (its vertices are indices of
   /// this snapshot's points; soup.points is not looked at). gluing.opposite of a half-facet is a half-facet
-  /// of `soup`, or no_facet; those left open are matched to the facets that the removed cells leave open.
-  /// Returns the new cells in order: they take the indices of the removed ones first, then new ones. `slots`,
-  /// if given, receives the half-facet of each facet of `soup`. \pre at least as many cells come as go
+  /// of `soup`, or no_facet; those left open are matched to the facets that the removed cells leave open, of
+  /// which the others come to lie on the boundary.
+  /// Returns the new cells in order: they take the indices of the removed ones first, then free and then new
+  /// ones; indices left over become free. What earlier calls removed is used again; the names of those that go
+  /// now are given to no cell that comes now. `slots`, if given, receives the half-facet of each facet of `soup`.
+  /// \throw Error(input) as compile(), with nothing changed
   std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                   const Gluing& gluing, std::vector<Half_facet>* slots = nullptr);
 
@@ -165,7 +199,8 @@ class Snapshot {
   static constexpr std::uint32_t link_mask = convex_pair_bit - 1;
   static constexpr std::uint32_t solid_bit = 1u << 31;
   static constexpr std::uint32_t continuation_bit = 1u << 30;
-  static constexpr std::uint32_t shape_mask = continuation_bit - 1;
+  static constexpr std::uint32_t removed_bit = 1u << 29;
+  static constexpr std::uint32_t shape_mask = removed_bit - 1;
 
   std::vector<Plane_block<D>> planes_;        // per block
   std::vector<std::uint32_t> links_;          // per lane: neighbouring cell, wall and convex-pair bits
@@ -179,6 +214,15 @@ class Snapshot {
   Plane_frame<D> frame_;
   std::size_t uncertified_planes_ = 0;
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
+  std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
+  /// Runs of slots by length and first slot. They are used again as a whole, so that a name once given is always that of a cell,
+  /// there or removed, and never points into one.
+  using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+  Free_runs free_blocks_, free_vertices_;
+  std::set<std::uint32_t> free_indices_;
+
+  [[noreturn]] static void refuse_edited(const char* what_and_advice);
+  Cell add_cell(const Canonical_cell& cell, std::uint32_t index, bool solid);
 
   template <int>
   friend class Snapshot_compiler;

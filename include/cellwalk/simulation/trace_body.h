@@ -49,7 +49,7 @@ class Trace_body {
 
   /// Moves one vertex to a target, or leaves it where it is. The answer has bits 0 to 3 with Sweep::three_segments, and
   /// bits 4 to 6 as well with Sweep::triangle; which one is asked for does not change what moves.
-  /// \pre the target is finite; `sweep` is one of these two
+  /// \pre the target is finite; `sweep` is one of these two \throw Error(usage) if the environment was edited since the body was made
   /// Degenerate cases: touching a wall is no hit, see sweep_triangle(); an edge that lies in a wall keeps its side of it.
   /// Cost: that of a walk and the sweeps of three edges.
   Move move(std::size_t vertex, const Point<3>& target, Sweep sweep, Trace_counts& counts);
@@ -65,6 +65,7 @@ class Trace_body {
   }
 
   const Snapshot<3>* snapshot_;
+  std::uint64_t epoch_;  ///< of the snapshot, when the body was registered
   std::array<Particle<3>, trace_vertices> particles_;
   std::vector<Chain>
       chains_;  ///< from the lower vertex of each edge, at its place; half of the places are used

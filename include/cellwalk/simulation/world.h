@@ -23,7 +23,7 @@
 namespace cellwalk {
 
 /// Everything that moves, and what it met. Deterministic: the same scene gives the same bits.
-/// Refers to the snapshot, which must outlive it.
+/// Refers to the snapshot, which must outlive it, and is not to be edited meanwhile: a world is made for the environment as it is.
 template <int D>
 class World {
  public:
@@ -42,6 +42,7 @@ class World {
   static constexpr int most_tries = 1000;
 
   /// Advances everything by one time step: free particles under gravity, in order, then the bodies in order.
+  /// \throw Error(usage) if the environment was edited since the world was made
   void step();
 
   std::uint32_t steps_done() const { return steps_done_; }
@@ -65,7 +66,7 @@ class World {
 
   /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are caught up first (see
   /// Body::catch_up), which moves nothing and shows in the counts only.
-  /// \throw Error(other) naming the first particle or body that violates them
+  /// \throw Error(other) naming the first particle or body that violates them; Error(usage) as step()
   void validate();
 
  private:
@@ -78,7 +79,10 @@ class World {
   void step_bodies();
   void report(std::size_t particle);
 
+  void check_epoch() const;
+
   const Snapshot<D>& snapshot_;
+  std::uint64_t epoch_;  ///< of the snapshot, when the world was made
   Scene<D> scene_;
   std::vector<Particle<D>> particles_;
   std::vector<Vector<D>> velocities_;

@@ -34,8 +34,8 @@ struct Location {
   int sides = 0;  ///< how many there are
 };
 
-/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it and not be
-/// edited.
+/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it. Facets may be opened and
+/// closed; after other edits a new one must be made.
 template <int D>
 class Locator {
  public:
@@ -46,6 +46,7 @@ class Locator {
   Locator& operator=(Locator&&) noexcept;
 
   /// \pre p is finite. Exact in every position; correct in disconnected free space.
+  /// \throw Error(usage) if points were moved or cells replaced since it was made
   /// Cost: about 1 us (logarithmic in the number of cells).
   Location<D> locate(const Point<D>& p) const;
 

@@ -20,7 +20,8 @@ struct Particle {
   std::uint16_t aimed = 0;      ///< facet of the cell it aims at
 };
 
-/// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle.
+/// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle. False if there is no such
+/// cell (any more).
 template <int D>
 bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point);
 

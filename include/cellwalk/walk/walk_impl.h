@@ -91,7 +91,7 @@ class Walker {
  private:
   /// Leaves the cell or ends the walk; true if the walk goes on.
   bool step() {
-    const Cell_view<D> cell = snapshot_.view(cell_);
+    const Cell_view<D> cell = view_of_particle(snapshot_, cell_);
     on_planes_ = false;
     const Exit exit = find_exit(cell);
     result_.on_planes |= on_planes_;
