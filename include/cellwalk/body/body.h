@@ -142,6 +142,7 @@ class Body {
   void link_edges();
   void link_faces();
   void register_faces(Error_code code, Face_counts& counts);
+  void take_up_faces(Body_counts& counts);
   Face_registration register_face_here(std::uint32_t face, Face_counts& counts) const;
   void sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                    Body_counts& counts);
