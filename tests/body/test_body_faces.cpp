@@ -76,7 +76,8 @@ Snapshot<3> round_a_corner() {
 struct Strip {
   static constexpr std::uint32_t all = 8;  ///< its vertices
 
-  explicit Strip(const Snapshot<3>& snapshot, const Point<3>& at) : body(snapshot, Locator<3>(snapshot), soup(at)) {
+  explicit Strip(const Snapshot<3>& snapshot, const Point<3>& at)
+      : body(snapshot, Locator<3>(snapshot), soup(at)) {
     options.sweep.sweep = Sweep::triangle;
   }
 
@@ -146,7 +147,8 @@ TEST(Body_faces, AnyOrderOfSweepsIsTheSame) {
         sweep = static_cast<Sweep>(random.below(3));
         drift = {random.real(-0.2, 0.2), random.real(-0.2, 0.2), random.real(-0.02, 0.02)};
       }
-      const auto only = static_cast<std::uint32_t>(random.below(4) == 0 ? random.below(Strip::all) : Strip::all);
+      const auto only =
+          static_cast<std::uint32_t>(random.below(4) == 0 ? random.below(Strip::all) : Strip::all);
       Vector<3> by = drift;
       for (double& x : by) x += random.real(-0.02, 0.02);
       for (Strip* strip : {&*lazy, &eager, &plain}) {

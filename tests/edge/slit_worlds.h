@@ -122,16 +122,21 @@ inline oracle::World<3> layered_world(std::uint64_t seed, std::uint64_t one_in =
   const auto other = [&](std::uint32_t c, std::size_t k) -> std::uint32_t {  // across facet k
     const std::uint32_t x = c % n, y = c / n % n;
     switch (k) {
-      case 0: return c < n * n ? c : c - n * n;
-      case 2: return y == 0 ? c : c - n;
-      case 5: return x == 0 ? c : c - 1;
-      default: return c;
+      case 0:
+        return c < n * n ? c : c - n * n;
+      case 2:
+        return y == 0 ? c : c - n;
+      case 5:
+        return x == 0 ? c : c - 1;
+      default:
+        return c;
     }
   };
   Cell_soup<3> walled = cubes;
   for (std::uint32_t c = 0; c < cubes.cell_count(); ++c)
     for (const std::size_t k : {0u, 2u, 5u})
-      if (other(c, k) != c && random.below(k == 0 ? one_in : 12) == 0) oracle::set_wall(walled, c, other(c, k));
+      if (other(c, k) != c && random.below(k == 0 ? one_in : 12) == 0)
+        oracle::set_wall(walled, c, other(c, k));
   for (std::uint32_t c = 0; c < cubes.cell_count(); ++c) {
     const std::uint64_t chance = random.below(20);
     if (chance == 0) continue;

@@ -176,7 +176,8 @@ TEST(FaceSidesByHand, ASideThatNothingSaysIsOneOfTheGeometry) {
         ASSERT_TRUE(put(body, snapshot, corners)) << turn;
         ASSERT_FALSE(body.rests().empty());
         const std::uint32_t up = flip_x * flip_y > 0 ? above : below;
-        for (const std::uint32_t c : cells_of(snapshot, body.rests())) EXPECT_EQ(c, other.new_cell[up]) << turn;
+        for (const std::uint32_t c : cells_of(snapshot, body.rests()))
+          EXPECT_EQ(c, other.new_cell[up]) << turn;
       }
     }
   }

@@ -141,8 +141,9 @@ TEST(FaceSlits, LandsAndLeaves) {
 }
 
 /// Rests by the cells of the first listing and the points of their walls.
-std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> named(const Snapshot<3>& snapshot, const Face_rests& rests,
-                                                               const std::vector<std::uint32_t>& old_cell) {
+std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> named(const Snapshot<3>& snapshot,
+                                                                const Face_rests& rests,
+                                                                const std::vector<std::uint32_t>& old_cell) {
   std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> names;
   for (const Half_facet rest : rests) {
     auto points = polygon(snapshot, rest);
