@@ -153,7 +153,8 @@ std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> named(const Snapshot<3
   return names;
 }
 
-const Triangle large{Point<3>{0.25, 0.25, 1}, Point<3>{3.75, 0.25, 1}, Point<3>{2, 3.75, 1}};
+/// Wide enough to have a facet strictly inside.
+const Triangle large{Point<3>{0.125, 0.125, 1}, Point<3>{3.875, 0.125, 1}, Point<3>{0.125, 3.9375, 1}};
 
 struct Listings_seen {
   int moves = 0, contacts = 0, with_rests = 0;
