@@ -90,7 +90,8 @@ std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const 
 template <int D>
 std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
                                                  const Body_options& options, Body_counts& counts, bool any) {
-  if (target == positions_[vertex] && are_faces_swept_) return {};
+  if (options.sweep.sweep == Sweep::faces) take_up_faces(counts);
+  if (target == positions_[vertex]) return {};
   catch_up_vertex(vertex, counts);
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
     catch_up_edge(corners_[i].edge, counts);
@@ -126,11 +127,9 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     moved.is_behind = false;
   }
   moved_rests_.clear();
-  if (options.sweep.sweep == Sweep::faces)
-    sweep_faces(vertex, way, first, counts);
-  else
-    are_faces_swept_ = false;
+  if (options.sweep.sweep == Sweep::faces) sweep_faces(vertex, way, first, counts);
   if (first) return first;
+  are_faces_swept_ &= options.sweep.sweep == Sweep::faces;
   for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
   commit(vertex, to);
   return {};

@@ -62,6 +62,14 @@ void Body<D>::register_faces(Error_code code, Face_counts& counts) {
   are_faces_swept_ = true;
 }
 
+/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked about is needed.
+template <int D>
+void Body<D>::take_up_faces(Body_counts& counts) {
+  if (are_faces_swept_ || faces_.empty()) return;
+  catch_up(counts);
+  register_faces(Error_code::usage, counts.faces);
+}
+
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
 template <int D>
 const Chain* Body<D>::moved_chain(std::uint32_t vertex, std::uint32_t edge) const {
@@ -78,11 +86,11 @@ template <int D>
 void Body<D>::sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                           Body_counts& counts) {
   if constexpr (D == 3) {
-    if (faces_.empty()) return;
-    if (!are_faces_swept_) register_faces(Error_code::usage, counts.faces);
     for (std::uint32_t i = face_corner_begin_[vertex]; i < face_corner_begin_[vertex + 1]; ++i) {
       const auto [f, k] = face_corners_[i];
       const std::uint32_t q = faces_[f][(k + 1) % 3], r = faces_[f][(k + 2) % 3];
+      // The edge across, of the corners that stand still, may be behind. Then it lies in a region free of walls, where it was when
+      // its ends last moved: a chain is looked into where a wall meets its edge only, and none meets this one.
       const Chain& across = chains_[sides_[f][(k + 1) % 3]];
       const Face_chains chains{{moved_chain(vertex, sides_[f][k]), false},
                                {&across, q > r},
@@ -104,6 +112,7 @@ void Body<D>::sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional
   template void Body<D>::link_faces();                                                              \
   template Face_registration Body<D>::register_face_here(std::uint32_t, Face_counts&) const;        \
   template void Body<D>::register_faces(Error_code, Face_counts&);                                  \
+  template void Body<D>::take_up_faces(Body_counts&);                                               \
   template const Chain* Body<D>::moved_chain(std::uint32_t, std::uint32_t) const;                   \
   template void Body<D>::sweep_faces(std::uint32_t, const Way<D>&, std::optional<Body_contact<D>>&, \
                                      Body_counts&);

@@ -17,10 +17,11 @@ class Border {
   Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
       : snapshot_(snapshot), side_(side), opposite_(opposite), counts_(counts) {}
 
-  Half_facet wall_between(const Near_walls& near, const Face_rests& rests) {
+  Half_facet wall_between(const Near_walls& near) {
     boost::container::small_vector<Half_facet, 4> holding;
     for (const Half_facet wall : near.walls)
-      if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0) holding.push_back(wall);
+      if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0 && side(wall, opposite_) != 0)
+        holding.push_back(wall);  // and not the face
     if (holding.empty()) return Half_facet::none;
     edge_.emplace(snapshot_, side_.from, side_.to);
     // Between the ends of the pieces that walls hold, all is as in the middle.
@@ -34,7 +35,7 @@ class Border {
       const std::optional<Span> met = edge_->in_facet(wall);
       for (std::size_t k = 0; met && k + 1 < ends.size(); ++k) {
         if (!(ends[k] < ends[k + 1]) || ends[k] < met->low || ends[k + 1] > met->high) continue;
-        if (!begins_at(middle(ends[k], ends[k + 1]), rests)) return wall;
+        if (!begins_at(middle(ends[k], ends[k + 1]))) return towards_face(wall);
       }
     }
     return Half_facet::none;
@@ -46,27 +47,26 @@ class Border {
   }
 
   /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
-  bool begins_at(const Fraction& t, const Face_rests& rests) const {
+  bool begins_at(const Fraction& t) const {
     for (const Cell c : linked_cells(*edge_, side_.start, *side_.chain.chain, t)) {
       bool holds_face = true;
       for (std::size_t i = 0; i < snapshot_.facet_count(c) && holds_face; ++i) {
         const Half_facet f = Snapshot<3>::half_facet(c, i);
         const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
-        // The point lies in the plane of f: the side of the opposite corner is that of the face.
-        const int at_face = side(f, opposite_);
-        holds_face = at_face < 0 || (at_face == 0 && !is_wrong_side(f, rests));
+        // The point lies in the plane of f: the side of the opposite corner is that of the face. If the face lies in a wall,
+        // its rests say where, and agree with the chain.
+        holds_face = side(f, opposite_) <= 0;
       }
       if (holds_face) return true;
     }
     return false;
   }
 
-  /// True if the face lies in a wall, on its other side.
-  bool is_wrong_side(Half_facet f, const Face_rests& rests) const {
-    const Half_facet other = snapshot_.opposite(f);
-    return snapshot_.is_impassable(f) && other != Half_facet::none &&
-           std::find(rests.begin(), rests.end(), other) != rests.end();
+  /// The side of a wall on which the face lies.
+  Half_facet towards_face(Half_facet wall) const {
+    const Half_facet other = snapshot_.opposite(wall);
+    return side(wall, opposite_) > 0 && other != Half_facet::none ? other : wall;
   }
 
   const Snapshot<3>& snapshot_;
@@ -79,11 +79,11 @@ class Border {
 }  // namespace
 
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
-                          const Near_walls& near, const Face_rests& rests, Walk_counts& counts) {
+                          const Near_walls& near, Walk_counts& counts) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Face_side& next = sides[(k + 1) % 3];
     const Point<3>& opposite = next.chain.is_reversed ? next.from : next.to;
-    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(near, rests);
+    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(near);
     if (wall != Half_facet::none) return wall;
   }
   return Half_facet::none;

@@ -58,19 +58,4 @@ std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& 
   return found;
 }
 
-std::optional<Half_facet> passed_side(const Exact_edge& edge, Cell start, const Chain& chain,
-                                      Half_facet wall) {
-  const std::optional<Span> met = edge.in_facet(wall);
-  if (!met) return {};
-  const Fraction t = middle(met->low, met->high);
-  const std::vector<Cell> cells = linked_cells(edge, start, chain, t);
-  const auto is_linked = [&](Half_facet f) {
-    return f != Half_facet::none &&
-           std::find(cells.begin(), cells.end(), edge.snapshot().cell_of(f)) != cells.end();
-  };
-  const Half_facet other = edge.snapshot().opposite(wall);
-  if (is_linked(wall) == is_linked(other)) return {};
-  return is_linked(wall) ? wall : other;
-}
-
 }  // namespace cellwalk::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// On which side of a wall does the chain of a segment pass? Theory: docs/sweep.md, chains.
+// The cells with which the chain of a segment is linked at a point. Theory: docs/sweep.md, chains.
 #ifndef CELLWALK_EDGE_CHAIN_SIDE_H
 #define CELLWALK_EDGE_CHAIN_SIDE_H
 
@@ -33,12 +33,6 @@ class Exact_edge {
 /// All cells linked, at the point of the edge with this parameter, with the one in which a chain passes it.
 /// \pre the edge passes the chain, from the cell `start`
 std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t);
-
-/// The side of a wall on which a chain passes that meets it: the half-facet whose cell is linked there with that of the
-/// chain. No value if both are (round the rim of the wall), or the edge misses the wall.
-/// \pre the edge passes the chain, from the cell `start`
-std::optional<Half_facet> passed_side(const Exact_edge& edge, Cell start, const Chain& chain,
-                                      Half_facet wall);
 
 }  // namespace cellwalk::detail
 

@@ -45,7 +45,9 @@ class Face_sweep {
       if (!face) face.emplace(std::array{corners_[1], corners_[2], corners_[3]}, counts_.walk);
       const std::size_t i = snapshot_.facet_of(wall);
       if (!face->holds(view(wall), i) || !face->overlaps(view(wall), i)) continue;
-      rests.push_back(side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall));
+      // Of walls that coincide without being glued, the face lies on the one whose cell is on its side.
+      const Half_facet rest = side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall);
+      if (rest != Half_facet::none) rests.push_back(rest);
     }
     detail::sort(rests);
     return rests;
@@ -109,10 +111,10 @@ Face_contact astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>
 /// Rests of a face that moved in its plane, or was put there.
 Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                            const Particle<3>& r, const Face_chains& chains, const Near_walls& near,
-                           const Face_rests& known, Face_counts& counts) {
+                           const Face_rests& known, detail::Known use, Face_counts& counts) {
   if (are_collinear(p.position, q.position, r.position)) return {};
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
-  return detail::find_rests(snapshot, triangle, detail::sides_of(chains, p, q, r), near, known);
+  return detail::find_rests(snapshot, triangle, detail::sides_of(chains, p, q, r), near, known, use);
 }
 
 }  // namespace
@@ -145,7 +147,10 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
   if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
     if (!is_made) return result;
     ++counts.flat;
-    result.rests = standing(snapshot, way.to, q, r, chains, near, rests, counts).rests;
+    const Face_registration end =
+        standing(snapshot, way.to, q, r, chains, near, rests, detail::Known::binding, counts);
+    if (end.piercing != Half_facet::none) return {{}, astray(snapshot, end.piercing, corners[0])};
+    result.rests = end.rests;
   } else {
     Face_sweep sweep(snapshot, corners, counts);
     result.contact = sweep.first_contact(near, rests);
@@ -158,8 +163,8 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
     result.rests = sweep.rests_at_end(near);
   }
   if (are_collinear(corners[1], corners[2], corners[3])) return result;
-  const Half_facet wall = detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near,
-                                                 result.rests, counts.walk);
+  const Half_facet wall =
+      detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near, counts.walk);
   if (wall == Half_facet::none) return result;
   return {{}, astray(snapshot, wall, corners[0])};
 }
@@ -175,15 +180,15 @@ Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& 
     return {};
   }
   counts.walls += near.walls.size();
-  Face_registration result = standing(snapshot, p, q, r, chains, near, known, counts);
+  Face_registration result =
+      standing(snapshot, p, q, r, chains, near, known, detail::Known::preferred, counts);
   if (result.piercing != Half_facet::none || are_collinear(p.position, q.position, r.position)) return result;
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
   for (const Half_facet wall : near.walls)
     if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
       result.piercing = wall;
   if (result.piercing == Half_facet::none)
-    result.piercing =
-        detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), near, result.rests, counts.walk);
+    result.piercing = detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), near, counts.walk);
   return result;
 }
 

@@ -9,11 +9,15 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A wall that overlaps the face in its plane.
+/// A side of a wall that overlaps the face in its plane, with free space on it.
 struct Patch {
-  Half_facet wall;  ///< one of its sides
-  int cell_side;    ///< side of the face on which the cell of that lies
+  Half_facet half;
+  int side;  ///< of the face on which its cell lies
   std::size_t group;
+  bool is_second;  ///< of the same wall as the one before it
+  /// Patches on the other side of the plane that overlap it inside the face: the second side of the wall; where the wall is
+  /// one-sided, those that coincide with it, or none.
+  boost::container::small_vector<std::size_t, 2> behind{};
 };
 
 /// A ridge in the plane of the face that overlaps its inside.
@@ -24,40 +28,36 @@ struct Ridge {
   std::vector<std::size_t> patches;
 };
 
-/// Walls of one side: connected patches.
+/// Patches that have the face on one side of the plane: those behind each other, and those that share a ridge.
 struct Group {
-  bool may_be_above = true, may_be_below = true;  ///< as far as walls at its ridges say
-  int side = 0;                                   ///< chosen: above > 0
+  bool may_be_above = true, may_be_below = true;  ///< as far as walls say
+  int side = 0;                                   ///< taken: above > 0
+
+  bool& may_be(int at) { return at > 0 ? may_be_above : may_be_below; }
 };
 
 class Rests {
  public:
   Rests(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle, const Near_walls& near)
-      : snapshot_(snapshot), triangle_(triangle), near_(near) {
+      : snapshot_(snapshot), triangle_(triangle) {
     for (const Half_facet wall : near.walls) add(wall);
+    pair_one_sided();
     groups_.resize(patches_.size());
-    for (const Ridge& ridge : ridges_) join(ridge);
+    for (std::size_t k = 0; k < patches_.size(); ++k) join(patches_[k].behind, k);
+    for (const Ridge& ridge : ridges_) join(ridge.patches, ridge.patches.empty() ? 0 : ridge.patches.front());
+    for (const Patch& patch : patches_)
+      if (patch.behind.empty()) groups_[patch.group].may_be(-patch.side) = false;  // nothing is there
     for (const Ridge& ridge : ridges_) bound(ridge);
   }
 
-  Face_registration choose(const std::array<Face_side, 3>& sides, const Face_rests& known) {
+  Face_registration choose(const std::array<Face_side, 3>& sides, const Face_rests& known, Known use) {
+    if (use == Known::binding) keep(known);
     for (const Face_side& side : sides) follow(side);
-    for (const Half_facet rest : known) {
-      for (const Patch& patch : patches_) {
-        if (rest == patch.wall) settle(patch, patch.cell_side);
-        if (rest == snapshot_.opposite(patch.wall)) settle(patch, -patch.cell_side);
-      }
-    }
-    for (const Patch& patch : patches_) {
-      const bool is_found = has_found(patch.wall), is_other_found = has_found(snapshot_.opposite(patch.wall));
-      if (is_found != is_other_found) settle(patch, is_found ? patch.cell_side : -patch.cell_side);
-    }
-    for (const Patch& patch : patches_) settle(patch, first_side(patch));
+    if (use == Known::preferred) keep(known);
     Face_registration result;
     result.piercing = piercing_;
     for (const Patch& patch : patches_)
-      result.rests.push_back(groups_[patch.group].side == patch.cell_side ? patch.wall
-                                                                          : snapshot_.opposite(patch.wall));
+      if (side_of(groups_[patch.group]) == patch.side) result.rests.push_back(patch.half);
     sort(result.rests);
     return result;
   }
@@ -69,9 +69,16 @@ class Rests {
     const Cell_view<3> cell = view(wall);
     const std::size_t i = snapshot_.facet_of(wall);
     const bool in_plane = triangle_.holds(cell, i);
+    const std::size_t first = patches_.size();
     if (in_plane) {
       if (!triangle_.overlaps(cell, i)) return;
-      patches_.push_back({wall, triangle_.side_of_cell(cell, i), patches_.size()});
+      const int side = triangle_.side_of_cell(cell, i);
+      patches_.push_back({wall, side, first, false});
+      const Half_facet other = snapshot_.opposite(wall);
+      if (other != Half_facet::none && !snapshot_.is_solid(snapshot_.cell_of(other))) {
+        patches_.push_back({other, -side, first + 1, true, {first}});
+        patches_[first].behind.push_back(first + 1);
+      }
     }
     const auto loop = cell.loop(i);
     std::vector<int> heights;
@@ -81,7 +88,7 @@ class Rests {
       if (heights[k] != 0 || heights[next] != 0) continue;
       if (!triangle_.overlaps(cell.point(loop[k]), cell.point(loop[next]))) continue;
       Ridge& ridge = ridge_of(cell.point_index(loop[k]), cell.point_index(loop[next]), wall);
-      if (in_plane) ridge.patches.push_back(patches_.size() - 1);
+      if (in_plane) ridge.patches.push_back(first);
       // A wall that is not in the plane and has a ridge there lies on one side.
       ridge.is_above |= std::any_of(heights.begin(), heights.end(), [](int h) { return h > 0; });
       ridge.is_below |= std::any_of(heights.begin(), heights.end(), [](int h) { return h < 0; });
@@ -95,9 +102,26 @@ class Rests {
     return ridges_.back();
   }
 
-  void join(const Ridge& ridge) {
-    for (const std::size_t other : ridge.patches) {
-      const std::size_t from = patches_[other].group, to = patches_[ridge.patches.front()].group;
+  /// Walls of one side may coincide without being glued.
+  void pair_one_sided() {
+    std::vector<std::size_t> above, below;
+    for (std::size_t k = 0; k < patches_.size(); ++k)
+      if (patches_[k].behind.empty()) (patches_[k].side > 0 ? above : below).push_back(k);
+    for (const std::size_t k : above) {
+      for (const std::size_t m : below) {
+        const Half_facet f = patches_[k].half, g = patches_[m].half;
+        if (!triangle_.overlaps(view(f), snapshot_.facet_of(f), view(g), snapshot_.facet_of(g))) continue;
+        patches_[k].behind.push_back(m);
+        patches_[m].behind.push_back(k);
+      }
+    }
+  }
+
+  template <class Patches>
+  void join(const Patches& others, std::size_t with) {
+    for (const std::size_t other : others) {
+      const std::size_t from = patches_[other].group, to = patches_[with].group;
+      if (from == to) continue;
       for (Patch& patch : patches_)
         if (patch.group == from) patch.group = to;
     }
@@ -107,45 +131,64 @@ class Rests {
     if (ridge.is_above && ridge.is_below) piercing_ = ridge.wall;
     for (const std::size_t k : ridge.patches) {
       Group& group = groups_[patches_[k].group];
-      group.may_be_above &= !ridge.is_above;
-      group.may_be_below &= !ridge.is_below;
-      if (!group.may_be_above && !group.may_be_below) piercing_ = ridge.wall;
+      group.may_be(1) &= !ridge.is_above;
+      group.may_be(-1) &= !ridge.is_below;
+      if (!group.may_be(1) && !group.may_be(-1)) piercing_ = ridge.wall;
     }
   }
 
-  /// Takes a side unless another one was taken, or walls forbid it.
-  void settle(const Patch& patch, int side) {
+  /// The face lies on the side of a patch. It is pierced if it lies on the other one too, or walls forbid it.
+  void take(const Patch& patch) {
     Group& group = groups_[patch.group];
-    if (group.side == 0 && (side > 0 ? group.may_be_above : group.may_be_below)) group.side = side;
+    if (group.side == 0 && group.may_be(patch.side)) group.side = patch.side;
+    if (group.side == patch.side || piercing_ != Half_facet::none) return;
+    piercing_ = patch.behind.empty() ? patch.half : patches_[patch.behind.front()].half;
   }
 
-  /// Takes the sides on which the chain of an edge passes; if that is not possible, the face is pierced.
+  void keep(const Face_rests& known) {
+    for (const Half_facet rest : known)
+      for (const Patch& patch : patches_)
+        if (rest == patch.half) take(patch);
+  }
+
+  /// Takes the sides on which the chain of an edge passes.
   void follow(const Face_side& side) {
     const Exact_edge edge(snapshot_, side.from, side.to);
+    std::optional<Fraction> t;  // where the edge meets the wall
+    std::vector<Cell> linked;
+    const auto is_linked = [&](const Patch& patch) {
+      return std::find(linked.begin(), linked.end(), snapshot_.cell_of(patch.half)) != linked.end();
+    };
     for (const Patch& patch : patches_) {
-      const auto passed = passed_side(edge, side.start, *side.chain.chain, patch.wall);
-      if (!passed) continue;
-      const int passed_on = *passed == patch.wall ? patch.cell_side : -patch.cell_side;
-      settle(patch, passed_on);
-      if (groups_[patch.group].side != passed_on) piercing_ = patch.wall;
+      if (!patch.is_second) {
+        const std::optional<Span> met = edge.in_facet(patch.half);
+        t.reset();
+        if (!met) continue;
+        t = middle(met->low, met->high);
+        linked = linked_cells(edge, side.start, *side.chain.chain, *t);
+      }
+      if (!t || !is_linked(patch)) continue;
+      // Round the rim of the wall, both sides are.
+      const bool is_round = std::any_of(patch.behind.begin(), patch.behind.end(), [&](std::size_t k) {
+        return is_linked(patches_[k]) && holds(edge, patches_[k], *t);
+      });
+      if (!is_round) take(patch);
     }
   }
 
-  bool has_found(Half_facet f) const {
-    return f != Half_facet::none && near_.cells.contains(snapshot_.cell_of(f));
+  static bool holds(const Exact_edge& edge, const Patch& patch, const Fraction& t) {
+    const std::optional<Span> met = edge.in_facet(patch.half);
+    return met && met->low <= t && t <= met->high;
   }
 
-  /// The side to take where any will do: that of the cell with the lower number; where walls leave one only, that.
-  int first_side(const Patch& patch) const {
-    const Group& group = groups_[patch.group];
-    if (!group.may_be_above) return -1;
-    if (!group.may_be_below) return 1;
-    return snapshot_.opposite(patch.wall) < patch.wall ? -patch.cell_side : patch.cell_side;
+  /// Where any side will do, a fixed one.
+  int side_of(Group& group) const {
+    const int fixed = triangle_.fixed_side();
+    return group.side != 0 ? group.side : group.may_be(fixed) ? fixed : -fixed;
   }
 
   const Snapshot<3>& snapshot_;
   const Triangle_in_plane& triangle_;
-  const Near_walls& near_;
   std::vector<Patch> patches_;
   std::vector<Ridge> ridges_;
   std::vector<Group> groups_;
@@ -168,8 +211,8 @@ std::array<Face_side, 3> sides_of(const Face_chains& chains, const Particle<3>& 
 
 Face_registration find_rests(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                              const std::array<Face_side, 3>& sides, const Near_walls& near,
-                             const Face_rests& known) {
-  return Rests(snapshot, triangle, near).choose(sides, known);
+                             const Face_rests& known, Known use) {
+  return Rests(snapshot, triangle, near).choose(sides, known, use);
 }
 
 }  // namespace cellwalk::detail

@@ -21,11 +21,18 @@ struct Face_side {
 std::array<Face_side, 3> sides_of(const Face_chains& chains, const Particle<3>& p, const Particle<3>& q,
                                   const Particle<3>& r);
 
-/// Rests of a face, all walls near it given. `known` are kept where they are possible. piercing is set where walls at one ridge
-/// leave no side for the face.
+/// What rests that are known count for.
+enum class Known {
+  binding,   ///< the face has them: an edge on another side is in the way
+  preferred  ///< they are kept where the edges allow it
+};
+
+/// Rests of a face, all walls near it given: known ones, those that its edges say, and where nothing says which, one by the direction
+/// of its plane. piercing is set where walls at one ridge, or an edge, leave no side for the face: to a wall seen from the side
+/// on which the face lies, if it lies on one.
 Face_registration find_rests(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                              const std::array<Face_side, 3>& sides, const Near_walls& near,
-                             const Face_rests& known);
+                             const Face_rests& known, Known use);
 
 /// Puts rests into their order.
 void sort(Face_rests& rests);

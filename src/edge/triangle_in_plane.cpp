@@ -4,6 +4,7 @@
 #include <cellwalk/walk/detail/signs.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "swept_tetrahedron.h"
 
@@ -50,6 +51,49 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const 
       return false;
   }
   return true;
+}
+
+// A half-plane that ends at a side of the facet, by its values at the corners: those of an affine function, positive inside.
+void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,
+                                     std::vector<Ring_vector<3>>& sides) const {
+  const auto loop = cell.loop(i);
+  const int facet_turn = -side_of_cell(cell, i) * own_turn_;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Point<2> u = drop(cell.point(loop[k])), v = drop(cell.point(loop[(k + 1) % loop.size()]));
+    Ring_vector<3>& side = sides.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      side[c] = Exact_value::orientation(u, v, drop(corners_[c]));
+      if (facet_turn < 0) side[c] = -side[c];
+    }
+  }
+}
+
+// The triangle is cut by the sides of both, its points held by their volumes with the corners. Open convex sets have a point in
+// common if what is left of the closed ones lies on no side of any of them.
+bool Triangle_in_plane::overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d,
+                                 std::size_t j) const {
+  using Point_by_corners = Ring_vector<3>;
+  const std::vector<Ring_vector<3>> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Ring_vector<3>> sides = corners;
+  std::vector<Point_by_corners> polygon = corners;
+  append_sides(c, i, sides);
+  append_sides(d, j, sides);
+  for (const Ring_vector<3>& side : sides) {
+    std::vector<Point_by_corners> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Point_by_corners &u = polygon[k], &v = polygon[(k + 1) % polygon.size()];
+      const Ring at_u = exact_dot(side, u), at_v = exact_dot(side, v);
+      if (CGAL::sign(at_u) != CGAL::NEGATIVE) kept.push_back(u);
+      if (CGAL::sign(at_u) * CGAL::sign(at_v) >= 0) continue;
+      const Ring of_u = CGAL::abs(at_v), of_v = CGAL::abs(at_u);
+      kept.push_back({of_u * u[0] + of_v * v[0], of_u * u[1] + of_v * v[1], of_u * u[2] + of_v * v[2]});
+    }
+    polygon = std::move(kept);
+  }
+  return std::none_of(sides.begin(), sides.end(), [&](const Ring_vector<3>& side) {
+    return std::all_of(polygon.begin(), polygon.end(),
+                       [&](const Point_by_corners& x) { return CGAL::is_zero(exact_dot(side, x)); });
+  });
 }
 
 bool Triangle_in_plane::overlaps(const Point<3>& u, const Point<3>& v) const {

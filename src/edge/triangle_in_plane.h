@@ -6,6 +6,10 @@
 #include <cellwalk/edge/face.h>
 
 #include <array>
+#include <cstddef>
+#include <vector>
+
+#include "half_space.h"
 
 namespace cellwalk::detail {
 
@@ -26,8 +30,13 @@ class Triangle_in_plane {
   /// The side() of the cell of such a facet.
   int side_of_cell(const Cell_view<3>& cell, std::size_t i) const;
 
+  /// The side() towards which (e, e^2, e^3) points, e small: a side of the plane by its direction alone.
+  int fixed_side() const { return own_turn_; }
+
   /// True if the inside of a facet in the plane and that of the triangle overlap.
   bool overlaps(const Cell_view<3>& cell, std::size_t i) const;
+  /// True if two facets in the plane overlap inside the triangle. In exact numbers: some ten us.
+  bool overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d, std::size_t j) const;
   /// True if a segment in the plane has a part of positive length inside the triangle.
   bool overlaps(const Point<3>& u, const Point<3>& v) const;
   /// True if an inner point of a facet lies inside the triangle, and the facet not in its plane.
@@ -35,11 +44,12 @@ class Triangle_in_plane {
 
  private:
   int turn(const Point<3>& u, const Point<3>& v, const Point<3>& w) const;
+  void append_sides(const Cell_view<3>& cell, std::size_t i, std::vector<Ring_vector<3>>& sides) const;
   Point<2> drop(const Point<3>& x) const { return {x[(axis_ + 1) % 3], x[(axis_ + 2) % 3]}; }
 
   std::array<Point<3>, 3> corners_;
   Walk_counts& counts_;
-  std::size_t axis_ = 0;  ///< seen along it, the triangle has an area
+  std::size_t axis_ = 0;  ///< the first along which the triangle has an area
   int own_turn_ = 0;      ///< of the corners, seen so
 };
 

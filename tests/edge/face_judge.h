@@ -23,7 +23,7 @@ namespace cellwalk::test {
 struct Face_seen {
   int registered = 0, pierced = 0, pierced_together = 0;
   int sweeps = 0, hits = 0, face_only = 0, through_vertex = 0, at_once = 0, inside_hits = 0;
-  int landed = 0, leaves_through = 0, sides_checked = 0, flat = 0, chosen = 0;
+  int landed = 0, on_one_sided = 0, leaves_through = 0, sides_checked = 0, flat = 0, chosen = 0;
   int misses = 0, unjudged = 0, false_blocks = 0, wrong_times = 0, wrong_rests = 0;
   int blocked = 0, before_blocked = 0, astray = 0;
   Face_counts counts;
@@ -128,6 +128,7 @@ class Judge {
     }
     EXPECT_LE(Rational(contact->time), to_rational(contact->impact));
     EXPECT_NEAR(length(contact->normal), 1, 1e-14);
+    EXPECT_LE(dot(contact->normal, target - before[k]), 1e-13 * length(target - before[k])) << name_;
     seen_.face_only += outcome.is_face_only();
     seen_.through_vertex += contact->kind == Contact_kind::vertex;
     seen_.inside_hits += contact->body == Body_feature::face;
@@ -154,24 +155,47 @@ class Judge {
     sides_ = sides;
   }
 
-  /// The rests are the walls in the plane, on the sides known.
+  bool rests(Half_facet f) const {
+    return std::find(body_.rests().begin(), body_.rests().end(), f) != body_.rests().end();
+  }
+
+  /// The rests are the walls in the plane, on the sides known. Of walls of one side each that coincide, one is a rest.
   void check_rests() {
-    bool is_right = body_.rests().size() == sides_.size();
+    bool is_right = true;
+    std::size_t found = 0;
     for (const auto& [w, side] : sides_) {
       const Half_facet front = walls_.facets[w], back = snapshot_.opposite(front);
-      const auto rests = [&](Half_facet f) {
-        return std::find(body_.rests().begin(), body_.rests().end(), f) != body_.rests().end();
-      };
+      const bool is_one_sided = back == Half_facet::none, is_front = rests(front),
+                 is_back = !is_one_sided && rests(back);
+      found += std::size_t{is_front} + std::size_t{is_back};
       // A facet turns counterclockwise seen from outside its cell, so its cell lies on the negative side.
-      is_right &= side < 0 ? rests(front) : side > 0 ? rests(back) : rests(front) != rests(back);
+      is_right &= is_front ? side <= 0 : side >= 0;
+      is_right &= is_one_sided ? agrees_behind(w) : is_front != is_back;
+      for (const Half_facet f : {front, back})
+        is_right &= f == Half_facet::none || !rests(f) || !snapshot_.is_solid(snapshot_.cell_of(f));
       seen_.sides_checked += side != 0;
       seen_.chosen += side == 0;
+      seen_.on_one_sided += is_one_sided && is_front;
     }
+    is_right &= found == body_.rests().size();
     seen_.wrong_rests += !is_right;
     EXPECT_TRUE(is_right) << name_;
     if (generic_) {
       EXPECT_TRUE(sides_.empty());
     }
+  }
+
+  /// A wall of one side is a rest, or what coincides with it under the face is: free space on one side there must be.
+  bool agrees_behind(std::size_t w) const {
+    const bool is_front = rests(walls_.facets[w]);
+    bool is_any = false, is_all = true;
+    for (const auto& [other, side] : sides_) {
+      if (other == w || !overlap_in_plane(body_.triangle(), walls_.polygons[w], walls_.polygons[other]))
+        continue;
+      is_any |= rests(walls_.facets[other]);
+      is_all &= rests(walls_.facets[other]);
+    }
+    return is_front ? !is_any : is_any && is_all;
   }
 
   template <class Number>

@@ -110,6 +110,23 @@ bool is_overlapped(const Polygon& face, const Polygon& facet) {
   return !is_parted(face, n, facet) && !is_parted(facet, normal(facet), face);
 }
 
+/// The part of a polygon on the inner sides of another one, whose normal is n.
+Polygon part(Polygon polygon, const Polygon& other, const Vec& n) {
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    const Vec& c = other[i];
+    const Vec inward = cross(n, minus(other[(i + 1) % other.size()], c));
+    Polygon kept;
+    for (std::size_t j = 0; j < polygon.size(); ++j) {
+      const Vec &u = polygon[j], &v = polygon[(j + 1) % polygon.size()];
+      const Fraction at_u = dot(inward, minus(u, c)), at_v = dot(inward, minus(v, c));
+      if (at_u >= 0) kept.push_back(u);
+      if (at_u * at_v < 0) kept.push_back(on(u, v, root_of(at_u, at_v)));
+    }
+    polygon = kept;
+  }
+  return polygon;
+}
+
 /// True if a polygon lies on the other side of the plane xyz than a further corner of a tetrahedron, or in it.
 bool is_outside(const Vec& x, const Vec& y, const Vec& z, const Vec& corner, const Polygon& polygon) {
   const Vec n = cross(minus(y, x), minus(z, x));
@@ -146,6 +163,15 @@ bool overlaps_in_plane(const Triangle& face, std::span<const Point<3>> facet) {
   if (boxes_apart(face, face[0], facet)) return false;
   const int exponent = exponent_for(face, facet);
   return is_overlapped(exact(face, exponent), exact(facet, exponent));
+}
+
+bool overlap_in_plane(const Triangle& face, std::span<const Point<3>> facet,
+                      std::span<const Point<3>> other) {
+  if (!overlaps_in_plane(face, facet) || !overlaps_in_plane(face, other)) return false;
+  const int exponent = exponent_for(facet, other);
+  const Polygon polygon = exact(other, exponent);
+  const Polygon common = part(exact(facet, exponent), polygon, normal(polygon));
+  return common.size() > 2 && !is_zero(normal(common)) && is_overlapped(exact(face, exponent), common);
 }
 
 int side_of_plane(std::span<const Point<3>> facet, const Point<3>& x) {

@@ -22,6 +22,9 @@ bool pierces(const Triangle& face, std::span<const Point<3>> facet);
 /// True if a facet lies in the plane of a triangle and both have inner points in common.
 bool overlaps_in_plane(const Triangle& face, std::span<const Point<3>> facet);
 
+/// True if two facets in the plane of a triangle and the triangle have inner points in common.
+bool overlap_in_plane(const Triangle& face, std::span<const Point<3>> facet, std::span<const Point<3>> other);
+
 /// Side of x against the plane of a facet, by the turn of its vertices.
 int side_of_plane(std::span<const Point<3>> facet, const Point<3>& x);
 

@@ -104,7 +104,9 @@ class Body {
   /// Moves the vertices one after the other to their targets, as far as walls allow: a vertex that meets one, or has an edge
   /// that does, stops at a verified position just before, and its remaining motion is projected on the wall and tried again.
   /// Contacts are appended in the order met. \pre one finite target a vertex
-  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge.
+  /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
+  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge. The first
+  /// time faces are swept after moves that left them alone, all are registered.
   void step(std::span<const Point<D>> targets, const Body_options& options,
             std::vector<Body_contact<D>>& contacts, Body_counts& counts);
 
@@ -159,6 +161,7 @@ class Body {
   void link_edges();
   void link_faces();
   void register_faces(Error_code code, Face_counts& counts);
+  void take_up_faces(Body_counts& counts);
   Face_registration register_face_here(std::uint32_t face, Face_counts& counts) const;
   void sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                    Body_counts& counts);

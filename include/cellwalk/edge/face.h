@@ -14,7 +14,8 @@
 namespace cellwalk {
 
 /// What a face remembers: the walls in its plane that its inside overlaps, each seen from the cell on the side on which the
-/// face lies; in ascending order. Nearly always empty. It does not depend on the order of the corners of the face.
+/// face lies; in ascending order. Of walls that coincide without being glued, those whose cells are on that side. Nearly always
+/// empty. It does not depend on the order of the corners of the face.
 using Face_rests = boost::container::small_vector<Half_facet, 2>;
 
 /// The chain of a side of a face, from its first end to its second or, reversed, from its second to its first.
@@ -47,7 +48,8 @@ struct Face_counts {
 /// `body` is the part of the face that meets it: its inside, one of its edges, or p.
 struct Face_contact : Contact<3> {
   /// True if no wall comes through the face, but an edge of it, where it moved in the plane of a wall and passed its rim, took the
-  /// other side of it than the face. The time is then 0, and the point where p started.
+  /// other side of it than the face. The time is then 0, the point where p started, and the normal that of the wall on the side of
+  /// the face, if the wall has that side.
   bool is_edge_astray = false;
 };
 
@@ -65,7 +67,7 @@ struct Face_result {
 /// \pre `rests` are those of the face before the move; its edges pq and pr were swept and are free, at least up to the time of a contact;
 /// `chains` are those of its edges after the move; if one is null, a contact is looked for, and no rests are returned
 /// Degenerate cases: all positions of walls against the face. A face that moves in its own plane is free if its edges
-/// are. A face whose corners lie on one line has no inside.
+/// are, and on the walls on which it rests pass on its side. A face whose corners lie on one line has no inside.
 /// Cost: about 60 ns a cell near the face, where it meets no wall; some hundred ns a wall near it; some ten us for the time of
 /// a contact; up to milliseconds where it lies in the plane of walls, or an edge of it does.
 Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
@@ -79,11 +81,11 @@ struct Face_registration {
   Half_facet piercing = Half_facet::none;
 };
 
-/// The rests of a face where it stands, and whether a wall pierces it (invariant I3). `known` are rests to keep: those of a face
-/// that is valid are found again.
+/// The rests of a face where it stands, and whether a wall pierces it (invariant I3). `known` are rests to keep where its edges
+/// allow it: those of a face that is valid are found again.
 /// \pre `chains` are those of its edges
 /// Degenerate cases: a face that lies on walls rests on the side on which its edges do; on membranes that lie strictly inside it, on
-/// that of `known`, else on any, by a fixed rule.
+/// that of `known`, else on that towards (e, e^2, e^3), e small: a function of the geometry alone.
 /// Cost: some us where walls are near, up to milliseconds where it lies in their plane.
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
