@@ -120,6 +120,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   else
     are_faces_swept_ = false;
   if (first) return first;
+  is_apart_ = false;
   for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
   commit(vertex, to);
   return {};

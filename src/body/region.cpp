@@ -41,6 +41,7 @@ bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_option
 template <int D>
 [[gnu::noinline]] bool Body<D>::moves_in_new_region(std::span<const Point<D>> targets,
                                                     const Body_options& options, Body_counts& counts) {
+  if (region_ && outside_ == 0) is_apart_ = true;
   if (!options.clearance) {
     leave_region(counts);
     return false;

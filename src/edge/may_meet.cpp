@@ -91,9 +91,11 @@ bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& 
     const std::size_t next = (k + 1) % 3;
     if (sides[k] * sides[next] > 0) continue;
     if (sides[k] == 0 && sides[next] == 0) return true;
+    // Either way round; not from b, which may be so far away that differences to it forget the other points.
+    const std::size_t from = k == 1 ? next : k, to = k == 1 ? k : next;
     One_sided passed;
     for (std::size_t r = 0; r < loop.size() && passed; ++r)
-      passed.add(detail::along<Exact>(cell, i, r, *corners[k], *corners[next], counts));
+      passed.add(detail::along<Exact>(cell, i, r, *corners[from], *corners[to], counts));
     if (passed) return true;
   }
   boost::container::small_vector<int, 8> heights;
