@@ -18,8 +18,11 @@ template <int D>
                                                   std::vector<Blocked_move<D>>& blocked,
                                                   Body_counts& counts) {
   note_apart(options, counts);
+  // Planes prove that nothing is touched where nothing was.
+  const bool may_be_plain = options.sweep.touch == Touch::pass || is_apart_;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts) || moves_plainly(v, targets[v], options.sweep, counts))
+    if (moves_in_region(v, targets[v], counts) ||
+        (may_be_plain && moves_plainly(v, targets[v], options.sweep, counts)))
       continue;
     const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
@@ -59,8 +62,6 @@ bool Body<D>::touches_wall(Body_counts& counts) {
 template <int D>
 bool Body<D>::moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
                             Body_counts& counts) {
-  // Where neither vertex nor edges touched a wall, what is proved here is that they do not touch one either.
-  if (options.touch == Touch::stop && !is_apart_) return false;
   catch_up_vertex(vertex, counts);
   const Particle<D>& from = particles_[vertex];
   if (!detail::certainly_inside(*snapshot_, from.cell, target, counts.edges.walk)) return false;
