@@ -57,7 +57,7 @@ class ContactSearch(unittest.TestCase):
             self.assertEqual((self.out / "one" / name).read_bytes(), (self.out / "two" / name).read_bytes())
 
     def test_exact_and_exhaustive_agree(self):
-        for row in self.of("exact") + self.of("exhaustive"):
+        for row in self.of("exact") + self.of("exhaustive") + self.of("exhaustive_unlimited"):
             self.assertGreaterEqual(int(row["contacts"]), 100)
             self.assertEqual(row["contacts"], row["same_time"], row)
             self.assertEqual(row["contacts"], row["same_feature"], row)
@@ -70,6 +70,15 @@ class ContactSearch(unittest.TestCase):
             self.assertEqual("0", row["late"], row)
             self.assertLess(float(row["early_max"]), tolerance, row)
             self.assertGreater(float(row["early_max"]), tolerance / 2, row)
+
+    def test_bisection_of_the_segment_is_late_where_the_edge_left_an_obstacle(self):
+        rows = self.of("dichotomic_segment")
+        self.assertEqual(45, len(rows))
+        late = {world: 0 for world in WORLDS}
+        for row in rows:
+            self.assertLess(float(row["early_max"]), 2.0 ** -int(row["tolerance_bits"]), row)
+            late[row["world"]] += int(row["late"])
+        self.assertGreater(sum(late.values()), 0)
 
     def test_cells_of_the_end_are_not_enough(self):
         for row in self.of("exhaustive_traversed"):

@@ -43,8 +43,7 @@ struct Copy {
   std::vector<Body_contact<D>> contacts;
   Body_counts counts;
 
-  Copy(const Cell_soup<D>& soup, int k)
-      : exponent(k), snapshot(compiled(soup, k)), locator(snapshot) {}
+  Copy(const Cell_soup<D>& soup, int k) : exponent(k), snapshot(compiled(soup, k)), locator(snapshot) {}
 
   static Snapshot<D> compiled(Cell_soup<D> soup, int k) {
     soup.points = all_scaled<D>(soup.points, k);
@@ -99,9 +98,9 @@ void expect_scaled(const Copy<D>& one, const Copy<D>& other, const std::string& 
 Body_options options_of(std::uint64_t turn, bool sweeps_faces) {
   Body_options options;
   options.sweep.sweep = sweeps_faces ? Sweep::faces : turn % 2 == 0 ? Sweep::triangle : Sweep::three_segments;
-  options.sweep.search = std::array{Contact_search::exact, Contact_search::exact, Contact_search::dichotomic,
-                                    Contact_search::exhaustive,
-                                    Contact_search::dichotomic_segment}[turn / 2 % 5];
+  options.sweep.search =
+      std::array{Contact_search::exact, Contact_search::exact, Contact_search::dichotomic,
+                 Contact_search::exhaustive, Contact_search::dichotomic_segment}[turn / 2 % 5];
   options.sweep.tolerance = 0x1p-10;
   if (turn % 7 == 3) options.sweep.touch = Touch::stop;
   options.clearance = turn % 3 != 0;
