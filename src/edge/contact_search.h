@@ -16,8 +16,8 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
 
 /// The paper's bisection: walks of a temporary particle along the edge, each from p(s), rounded, to which p is walked from the
 /// last s that was free. The edge is free at the result's time, and blocked no later than `tolerance` after it; it may have been
-/// blocked before, unseen. None, if the edge is free at the end: then there is nothing to bisect. The normal is that at the vertex
-/// nearest to where the last walk was blocked.
+/// blocked before, unseen. None, if the edge is free at the end, or at all times tried before a wall stops p. The normal is that at
+/// the vertex nearest to where the last walk was blocked.
 template <int D>
 std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                          double tolerance, Edge_counts& counts);

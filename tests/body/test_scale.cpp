@@ -2,6 +2,7 @@
 // Everything times a power of two: every answer is the same times that, to the bit.
 #include <cellwalk/body/body.h>
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
@@ -243,6 +244,50 @@ void expect_flights_scale() {
   }
   EXPECT_GT(flights, 100u);
   EXPECT_GT(contacts, 150u);
+}
+
+/// Doubles are nearest to each other at the origin: a lift by some of them there would be nothing, at any scale.
+template <int D>
+void expect_lifts_at_the_origin() {
+  const Cell_soup<D> soup = [] {
+    Grid_options<D> options;
+    options.cells.fill(3);
+    if constexpr (D == 2)
+      return square_grid(options);
+    else
+      return hex_grid(options);
+  }();
+  Point<D> inside, along, out;
+  inside.fill(0.5);
+  along.fill(0.5);
+  along[1] = -0.25;
+  out.fill(-0.25);
+  out[0] = -0.125;
+  for (const int k : exponents) {
+    Copy<D> unit(soup, 0), copy(soup, k);
+    for (const auto& [from, to] : {std::pair{Point<D>{}, along}, std::pair{inside, out}}) {
+      for (Copy<D>* c : {&unit, &copy}) {
+        c->place({{from}, {}, {}});
+        c->step(std::vector<Point<D>>{to}, {.clearance = false});
+      }
+      ASSERT_FALSE(unit.contacts.empty());
+      expect_scaled(unit, copy, "from a corner at the origin, or to it");
+      Particle<D> slid = unit.locator.particle_at(from), there = copy.locator.particle_at(scaled(from, k));
+      std::vector<Met_contact<D>> met;
+      Walk_counts counts;
+      advance(unit.snapshot, slid, to - from, {}, met, counts);
+      advance(copy.snapshot, there, scaled(to - from, k), {}, met, counts);
+      EXPECT_EQ(scaled(slid.position, k), there.position);
+    }
+    unit.place({{Point<D>{}}, {}, {}});
+    unit.step(std::vector<Point<D>>{along}, {.clearance = false});
+    EXPECT_EQ(unit.body->positions()[0][1], 16 * 0x1p-53) << "16 units in the last place of 1/2";
+  }
+}
+
+TEST(Scale, LiftsAtTheOrigin) {
+  expect_lifts_at_the_origin<2>();
+  expect_lifts_at_the_origin<3>();
 }
 
 TEST(Scale, BodiesAnswerAlikeAtAllScales2) { expect_all_branches<2>(); }
