@@ -235,7 +235,7 @@ TEST(Body_step, FarTargetsLeaveFiltersOfUse) {
     EXPECT_GT(c.contacts, 20u);
     EXPECT_GT(c.edges.event_sweeps, 20u);
     const Predicate_counts& signs = c.edges.walk.predicates;
-    EXPECT_LT(static_cast<double>(signs.fallbacks), 0.1 * static_cast<double>(signs.orientations));
+    EXPECT_LT(static_cast<double>(signs.fallbacks), 0.04 * static_cast<double>(signs.orientations));
     std::cout << c.contacts << " contacts, " << c.edges.event_sweeps << " sweeps by events, "
               << signs.fallbacks << " of " << signs.orientations << " signs exact\n";
   }
