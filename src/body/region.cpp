@@ -43,7 +43,9 @@ template <int D>
                                                     const Body_options& options, Body_counts& counts) {
   if (region_ && outside_ == 0) is_apart_ = true;
   if (!options.clearance) {
+    const bool is_apart = is_apart_;
     leave_region(counts);
+    is_apart_ = is_apart;
     return false;
   }
   if (!renew_region(targets, counts)) {
@@ -162,6 +164,7 @@ template <int D>
 void Body<D>::leave_region(Body_counts& counts) {
   catch_up(counts);
   region_.reset();
+  is_apart_ = false;  // walls may be put up next
 }
 
 template <int D>
