@@ -131,10 +131,9 @@ Vector<D> unit(Vector<D> v) {
   return (1 / length(v)) * v + Vector<D>{};  // no negative zeros for readers of tables
 }
 
-/// v less its part along a direction.
+/// v less its part along a unit vector.
 template <int D>
-Vector<D> across(const Vector<D>& v, const Vector<D>& direction) {
-  const Vector<D> along = unit<D>(direction);
+Vector<D> across(const Vector<D>& v, const Vector<D>& along) {
   return v - dot(v, along) * along;
 }
 
@@ -187,18 +186,18 @@ template <int D>
 Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
                       const Wall_contact<D>& contact, const Vector<D>& of_wall) {
   const Vector<D> back = unit<D>(triangle.a - triangle.b);
-  const auto turned = [&back](const Vector<D>& normal) {
-    return unit<D>((dot(normal, back) < 0 ? -1.0 : 1.0) * normal);
-  };
   const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.time));
   if (contact.kind == Contact_kind::facet) {
     // The wall may be one that the edge would come out of: then it is met from its other side.
-    if (const Vector<D> normal = turned(of_wall); is_against<D>(normal, back)) return normal;
+    const Vector<D> behind = -1.0 * of_wall + Vector<D>{};
+    if (is_against<D>(behind, back)) return behind;
   } else {
     const Vector<D> normal = perpendicular(snapshot, contact, edge, back);
-    if (length(normal) > parallel && is_against<D>(turned(normal), back)) return turned(normal);
-    if (is_against<D>(of_wall, back)) return of_wall;
+    const Vector<D> either = D == 2 ? normal : unit<D>(normal);  // in the plane it has length 1
+    const Vector<D> turned = (dot(normal, back) < 0 ? -1.0 : 1.0) * either + Vector<D>{};
+    if (length(normal) > parallel && is_against<D>(turned, back)) return turned;
   }
+  if (is_against<D>(of_wall, back)) return of_wall;
   // The edge is parallel to what it meets, or everything moves in one plane.
   const Vector<D> off_edge = across<D>(back, edge);
   return length(off_edge) > parallel ? unit<D>(off_edge) : length(back) > 0 ? back : of_wall;
