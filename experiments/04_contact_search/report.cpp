@@ -26,15 +26,20 @@ constexpr std::size_t quick_contacts = 150, full_contacts = 2000;
 std::vector<Search> all_searches() {
   std::vector<Search> searches{{Contact_search::exact},
                                {Contact_search::exhaustive, Search_cells::flooded},
+                               {.kind = Contact_search::exhaustive, .below = false},
                                {Contact_search::exhaustive, Search_cells::traversed}};
   for (int bits = least_bits; bits <= most_bits; bits += bits_step)
     searches.push_back({Contact_search::dichotomic, Search_cells::flooded, bits});
+  for (int bits = least_bits; bits <= most_bits; bits += bits_step)
+    searches.push_back({Contact_search::dichotomic_segment, Search_cells::flooded, bits});
   return searches;
 }
 
 std::string name_of(const Search& search) {
   if (search.kind == Contact_search::exact) return "exact";
   if (search.kind == Contact_search::dichotomic) return "dichotomic";
+  if (search.kind == Contact_search::dichotomic_segment) return "dichotomic_segment";
+  if (!search.below) return "exhaustive_unlimited";
   return search.cells == Search_cells::flooded ? "exhaustive" : "exhaustive_traversed";
 }
 
@@ -42,9 +47,7 @@ std::string name_of(const Search& search) {
 std::string text(double value) { return fmt::format("{:.6g}", value); }
 
 /// Bits of the tolerance, nothing for searches that have none.
-std::string bits_of(const Search& search) {
-  return search.kind == Contact_search::dichotomic ? std::to_string(search.bits) : "";
-}
+std::string bits_of(const Search& search) { return search.bits > 0 ? std::to_string(search.bits) : ""; }
 
 struct Spread {
   double mean, median, most;
@@ -91,12 +94,13 @@ void write_errors(const Tallies& tallies, const std::vector<Search>& searches,
 
 void write_costs(const Tallies& tallies, const std::vector<Search>& searches,
                  const std::filesystem::path& folder) {
-  io::Csv_writer out(folder / "costs.csv", {"world", "search", "tolerance_bits", "contacts", "search_sweeps",
-                                            "search_walls", "flooded_cells", "signs", "exact_signs"});
+  io::Csv_writer out(folder / "costs.csv",
+                     {"world", "search", "tolerance_bits", "contacts", "search_sweeps", "search_walks",
+                      "search_walls", "flooded_cells", "signs", "exact_signs"});
   for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
     out.row(world, name_of(search), bits_of(search), t.errors.size(), t.counts.search_sweeps,
-            t.counts.search_walls, t.counts.flooded_cells, t.counts.walk.predicates.orientations,
-            t.counts.walk.predicates.fallbacks);
+            t.counts.search_walks, t.counts.search_walls, t.counts.flooded_cells,
+            t.counts.walk.predicates.orientations, t.counts.walk.predicates.fallbacks);
   });
   out.commit();
 }

@@ -112,7 +112,8 @@ Sweep_options options_of(const Search& search) {
   Sweep_options options;
   options.search = search.kind;
   options.cells = search.cells;
-  if (search.kind == Contact_search::dichotomic) options.tolerance = std::ldexp(1.0, -search.bits);
+  options.below = search.below;
+  if (search.bits > 0) options.tolerance = std::ldexp(1.0, -search.bits);
   return options;
 }
 

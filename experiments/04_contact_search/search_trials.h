@@ -24,7 +24,8 @@ std::string_view name_of(World world);
 struct Search {
   Contact_search kind = Contact_search::exact;
   Search_cells cells = Search_cells::flooded;  ///< of an exhaustive one
-  int bits = 0;                                ///< of a dichotomic one: its tolerance is 2^-bits
+  int bits = 0;                                ///< of a dichotomic one: its tolerance is 2^-bits; else 0
+  bool below = true;                           ///< of an exhaustive one, see Sweep_options
 };
 
 /// Errors of one search at one contact; times are shares of the motion.

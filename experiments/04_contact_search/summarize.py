@@ -16,7 +16,9 @@ sys.path.insert(0, str(HERE.parent / "common"))
 import plots  # noqa: E402
 
 TOLERANCE = "tolerance of the dichotomic search (share of the motion)"
-ONE_SHOT = {"exact": "exact", "exhaustive": "exhaustive", "exhaustive_traversed": "exhaustive, cells of the edge at its end"}
+ONE_SHOT = {"exact": "exact", "exhaustive": "exhaustive", "exhaustive_unlimited": "exhaustive, beyond the end as well",
+            "exhaustive_traversed": "exhaustive, cells of the edge at its end"}
+BISECTIONS = {"dichotomic": "dichotomic", "dichotomic_segment": "dichotomic, of the segment"}
 
 
 def read(folder, name):
@@ -38,7 +40,7 @@ def tolerance(row):
 
 def name_of(row):
     if row["tolerance_bits"]:
-        return f'dichotomic, 2^-{row["tolerance_bits"]}'
+        return f'{BISECTIONS[row["search"]]}, 2^-{row["tolerance_bits"]}'
     return ONE_SHOT[row["search"]]
 
 
@@ -59,8 +61,9 @@ def error_table(errors):
 
 def cost_table(costs, timings):
     times = {key(r): float(r["us_per_contact"]) for r in timings}
-    return table(["search", "sweeps", "walls", "signs", "exact signs", "us"], [
-        [name_of(r), *(f'{int(r[c]) / int(r["contacts"]):.4g}' for c in ("search_sweeps", "search_walls", "signs", "exact_signs")),
+    return table(["search", "sweeps", "walks", "walls", "signs", "exact signs", "us"], [
+        [name_of(r), *(f'{int(r[c]) / int(r["contacts"]):.4g}'
+                       for c in ("search_sweeps", "search_walks", "search_walls", "signs", "exact_signs")),
          f"{times[key(r)]:.1f}" if key(r) in times else ""] for r in costs])
 
 

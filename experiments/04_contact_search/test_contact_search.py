@@ -57,7 +57,7 @@ class ContactSearch(unittest.TestCase):
             self.assertEqual((self.out / "one" / name).read_bytes(), (self.out / "two" / name).read_bytes())
 
     def test_exact_and_exhaustive_agree(self):
-        for row in self.of("exact") + self.of("exhaustive"):
+        for row in self.of("exact") + self.of("exhaustive") + self.of("exhaustive_unlimited"):
             self.assertGreaterEqual(int(row["contacts"]), 100)
             self.assertEqual(row["contacts"], row["same_time"], row)
             self.assertEqual(row["contacts"], row["same_feature"], row)
@@ -70,6 +70,17 @@ class ContactSearch(unittest.TestCase):
             self.assertEqual("0", row["late"], row)
             self.assertLess(float(row["early_max"]), tolerance, row)
             self.assertGreater(float(row["early_max"]), tolerance / 2, row)
+
+    def test_bisection_of_the_segment_keeps_its_tolerance_and_finds_most(self):
+        rows = self.of("dichotomic_segment")
+        self.assertEqual(45, len(rows))
+        for row in rows:
+            tolerance = 2.0 ** -int(row["tolerance_bits"])
+            self.assertLess(float(row["early_max"]), tolerance, row)
+            self.assertGreater(float(row["early_max"]), tolerance / 2, row)
+            self.assertEqual(row["none_found"], row["same_time"], row)
+            if int(row["tolerance_bits"]) >= 10:
+                self.assertLess(int(row["none_found"]), int(row["contacts"]) / 4, row)
 
     def test_cells_of_the_end_are_not_enough(self):
         for row in self.of("exhaustive_traversed"):

@@ -94,9 +94,10 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
 Motions sweep_edges(const Shared_world& self, const py::object& p, const py::object& targets,
                     const py::object& q, const std::string& sweep, const std::string& touch,
                     const std::string& search, const std::string& search_cells, double tolerance,
-                    int threads) {
+                    const std::string& search_limit, int threads) {
   check_threads(threads);
-  const Sweep_options options = to_sweep_options({sweep, touch, search, search_cells, tolerance});
+  const Sweep_options options =
+      to_sweep_options({sweep, touch, search, search_cells, tolerance, search_limit});
   return std::visit(
       [&]<int D>(const World<D>& world) {
         const auto from = points_of<D>(p, "p"), to = points_of<D>(targets, "targets"),
@@ -184,18 +185,22 @@ void bind_environment(py::module_& module) {
            "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
            "kernel: \"exact\", \"lazy\"; \"double\" and \"float\" may miss walls and are for experiments.\n"
            "threads: 0: all cores. The answers do not depend on it.")
-      .def("sweep", sweep_edges, py::arg("p"), py::arg("targets"), py::arg("q"), py::kw_only(),
-           py::arg("sweep") = "triangle", py::arg("touch") = "pass", py::arg("search") = "exact",
-           py::arg("search_cells") = "flooded", py::arg("tolerance") = 0x1p-20, py::arg("threads") = 0,
-           "Answers motions of edges: the end p[i] moves to targets[i] while the end q[i] stands still.\n\n"
-           "sweep: \"triangle\": all that the edge sweeps; \"three_segments\": the way of p, then the edge, "
-           "as in the "
-           "paper; \"faces\": the same as triangle, since an edge has no face.\n"
-           "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
-           "search: how a contact is located: \"exact\", \"dichotomic\" (within tolerance) or \"exhaustive\" "
-           "(among the "
-           "obstacles of the cells that search_cells says: \"flooded\" or \"traversed\").\n"
-           "threads: 0: all cores. The answers do not depend on it.")
+      .def(
+          "sweep", sweep_edges, py::arg("p"), py::arg("targets"), py::arg("q"), py::kw_only(),
+          py::arg("sweep") = "triangle", py::arg("touch") = "pass", py::arg("search") = "exact",
+          py::arg("search_cells") = "flooded", py::arg("tolerance") = 0x1p-20,
+          py::arg("search_limit") = "below", py::arg("threads") = 0,
+          "Answers motions of edges: the end p[i] moves to targets[i] while the end q[i] stands still.\n\n"
+          "sweep: \"triangle\": all that the edge sweeps; \"three_segments\": the way of p, then the edge, "
+          "as in the "
+          "paper; \"faces\": the same as triangle, since an edge has no face.\n"
+          "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
+          "search: how a contact is located: \"exact\", \"dichotomic\" (within tolerance), "
+          "\"dichotomic_segment\" (the paper's, which may be late) or \"exhaustive\" (among the obstacles of "
+          "the cells that search_cells says: \"flooded\" or \"traversed\"; search_limit: computing with "
+          "those "
+          "\"below\" the edge at its end, or \"none\": with all, which finds the same).\n"
+          "threads: 0: all cores. The answers do not depend on it.")
       .def("__repr__", [](const Shared_world& self) {
         return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", self.dimension(),
                            self.certificate.cells, self.certificate.walls);

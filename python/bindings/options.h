@@ -25,6 +25,7 @@ inline Touch to_touch(const std::string& word) {
 struct Sweep_words {
   std::string sweep, touch, search, search_cells;
   double tolerance;
+  std::string search_limit = "below";
 };
 
 /// \throw UsageError for a word that is none, or a tolerance outside (0,1]
@@ -34,9 +35,11 @@ inline Sweep_options to_sweep_options(const Sweep_words& words) {
       words.sweep, "sweep",
       {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}});
   options.touch = to_touch(words.touch);
+  options.below = choose<bool>(words.search_limit, "search_limit", {{"below", true}, {"none", false}});
   options.search = choose<Contact_search>(words.search, "search",
                                           {{"exact", Contact_search::exact},
                                            {"dichotomic", Contact_search::dichotomic},
+                                           {"dichotomic_segment", Contact_search::dichotomic_segment},
                                            {"exhaustive", Contact_search::exhaustive}});
   options.cells =
       choose<Search_cells>(words.search_cells, "search_cells",

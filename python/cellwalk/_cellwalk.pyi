@@ -13,7 +13,7 @@ _Points = numpy.typing.NDArray[numpy.float64]
 _Indices = numpy.typing.NDArray[numpy.integer[Any]]
 _Touch = Literal["pass", "stop"]
 _Sweep = Literal["three_segments", "triangle", "faces"]
-_Search = Literal["exact", "dichotomic", "exhaustive"]
+_Search = Literal["exact", "dichotomic", "dichotomic_segment", "exhaustive"]
 _Duplicates = Literal["refuse", "merge", "keep"]
 
 def build_features() -> dict[str, bool]: ...
@@ -100,6 +100,7 @@ class Environment:
         search: _Search = "exact",
         search_cells: Literal["flooded", "traversed"] = "flooded",
         tolerance: float = ...,
+        search_limit: Literal["below", "none"] = "below",
         threads: int = 0,
     ) -> Motions: ...
 

@@ -145,6 +145,10 @@ class Edges(unittest.TestCase):
         self.assertGreater(halved.contacts["time"][0], exact - 2.0**-10)
         all_walls = self.environment.sweep(self.p, self.t, self.q, search="exhaustive")
         self.assertEqual(all_walls.contacts["time"][0], exact)
+        of_all = self.environment.sweep(self.p, self.t, self.q, search="exhaustive", search_limit="none")
+        self.assertEqual(of_all.contacts["time"][0], exact)
+        segment = self.environment.sweep(self.p, self.t, self.q, search="dichotomic_segment", tolerance=2.0**-10)
+        self.assertGreater(segment.contacts["time"][0], exact - 2.0**-10)
         touching = self.environment.sweep(self.p[2:], numpy.array([[1.5, 1.0]]), self.q[2:], touch="stop")
         self.assertEqual(touching.status.tolist(), [Status.CONTACT])
 

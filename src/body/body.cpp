@@ -130,6 +130,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   if (options.sweep.sweep == Sweep::faces) sweep_faces(vertex, way, first, counts);
   if (first) return first;
   are_faces_swept_ &= options.sweep.sweep == Sweep::faces;
+  is_apart_ = false;
   for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
   commit(vertex, to);
   return {};

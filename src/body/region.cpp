@@ -42,8 +42,11 @@ bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_option
 template <int D>
 [[gnu::noinline]] bool Body<D>::moves_in_new_region(std::span<const Point<D>> targets,
                                                     const Body_options& options, Body_counts& counts) {
+  if (region_ && outside_ == 0) is_apart_ = true;
   if (!options.clearance) {
+    const bool is_apart = is_apart_;
     leave_region(counts);
+    is_apart_ = is_apart;
     return false;
   }
   if (!renew_region(targets, counts)) {
@@ -163,6 +166,7 @@ template <int D>
 void Body<D>::leave_region(Body_counts& counts) {
   catch_up(counts);
   region_.reset();
+  is_apart_ = false;  // walls may be put up next
 }
 
 template <int D>

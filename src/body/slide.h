@@ -5,11 +5,20 @@
 
 #include <cellwalk/kernel/point.h>
 
+#include "stop_candidates.h"
+
 namespace cellwalk::detail {
 
 /// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion is a few ulp
 /// each; a lift that is too small only costs another contact, since every move is checked exactly.
 constexpr double lift_ulps = 16;
+
+/// The lift of a motion from a position at a wall, along the normal of that. At the origin, where doubles are as near to each other
+/// as they get anywhere, the motion says what a few ulp are: so the lift is in proportion to the environment.
+template <int D>
+Vector<D> lift(const Point<D>& position, const Vector<D>& motion, const Vector<D>& normal) {
+  return (lift_ulps * ulp<D>(position == Point<D>{} ? motion : position)) * normal;
+}
 
 /// The part of a motion that two walls leave: none in the plane, that along their edge in space.
 inline Vector<2> along_both(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return {}; }

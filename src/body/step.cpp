@@ -11,6 +11,9 @@
 namespace cellwalk {
 namespace {
 
+/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
+constexpr double rounding = 0x1p-40;
+
 /// What is left of a motion that met walls, the last of them just now.
 template <int D>
 Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
@@ -19,8 +22,9 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   for (std::size_t i = normals.size() - 1; i-- > 0;) {
     if (dot(along, normals[i]) >= 0) continue;
     const Vector<D> both = detail::along_both(along, last, normals[i]);
+    const double most_into = rounding * length(both);
     const bool leads_out = std::all_of(normals.begin(), normals.end(),
-                                       [&](const Vector<D>& n) { return dot(both, n) >= -0x1p-40; });
+                                       [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
     return leads_out ? both : Vector<D>{};
   }
   return along;
@@ -50,7 +54,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
       normals.push_back(contact->contact.normal);
       const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
       if (!(length(left) > 0)) break;
-      target = positions_[v] + left + (detail::lift_ulps * detail::ulp<D>(positions_[v])) * normals.back();
+      target = positions_[v] + left + detail::lift<D>(positions_[v], left, normals.back());
       if (!is_finite(target)) break;
     }
   }

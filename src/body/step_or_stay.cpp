@@ -17,14 +17,45 @@ template <int D>
                                                   const Body_options& options,
                                                   std::vector<Blocked_move<D>>& blocked,
                                                   Body_counts& counts) {
+  note_apart(options, counts);
+  // Planes prove that nothing is touched where nothing was.
+  const bool may_be_plain = options.sweep.touch == Touch::pass || is_apart_;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts) || moves_plainly(v, targets[v], options.sweep, counts))
+    if (moves_in_region(v, targets[v], counts) ||
+        (may_be_plain && moves_plainly(v, targets[v], options.sweep, counts)))
       continue;
     const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts.contacts += answer.stays();
     blocked.push_back(answer);
   }
+}
+
+/// Finds out whether the body is apart from all walls, where that matters and is not known.
+template <int D>
+void Body<D>::note_apart(const Body_options& options, Body_counts& counts) {
+  if (region_ && outside_ == 0)
+    is_apart_ = true;
+  else if (options.sweep.touch == Touch::pass)
+    is_apart_ = false;  // what moves now may touch
+  else if (!is_apart_)
+    is_apart_ = !touches_wall(counts);
+}
+
+/// True if a vertex or an edge touches a wall.
+template <int D>
+bool Body<D>::touches_wall(Body_counts& counts) {
+  const auto touches = [&](std::uint32_t u, std::uint32_t v) {
+    catch_up_vertex(u, counts);
+    return closed_meeting<D>(*snapshot_, particles_[u].cell, {positions_[u], positions_[v], positions_[u]},
+                             counts.edges)
+        .has_value();
+  };
+  for (const auto& [u, v] : edges_)
+    if (touches(u, v)) return true;
+  for (std::uint32_t v = 0; v < positions_.size(); ++v)
+    if (corner_begin_[v] == corner_begin_[v + 1] && touches(v, v)) return true;
+  return false;
 }
 
 /// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves outside of regions.
@@ -125,6 +156,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
   crossed_.clear();
   // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
   const bool needs_way = options.sweep.sweep != Sweep::three_segments;
+  const std::uint64_t signs = counts.edges.walk.predicates.orientations;
   Walk_options recorded;
   if (needs_way) {
     recorded.visited = &visited_;
@@ -136,7 +168,16 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
     answer.contact = walked.contact;
     return answer;
   }
-  const Way<D> way{from, to, visited_, crossed_, false};
+  // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
+  const bool is_apart = is_apart_ && counts.edges.walk.predicates.orientations == signs;
+  if (options.sweep.touch == Touch::stop && !is_apart)
+    if (const auto touch =
+            closed_meeting<D>(*snapshot_, from.cell, {from.position, target, from.position}, counts.edges)) {
+      answer.is_vertex_blocked = true;
+      answer.contact = *touch;
+      return answer;
+    }
+  const Way<D> way{from, to, visited_, crossed_, false, is_apart};
   const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
   moved_chains_.resize(end - begin);
   for (std::uint32_t i = begin; i < end; ++i) {
@@ -162,14 +203,26 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
   catch_up_vertex(corner.other, counts);
   const Particle<D>& q = particles_[corner.other];
   Edge_counts& edges = counts.edges;
-  if (is_free_at_end(way.to, q, options, edges)) return false;
-  ++edges.edges;
+  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
+  const bool stops = options.touch == Touch::stop;
+  if (is_free_at_end(way.to, q, options, edges)) {
+    if (!stops || (is_apart_ && way.to.dimension == D)) return false;
+  } else {
+    ++edges.edges;
+  }
+  const std::uint64_t signs = edges.walk.predicates.orientations;
   const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk);
-  if (walked.status == Walk_status::arrived && walked.cell == q.cell) return false;
+  const bool is_plain = is_apart_ && edges.walk.predicates.orientations == signs;
+  if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
   std::optional<Wall_contact<D>> contact = walked.contact;
-  if (!contact || contact->kind != Contact_kind::facet)
-    contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+  if (!contact || contact->kind != Contact_kind::facet) {
+    if (stops)
+      contact =
+          closed_meeting<D>(*snapshot_, way.to.cell, {way.to.position, q.position, way.to.position}, edges);
+    else
+      contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+  }
   if (contact && !answer.contact) answer.contact = contact;
   return contact.has_value();
 }
@@ -186,19 +239,38 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
     return false;
   }
   catch_up_edge(corner.edge, counts);
-  std::optional<Chain> chain = free_chain(*snapshot_, way, q, seen_from(corner), options, counts.edges);
-  if (!chain) {
-    answer.swept_edges |= std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
-    Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk);
-    if (anew.contact && (anew.contact->kind != Contact_kind::facet || anew.contact->time == 1))
-      anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
-    if (anew.contact) {
-      if (!answer.contact) answer.contact = anew.contact;
-      return true;
-    }
-    chain = std::move(anew.chain);
+  const auto meeting = [&](const Cell start, const Swept_triangle<D>& triangle) {
+    return closed_meeting(*snapshot_, start, triangle, counts.edges);
+  };
+  const bool stops = options.touch == Touch::stop;
+  std::optional<Free_chain> free = free_chain(*snapshot_, way, q, seen_from(corner), options, counts.edges);
+  if (free && stops && !free->is_apart &&
+      meeting(way.from.cell, {way.from.position, way.to.position, q.position}))
+    free.reset();
+  if (free) {
+    moved.chain = std::move(free->chain);
+    return false;
   }
-  moved.chain = *chain;
+  answer.swept_edges |= std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
+  const std::uint64_t signs = counts.edges.walk.predicates.orientations;
+  Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk);
+  // Where a wall is passed in its inside, no other way helps.
+  const bool is_crossed =
+      anew.contact && anew.contact->kind == Contact_kind::facet && anew.contact->time != 1;
+  if (stops && !is_crossed) {
+    const bool is_plain = way.is_apart && counts.edges.walk.predicates.orientations == signs;
+    if (anew.contact || !is_plain) {
+      anew.contact = meeting(way.to.cell, {way.to.position, q.position, way.to.position});
+      if (!anew.contact) anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
+    }
+  } else if (anew.contact && !is_crossed) {
+    anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
+  }
+  if (anew.contact) {
+    if (!answer.contact) answer.contact = anew.contact;
+    return true;
+  }
+  moved.chain = std::move(anew.chain);
   return false;
 }
 
@@ -220,6 +292,8 @@ bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, co
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
+  template void Body<D>::note_apart(const Body_options&, Body_counts&);                                     \
+  template bool Body<D>::touches_wall(Body_counts&);                                                        \
   template void Body<D>::move_each_or_stay(std::span<const Point<D>>, const Body_options&,                  \
                                            std::vector<Blocked_move<D>>&, Body_counts&);                    \
   template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \

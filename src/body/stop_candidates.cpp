@@ -47,7 +47,7 @@ bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& cont
       }
     if (is_new && try_at(x)) return true;
   }
-  const double unit = ulp<D>(nearer);
+  const double unit = ulp<D>(nearer == Point<D>{} ? p : nearer);
   for (int shift = 1; shift <= largest_shift; shift *= 2) {
     const Point<D> x = nearer + (shift * unit) * contact.normal;
     if (is_finite(x) && try_at(x)) return true;

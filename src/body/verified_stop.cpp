@@ -46,7 +46,7 @@ bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const P
   const Point<D> from = particle.position;
   if (contact.time == 0) return false;
   if (try_move(snapshot, particle, contact.point, counts)) return particle.position != from;
-  const double unit = detail::ulp<D>(contact.point);
+  const double unit = detail::ulp<D>(contact.point == Point<D>{} ? from : contact.point);
   for (int shift = 1; shift <= largest_shift; shift *= 2)
     if (try_move(snapshot, particle, contact.point + (shift * unit) * contact.normal, counts)) return true;
   for (int k = shrink_steps; k >= 1; --k) {
@@ -73,7 +73,7 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
     velocity = respond(velocity, result.contact->normal, met, first, response);
     if (met.size() - first >= static_cast<std::size_t>(response.most_contacts)) return velocity;
     if (!(length(velocity) > 0)) return velocity;
-    lift = (detail::lift_ulps * detail::ulp<D>(particle.position)) * result.contact->normal;
+    lift = detail::lift<D>(particle.position, (1 - passed) * velocity, result.contact->normal);
   }
 }
 

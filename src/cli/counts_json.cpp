@@ -34,6 +34,7 @@ nlohmann::ordered_json to_json(const Edge_counts& c) {
           {"pierced", c.pierced},
           {"searches", c.searches},
           {"search_sweeps", c.search_sweeps},
+          {"search_walks", c.search_walks},
           {"search_walls", c.search_walls},
           {"search_misses", c.search_misses}};
 }

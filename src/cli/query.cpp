@@ -152,7 +152,7 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
     throw Error(Error_code::usage,
                 "--picture needs --kernel exact and --touch pass: it shows the exact walk, to its end");
   if (options.mode == Query_mode::move) {
-    need({"--sweep", "--contact", "--tolerance", "--search-cells"}, "--mode sweep");
+    need({"--sweep", "--contact", "--tolerance", "--search-cells", "--search-limit"}, "--mode sweep");
     if (options.strategy == Walk_strategy::certified && !is_exact)
       throw Error(Error_code::usage,
                   "--strategy certified needs --kernel exact; take exit_rule or predictive_simplex");
@@ -162,8 +162,11 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
   }
   need({"--strategy", "--record"}, "--mode move");
   if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
-  if (options.sweep.search != Contact_search::dichotomic) need({"--tolerance"}, "--contact dichotomic");
-  if (options.sweep.search != Contact_search::exhaustive) need({"--search-cells"}, "--contact exhaustive");
+  if (options.sweep.search != Contact_search::dichotomic &&
+      options.sweep.search != Contact_search::dichotomic_segment)
+    need({"--tolerance"}, "--contact dichotomic");
+  if (options.sweep.search != Contact_search::exhaustive)
+    need({"--search-cells", "--search-limit"}, "--contact exhaustive");
 }
 
 void query(Query_options& options, const CLI::App& command) {
@@ -212,13 +215,18 @@ void add_sweep_options(CLI::App& command, Sweep_options& options) {
       command, "--contact", options.search,
       {{"exact", Contact_search::exact},
        {"dichotomic", Contact_search::dichotomic},
+       {"dichotomic_segment", Contact_search::dichotomic_segment},
        {"exhaustive", Contact_search::exhaustive}},
-      "How a contact of the edge is located. exact: where the motion cannot go on. dichotomic: by bisection. "
+      "How a contact of the edge is located. exact: where the motion cannot go on. dichotomic: by bisection "
+      "of "
+      "the sweep. dichotomic_segment: by bisection of walks along the edge, as in the paper; may be late. "
       "exhaustive: the first obstacle vertex (2D) or edge (3D) in the swept triangle")
       ->group(group);
   command
-      .add_option("--tolerance", options.tolerance,
-                  "With --contact dichotomic: the time is at most this much too early; in (0,1]")
+      .add_option(
+          "--tolerance", options.tolerance,
+          "With --contact dichotomic or dichotomic_segment: when the motion is halved no more; in (0,1]. "
+          "The time of dichotomic is at most this much too early")
       ->check([](const std::string& text) {
         double value = 0;
         const bool fits = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1;
@@ -232,6 +240,11 @@ void add_sweep_options(CLI::App& command, Sweep_options& options) {
       {{"flooded", Search_cells::flooded}, {"traversed", Search_cells::traversed}},
       "With --contact exhaustive: the obstacles of which cells are looked at. flooded: those that the swept "
       "triangle meets. traversed: those that the edge passes at its end, as in the paper")
+      ->group(group);
+  add_choice(
+      command, "--search-limit", options.below, {{"below", true}, {"none", false}},
+      "With --contact exhaustive: which of their obstacles are computed with. below: those that are not "
+      "beyond the edge at its end. none: all, which finds the same and costs more")
       ->group(group);
 }
 

@@ -45,6 +45,7 @@ Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
   pierced += other.pierced;
   searches += other.searches;
   search_sweeps += other.search_sweeps;
+  search_walks += other.search_walks;
   search_walls += other.search_walls;
   search_misses += other.search_misses;
   walk += other.walk;

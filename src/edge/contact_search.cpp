@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "contact_search.h"
 
+#include <cellwalk/kernel/predicates.h>
 #include <cellwalk/walk/detail/star.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "events.h"
+#include "exit_time.h"
 #include "may_meet.h"
 #include "swept_meeting.h"
 
@@ -17,7 +19,7 @@ namespace {
 
 /// The unit mean of the normals of the walls round a vertex, on the side of a cell.
 template <int D>
-Vector<D> vertex_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t vertex) {
+Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t vertex) {
   Vector<D> sum{};
   Flooded found{start};
   for (std::size_t head = 0; head < found.size(); ++head) {
@@ -35,6 +37,33 @@ Vector<D> vertex_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t v
   }
   const double size = length(sum);
   return size > 0 ? (1 / size) * sum : sum;
+}
+
+/// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the motion.
+template <int D>
+Contact<D> bisected(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& met, double time,
+                    std::size_t corner) {
+  Contact<D> contact;
+  static_cast<Wall_contact<D>&>(contact) = met;
+  contact.body = Body_feature::edge;
+  contact.impact = Exact_time(time);
+  contact.time = time;
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(met.facet));
+  const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(met.facet))[corner]);
+  const Vector<D> normal = mean_normal(snapshot, snapshot.cell_of(met.facet), vertex);
+  if (dot(normal, way.from.position - way.to.position) > 0) contact.normal = normal;
+  return contact;
+}
+
+/// The vertex of a wall that is nearest to a point: its place in the loop.
+template <int D>
+std::size_t nearest_corner(const Snapshot<D>& snapshot, Half_facet wall, const Point<D>& x) {
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
+  const auto loop = cell.loop(snapshot.facet_of(wall));
+  const auto nearest = std::min_element(loop.begin(), loop.end(), [&](std::uint16_t u, std::uint16_t v) {
+    return length(cell.point(u) - x) < length(cell.point(v) - x);
+  });
+  return static_cast<std::size_t>(nearest - loop.begin());
 }
 
 /// The cells that the edge passes at its end.
@@ -75,34 +104,69 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
     const double middle = low + (high - low) / 2;
     (is_free_until(middle) ? low : high) = middle;
   }
-  Contact<D> contact;
-  static_cast<Wall_contact<D>&>(contact) = *last;
-  contact.body = Body_feature::edge;
-  contact.impact = Exact_time(low);
-  contact.time = low;
-  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
-  const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(contact.facet))[contact.corner]);
-  const Vector<D> normal = vertex_normal(snapshot, snapshot.cell_of(contact.facet), vertex);
-  if (length(normal) > 0) contact.normal = normal;
-  return contact;
+  last->normal = edge_normal(snapshot, {way.from.position, way.to.position, q.position}, *last, last->normal);
+  return bisected(snapshot, way, *last, low, last->corner);
+}
+
+template <int D>
+std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                         double tolerance, Edge_counts& counts) {
+  ++counts.searches;
+  const Point<D>&a = way.from.position, &b = way.to.position;
+  std::optional<Wall_contact<D>> last;
+  const auto is_free_at = [&](const Particle<D>& p) {
+    ++counts.search_walks;
+    const Chain_result<D> walked = find_chain(snapshot, p, q, counts.walk);
+    if (walked.contact) last = walked.contact;
+    return !walked.contact;
+  };
+  double low = 0, high = 1;
+  if (way.blocked)
+    high = to_time(exit_time<D>(snapshot.view(way.visited.back()), a, b, counts.walk).value()).rounded();
+  else if (is_free_at(way.to)) {
+    ++counts.search_misses;
+    return {};
+  }
+  Particle<D> reached = way.from;
+  while (high - low > tolerance) {
+    const double middle = low + (high - low) / 2;
+    Particle<D> p = reached;
+    const bool arrives =
+        move(snapshot, p, point_on<D>(a, b, middle), counts.walk).status == Walk_status::arrived;
+    if (arrives && is_free_at(p)) {
+      low = middle;
+      reached = p;
+    } else {
+      high = middle;
+    }
+  }
+  if (!last) {
+    ++counts.search_misses;
+    return {};
+  }
+  last->time = low;
+  last->normal = edge_normal(snapshot, {a, b, q.position}, *last, last->normal);
+  return bisected(snapshot, way, *last, low, nearest_corner(snapshot, last->facet, last->point));
 }
 
 template <int D>
 std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const Way<D>& way,
-                                            const Particle<D>& q, Search_cells which, Edge_counts& counts) {
+                                            const Particle<D>& q, const Search_limits& limits,
+                                            Edge_counts& counts) {
   ++counts.searches;
   const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  const Flooded cells = which == Search_cells::flooded ? flooded(snapshot, way.from.cell, triangle, counts)
-                                                       : traversed(snapshot, way.to, q.position, counts.walk);
+  const Flooded cells = limits.cells == Search_cells::flooded
+                            ? flooded(snapshot, way.from.cell, triangle, counts)
+                            : traversed(snapshot, way.to, q.position, counts.walk);
   std::optional<Contact<D>> first;
   for (const Cell c : cells) {
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (!snapshot.is_impassable(f) || !may_meet(cell, i, triangle, counts.walk)) continue;
+      if (!snapshot.is_impassable(f) || (limits.below && !may_meet(cell, i, triangle, counts.walk))) continue;
       ++counts.search_walls;
       for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
-        if (!may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
+        if (limits.below && !may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
         const auto meeting = first_meeting<D>(triangle, half_spaces_of_ridge(cell, i, k));
         if (!meeting) continue;
         const Contact<D> contact = contact_with(snapshot, triangle, f, *meeting);
@@ -117,8 +181,10 @@ std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const W
 #define CELLWALK_INSTANTIATE(D)                                                                   \
   template Contact<D> dichotomic_search<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
                                            const Chain&, double, Edge_counts&);                   \
-  template std::optional<Contact<D>> exhaustive_search<D>(const Snapshot<D>&, const Way<D>&,      \
-                                                          const Particle<D>&, Search_cells, Edge_counts&);
+  template std::optional<Contact<D>> segment_search<D>(const Snapshot<D>&, const Way<D>&,         \
+                                                       const Particle<D>&, double, Edge_counts&); \
+  template std::optional<Contact<D>> exhaustive_search<D>(                                        \
+      const Snapshot<D>&, const Way<D>&, const Particle<D>&, const Search_limits&, Edge_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

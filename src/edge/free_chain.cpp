@@ -10,12 +10,12 @@ namespace cellwalk {
 namespace {
 
 template <int D>
-std::optional<Chain> chain_by_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                     const Chain& before, Edge_counts& counts) {
+std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Way<D>& way,
+                                          const Particle<D>& q, const Chain& before, Edge_counts& counts) {
   ++counts.event_sweeps;
   const Chain_result<D> result = detail::follow_events(snapshot, way, q, before, counts.walk);
   if (result.contact) return {};
-  return result.chain;
+  return Free_chain{result.chain};
 }
 
 /// What the walls near a swept triangle prove of it.
@@ -46,16 +46,20 @@ Walls_say ask_walls(const Snapshot<D>& snapshot, Cell start, const Swept_triangl
 }  // namespace
 
 template <int D>
-std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                     const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (way.from.position == way.to.position) {
     ++counts.edges;
     ++counts.same_chain;
-    return before;
+    return Free_chain{before, way.is_apart};
   }
   Chain_result<D> result;
-  if (detail::is_confirmed(snapshot, way, q, before, options.certificates, result, counts))
-    return result.chain;
+  const std::uint64_t signs = counts.walk.predicates.orientations;
+  if (detail::is_confirmed(snapshot, way, q, before, options.certificates, result, counts)) {
+    // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside, or its ends lie
+    // strictly inside of cells. With the way of p, so does the edge at all times before, but perhaps where it started.
+    return Free_chain{result.chain, way.is_apart && counts.walk.predicates.orientations == signs};
+  }
   ++counts.changed;
   // Where a facet is passed in its inside, the edge is on both sides of it, wherever it came from.
   const bool is_crossed =
@@ -63,14 +67,14 @@ std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, 
   if (is_crossed) return {};
   if (options.sweep == Sweep::three_segments)
     return result.contact || result.has_choice ? chain_by_events(snapshot, way, q, before, counts)
-                                               : result.chain;
+                                               : Free_chain{result.chain};
   if (options.certificates.flood) {
     const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
     switch (ask_walls(snapshot, way.from.cell, triangle, counts)) {
       case Walls_say::blocked:
         return {};
       case Walls_say::free:
-        if (!result.contact) return result.chain;
+        if (!result.contact) return Free_chain{result.chain, true};
         break;
       case Walls_say::nothing:
         break;
@@ -79,9 +83,9 @@ std::optional<Chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, 
   return chain_by_events(snapshot, way, q, before, counts);
 }
 
-template std::optional<Chain> free_chain<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
-                                            const Chain&, const Sweep_options&, Edge_counts&);
-template std::optional<Chain> free_chain<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
-                                            const Chain&, const Sweep_options&, Edge_counts&);
+template std::optional<Free_chain> free_chain<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
+                                                 const Chain&, const Sweep_options&, Edge_counts&);
+template std::optional<Free_chain> free_chain<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
+                                                 const Chain&, const Sweep_options&, Edge_counts&);
 
 }  // namespace cellwalk

@@ -42,6 +42,12 @@ bool boxes_meet(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>
   return true;
 }
 
+/// True if the triangle is the way of p alone.
+template <int D>
+bool is_segment(const Swept_triangle<D>& t) {
+  return t.q == t.a;
+}
+
 int sign_in_plane(const Point<2>& u, const Point<2>& v, const Point<2>& x, Walk_counts& counts) {
   return Exact::orientation(counts.predicates, u, v, x);
 }
@@ -69,7 +75,10 @@ bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& 
   for (const auto* corner : corners) sum += sign_in_plane(u, v, *corner, counts);
   if (std::abs(sum) == 3) return false;
   const int turn = sign_in_plane(t.a, t.b, t.q, counts);
-  if (turn == 0) return true;
+  if (turn == 0) {
+    // A way without an edge is a segment: the line of that may separate them.
+    return !is_segment<2>(t) || sign_in_plane(t.a, t.b, u, counts) * sign_in_plane(t.a, t.b, v, counts) <= 0;
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const Point<2>&c = *corners[k], &d = *corners[(k + 1) % 3];
     if (turn * sign_in_plane(c, d, u, counts) < 0 && turn * sign_in_plane(c, d, v, counts) < 0) return false;
@@ -91,11 +100,14 @@ bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& 
     const std::size_t next = (k + 1) % 3;
     if (sides[k] * sides[next] > 0) continue;
     if (sides[k] == 0 && sides[next] == 0) return true;
+    // Either way round; not from b, which may be so far away that differences to it forget the other points.
+    const std::size_t from = k == 1 ? next : k, to = k == 1 ? k : next;
     One_sided passed;
     for (std::size_t r = 0; r < loop.size() && passed; ++r)
-      passed.add(detail::along<Exact>(cell, i, r, *corners[k], *corners[next], counts));
+      passed.add(detail::along<Exact>(cell, i, r, *corners[from], *corners[to], counts));
     if (passed) return true;
   }
+  if (is_segment<3>(t)) return false;
   boost::container::small_vector<int, 8> heights;
   for (const std::uint16_t v : loop) heights.push_back(sign(t.a, t.b, t.q, cell.point(v)));
   for (std::size_t k = 0; k < loop.size(); ++k) {

@@ -13,7 +13,7 @@
 namespace cellwalk::detail {
 
 /// False proves that closed facet i of a cell misses the closed triangle. True where they meet, where they may meet in one
-/// plane, and in 2D where the triangle is a segment whose line the facet meets.
+/// plane or line, and where the triangle is a segment, other than from a = q to b, whose line or box the facet meets.
 bool may_meet(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts);
 bool may_meet(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts);
 

@@ -53,17 +53,23 @@ class Moving_orientation {
   }
 
  private:
+  // The moving point comes last, so that it is in one difference only: a target may be so far away that one of it and a point
+  // of the environment forgets the point. In space that turns the sign. All begins at a point of the environment, since lines
+  // that are parallel to an axis, as the motion may be, stay that in differences of their own points.
   Orientation_value value(const Point<D>& x, Predicate_counts& counts) const {
-    if constexpr (D == 2)
-      return orientation_value(counts, x, fixed_[0], fixed_[1]);
-    else
-      return orientation_value(counts, x, fixed_[0], fixed_[1], fixed_[2]);
+    if constexpr (D == 2) {
+      return orientation_value(counts, fixed_[0], fixed_[1], x);
+    } else {
+      Orientation_value value = orientation_value(counts, fixed_[1], fixed_[2], fixed_[0], x);
+      value.sign = -value.sign;
+      return value;
+    }
   }
   Ring exact(const Point<D>& x) const {
     if constexpr (D == 2)
-      return Exact_value::orientation(x, fixed_[0], fixed_[1]);
+      return Exact_value::orientation(fixed_[0], fixed_[1], x);
     else
-      return Exact_value::orientation(x, fixed_[0], fixed_[1], fixed_[2]);
+      return -Exact_value::orientation(fixed_[1], fixed_[2], fixed_[0], x);
   }
 
   Point<D> a_, b_;

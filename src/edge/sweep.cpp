@@ -7,6 +7,7 @@
 #include "contact_search.h"
 #include "events.h"
 #include "exit_time.h"
+#include "moving_walk.h"
 #include "swept_meeting.h"
 #include "touch.h"
 
@@ -34,19 +35,45 @@ Contact<D> edge_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Pa
   return contact;
 }
 
+/// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
+/// be a double. Where p moves in the line of the edge, the events say the same.
+template <int D>
+bool is_free_where_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                           Walk_counts& counts) {
+  if (are_collinear(way.from.position, way.to.position, q.position)) return false;
+  // The motion seen backwards: p enters its last cell at the last of the times at which it passes planes of the facets beyond
+  // which it comes from, and what is just after that then is just before it now.
+  const Swept_triangle<D> backwards{way.to.position, way.from.position, q.position};
+  const Cell last = way.visited.back();
+  const Cell_view<D> cell = snapshot.view(last);
+  detail::Moment<D> time;
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    const auto side = detail::moving_side<D>(cell, i, backwards.a, backwards.b, counts);
+    if (side.at_0() <= 0) continue;
+    if (!side.has_root()) return true;  // p is blocked at once
+    if (const auto root = detail::Moment<D>::root_of(side); time < root) time = root;
+  }
+  const detail::Moving_line<D> line(backwards, time, counts);
+  const auto accept = [](const Chain&) { return true; };
+  return detail::Moving_walk<D, decltype(accept)>(snapshot, line, q, accept).from(last);
+}
+
 /// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
 template <int D>
 Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                        const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
+  Chain_result<D> result{before, {}, {}};
   if (way.blocked) {
-    Chain_result<D> result{before, {}, {}};
+    ++counts.edges;
+    ++counts.changed;
     walk_start(snapshot, result.chain, way.crossed);
-    return result;
+    if (is_free_where_blocked(snapshot, way, q, counts.walk)) return result;
+  } else {
+    result = check_third_segment(snapshot, way, q, before, counts, options.certificates);
+    if (!result.contact && !result.has_choice) return result;
   }
-  Chain_result<D> result = check_third_segment(snapshot, way, q, before, counts, options.certificates);
-  if (!result.contact && !result.has_choice) return result;
   // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
   // goes on, is for the events to say.
   ++counts.event_sweeps;
@@ -61,8 +88,13 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
       break;
     case Contact_search::dichotomic:
       return detail::dichotomic_search(snapshot, way, q, before, options.tolerance, counts);
+    case Contact_search::dichotomic_segment:
+      if (const auto contact = detail::segment_search(snapshot, way, q, options.tolerance, counts))
+        return *contact;
+      break;
     case Contact_search::exhaustive:
-      if (const auto contact = detail::exhaustive_search(snapshot, way, q, options.cells, counts))
+      if (const auto contact =
+              detail::exhaustive_search(snapshot, way, q, {options.cells, options.below}, counts))
         return *contact;
       break;
   }
@@ -92,6 +124,12 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const 
   result.impact = to_time(detail::exit_time<D>(last, way.from.position, way.to.position, counts).value());
   result.time = result.impact.rounded();
   return result;
+}
+
+template <int D>
+std::optional<Contact<D>> closed_meeting(const Snapshot<D>& snapshot, Cell start,
+                                         const Swept_triangle<D>& triangle, Edge_counts& counts) {
+  return detail::first_touch(snapshot, start, triangle, counts, true);
 }
 
 template <int D>
@@ -139,6 +177,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                                         Walk_counts&);                                                       \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \
                                                     Edge_counts&);                                           \
+  template std::optional<Contact<D>> closed_meeting<D>(const Snapshot<D>&, Cell, const Swept_triangle<D>&,   \
+                                                       Edge_counts&);                                        \
   template Sweep_result<D> sweep_edge<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,            \
                                          const Particle<D>&, const Chain&, const Sweep_options&,             \
                                          Edge_counts&);

@@ -68,9 +68,12 @@ bool lies_between(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
   return true;
 }
 
+/// What of the triangle counts.
+enum class Part { all, off_start };
+
 template <int D>
 std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
-                                              const Half_spaces<D>& feature) {
+                                              const Half_spaces<D>& feature, Part part = Part::off_start) {
   const std::array<Ring_vector<D>, 3> corners{exact<D>(triangle.a), exact<D>(triangle.b),
                                               exact<D>(triangle.q)};
   Polygon polygon{{{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}};
@@ -84,15 +87,17 @@ std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
   for (const Corner& corner : polygon) {
     const Weights& w = corner.at;
     const Ring off_q = w[0] + w[1];
-    if (CGAL::is_zero(off_q)) continue;
-    const Fraction here(w[1], off_q), here_off_p(w[2], off_q);
+    const bool is_q = CGAL::is_zero(off_q);  // which the edge never leaves
+    if (is_q && part == Part::off_start) continue;
+    const Fraction here = is_q ? Fraction(0) : Fraction(w[1], off_q),
+                   here_off_p = is_q ? Fraction(1) : Fraction(w[2], off_q);
     goes_on |= here.sign() > 0;
     if (first && (here > time || (here == time && here_off_p >= off_p))) continue;
     first = &w;
     time = here;
     off_p = here_off_p;
   }
-  if (!first || !goes_on) return {};
+  if (!first || (part == Part::off_start && !goes_on)) return {};
   Meeting<D> meeting{time, {}, CGAL::is_zero((*first)[2])};
   meeting.point.weight = (*first)[0] + (*first)[1] + (*first)[2];
   for (int i = 0; i < D; ++i)
@@ -126,30 +131,36 @@ Vector<D> unit(Vector<D> v) {
   return (1 / length(v)) * v + Vector<D>{};  // no negative zeros for readers of tables
 }
 
-/// v less its part along a direction.
+/// v less its part along a unit vector.
 template <int D>
-Vector<D> across(const Vector<D>& v, const Vector<D>& direction) {
-  const Vector<D> along = unit<D>(direction);
+Vector<D> across(const Vector<D>& v, const Vector<D>& along) {
   return v - dot(v, along) * along;
 }
 
-/// A direction at right angles to the edge and the feature that it meets.
+/// A direction at right angles to the edge and the feature that it meets, as long as the sine of the angle between the two. All
+/// directions given are unit vectors, so that nothing depends on the scale.
 Vector<2> perpendicular(const Snapshot<2>&, const Wall_contact<2>&, const Vector<2>& edge, const Vector<2>&) {
   return {-edge[1], edge[0]};
 }
 
 Vector<3> perpendicular(const Snapshot<3>& snapshot, const Wall_contact<3>& contact, const Vector<3>& edge,
                         const Vector<3>& back) {
-  if (contact.kind == Contact_kind::vertex) return across<3>(unit<3>(back), edge);
+  if (contact.kind == Contact_kind::vertex) return across<3>(back, edge);
   const Cell_view<3> cell = snapshot.view(snapshot.cell_of(contact.facet));
   const auto loop = cell.loop(snapshot.facet_of(contact.facet));
   const Point<3>&u = cell.point(loop[contact.corner]),
         &v = cell.point(loop[(contact.corner + 1) % loop.size()]);
-  return cross(unit<3>(edge), unit<3>(v - u));
+  return cross(edge, unit<3>(v - u));
 }
 
-/// Below this, a difference of unit vectors is rounding.
+/// Sines and cosines of angles below this are rounding.
 constexpr double parallel = 0x1p-40;
+
+/// True if a unit vector is against a motion, given the unit vector opposite to that.
+template <int D>
+bool is_against(const Vector<D>& normal, const Vector<D>& back) {
+  return dot(normal, back) > parallel;
+}
 
 }  // namespace
 
@@ -160,14 +171,36 @@ std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle, const
 }
 
 template <int D>
+std::optional<Meeting<D>> first_closed_meeting(const Swept_triangle<D>& triangle,
+                                               const Half_spaces<D>& feature) {
+  return meeting_in_triangle<D>(triangle, feature, Part::all);
+}
+
+template <int D>
+Vector<D> vertex_normal(const Swept_triangle<D>& triangle, const Vector<D>& of_wall) {
+  const Vector<D> back = unit<D>(triangle.a - triangle.b);
+  return dot(of_wall, back) < -parallel ? back : of_wall;
+}
+
+template <int D>
 Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
                       const Wall_contact<D>& contact, const Vector<D>& of_wall) {
-  if (contact.kind == Contact_kind::facet) return of_wall;
-  const Point<D> p = point_on<D>(triangle.a, triangle.b, contact.time);
-  const Vector<D> back = triangle.a - triangle.b;
-  const Vector<D> normal = perpendicular(snapshot, contact, triangle.q - p, back);
-  if (!(length(normal) > parallel)) return of_wall;
-  return unit<D>((dot(normal, back) < 0 ? -1.0 : 1.0) * normal);
+  const Vector<D> back = unit<D>(triangle.a - triangle.b);
+  const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.time));
+  if (contact.kind == Contact_kind::facet) {
+    // The wall may be one that the edge would come out of: then it is met from its other side.
+    const Vector<D> behind = -1.0 * of_wall + Vector<D>{};
+    if (is_against<D>(behind, back)) return behind;
+  } else {
+    const Vector<D> normal = perpendicular(snapshot, contact, edge, back);
+    const Vector<D> either = D == 2 ? normal : unit<D>(normal);  // in the plane it has length 1
+    const Vector<D> turned = (dot(normal, back) < 0 ? -1.0 : 1.0) * either + Vector<D>{};
+    if (length(normal) > parallel && is_against<D>(turned, back)) return turned;
+  }
+  if (is_against<D>(of_wall, back)) return of_wall;
+  // The edge is parallel to what it meets, or everything moves in one plane.
+  const Vector<D> off_edge = across<D>(back, edge);
+  return length(off_edge) > parallel ? unit<D>(off_edge) : length(back) > 0 ? back : of_wall;
 }
 
 template <int D>
@@ -187,12 +220,16 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   contact.cell = c;
   contact.body = meeting.at_p ? Body_feature::vertex : Body_feature::edge;
   const Vector<D> of_wall = inner_normal(cell, i);
-  contact.normal = meeting.at_p ? of_wall : edge_normal(snapshot, triangle, contact, of_wall);
+  contact.normal =
+      meeting.at_p ? vertex_normal<D>(triangle, of_wall) : edge_normal(snapshot, triangle, contact, of_wall);
   return contact;
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                           \
   template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&, const Half_spaces<D>&);   \
+  template std::optional<Meeting<D>> first_closed_meeting<D>(const Swept_triangle<D>&,                    \
+                                                             const Half_spaces<D>&);                      \
+  template Vector<D> vertex_normal<D>(const Swept_triangle<D>&, const Vector<D>&);                        \
   template Vector<D> edge_normal<D>(const Snapshot<D>&, const Swept_triangle<D>&, const Wall_contact<D>&, \
                                     const Vector<D>&);                                                    \
   template Contact<D> contact_with<D>(const Snapshot<D>&, const Swept_triangle<D>&, Half_facet,           \

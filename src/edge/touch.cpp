@@ -38,12 +38,15 @@ bool is_preferred(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle
 
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
-                                      const Swept_triangle<D>& triangle, Edge_counts& counts) {
+                                      const Swept_triangle<D>& triangle, Edge_counts& counts,
+                                      bool with_start) {
   std::optional<Contact<D>> first;
   const auto look_at = [&](Half_facet wall) {
     ++counts.search_walls;
     const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
-    const auto meeting = first_meeting<D>(triangle, half_spaces(cell, snapshot.facet_of(wall)));
+    const auto facet = half_spaces(cell, snapshot.facet_of(wall));
+    const auto meeting =
+        with_start ? first_closed_meeting<D>(triangle, facet) : first_meeting<D>(triangle, facet);
     if (!meeting) return true;
     const Contact<D> contact = contact_with(snapshot, triangle, wall, *meeting);
     if (!first || is_preferred(snapshot, triangle, contact, *first, counts.walk)) first = contact;
@@ -55,8 +58,8 @@ std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
 }
 
 template std::optional<Contact<2>> first_touch<2>(const Snapshot<2>&, Cell, const Swept_triangle<2>&,
-                                                  Edge_counts&);
+                                                  Edge_counts&, bool);
 template std::optional<Contact<3>> first_touch<3>(const Snapshot<3>&, Cell, const Swept_triangle<3>&,
-                                                  Edge_counts&);
+                                                  Edge_counts&, bool);
 
 }  // namespace cellwalk::detail

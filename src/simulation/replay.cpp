@@ -17,6 +17,7 @@ Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Tra
     throw Error(Error_code::usage,
                 "bodies of a trace have no faces: replay it by three_segments or triangle");
   options_.sweep.sweep = options.sweep;
+  options_.sweep.touch = Touch::stop;
   options_.clearance = options.clearance;
   bodies_.reserve(trace.bodies);
   answers_.resize(trace.moves());

@@ -102,6 +102,22 @@ TEST_F(Query_sweep, ThreeSegmentsMissWhatFitsBetween) {
   }
 }
 
+/// The solid cell is left behind by the edge before half of the motion, and the wall of the room is met at its end.
+TEST_F(Query_sweep, BisectionOfTheSegmentMayBeLate) {
+  succeed({"generate", "squares", "--cells", "7", "5", "-o", "env.ovm"});
+  write("env.ovm", Ovm_text(text("env.ovm")).set_solid(8).set_solid(13).text());  // at (1,1) and (6,1)
+  const std::string motion = std::string(plane) + "0.25,0.75,6.75,0.75,0.5,4.75\n";
+  const double first = (31.0 / 30 - 0.25) / 6.5, second = (0.5 + 5.5 * 16 / 15 - 0.25) / 6.5;
+  const auto time_of = [&](const std::vector<std::string>& options) {
+    const Row row = query(motion, options).at(0);
+    EXPECT_EQ(row[status] + " " + row[body], "contact edge");
+    return std::stod(row[time]);
+  };
+  EXPECT_NEAR(time_of({"--contact", "dichotomic", "--tolerance", "0.0078125"}), first, 0x1p-7);
+  EXPECT_NEAR(time_of({"--contact", "dichotomic_segment", "--tolerance", "0.0078125"}), second, 0x1p-7);
+  EXPECT_NEAR(time_of({"--contact", "exhaustive", "--search-limit", "none"}), first, 1e-15);
+}
+
 TEST_F(Query_sweep, TouchStopEndsWhereTouchPassGoesOn) {
   make_room(2);
   // The edge turns round q till it lies along the upper side of the obstacle, and p comes to the outer wall; then an edge
@@ -287,6 +303,7 @@ TEST_F(Query_sweep, RefusesTablesAndOptionsThatMakeNoSense) {
   expect_refused(2, plane, {"--strategy needs --mode move"}, {"--strategy", "certified"});
   expect_refused(2, plane, {"--tolerance needs --contact dichotomic"}, {"--tolerance", "0.5"});
   expect_refused(2, plane, {"--search-cells needs --contact exhaustive"}, {"--search-cells", "flooded"});
+  expect_refused(2, plane, {"--search-limit needs --contact exhaustive"}, {"--search-limit", "none"});
   for (const char* bad : {"0", "-1", "1.5", "nan", "inf", "none"})
     expect_refused(2, plane, {"--tolerance", "(0,1]", bad}, {"--contact", "dichotomic", "--tolerance", bad});
   expect_refused(2, plane, {"--sweep", "three_segments|triangle|faces"}, {"--sweep", "circle"});
@@ -296,7 +313,8 @@ TEST_F(Query_sweep, RefusesTablesAndOptionsThatMakeNoSense) {
   for (const auto& option : std::vector<std::vector<std::string>>{{"--sweep", "triangle"},
                                                                   {"--contact", "exact"},
                                                                   {"--tolerance", "0.5"},
-                                                                  {"--search-cells", "flooded"}})
+                                                                  {"--search-cells", "flooded"},
+                                                                  {"--search-limit", "below"}})
     expect_refused(2, moves, {option[0] + " needs --mode sweep"}, option);
 }
 

@@ -112,10 +112,13 @@ class Body {
 
   /// Moves the vertices one after the other, by the rule of the paper: a vertex that meets a wall, or would have an edge that does
   /// where it goes, stays where it is. Whatever the sweep, only the way of the vertex and the edges at its end decide; the
-  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. Touching is free, and no contact is located. Appends what
-  /// blocks, vertex by vertex; a vertex without an entry moved, and nothing was met.
+  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. No contact is located. With Touch::pass
+  /// touching is free. With Touch::stop whatever closed wall the closed way, an edge at its end or a closed triangle meets is in the
+  /// way, where the vertex or the edge starts too: one that is at a wall stays. Appends what blocks, vertex by vertex; a vertex
+  /// without an entry moved, and nothing was met.
   /// \pre one finite target a vertex; no vertex has more than 64 edges
-  /// Cost: that of step(), less that of locating contacts.
+  /// Cost: that of step(), less that of locating contacts; with Touch::stop rational arithmetic for walls near a move that planes
+  /// alone do not prove free, and once for those near a body that was moved otherwise.
   void step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
                     std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
 
@@ -182,6 +185,8 @@ class Body {
                     Blocked_move<D>& answer, Body_counts& counts);
   bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
                           Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts);
+  void note_apart(const Body_options& options, Body_counts& counts);
+  bool touches_wall(Body_counts& counts);
   bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
                        const Sweep_options& options, Edge_counts& counts) const;
   void commit(std::uint32_t vertex, const Particle<D>& particle);
@@ -215,6 +220,7 @@ class Body {
   std::vector<Face_corner> face_corners_;            ///< of vertex after vertex
   std::vector<std::uint32_t> face_corner_begin_;
   bool are_faces_swept_ = true;
+  bool is_apart_ = false;  ///< it is known that no vertex and no edge touches a wall
 
   // A region free of walls, and what was moved in it without registering it.
   std::optional<Clear_region<D>> region_;

@@ -33,9 +33,11 @@ struct Edge_counts {
   std::uint64_t pierced = 0;        ///< proved to be pierced by one
   std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
   std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic ones
+  std::uint64_t search_walks = 0;   ///< walks along the edge made by those that bisect its segment
   std::uint64_t search_walls = 0;   ///< walls looked at by exhaustive ones, and for touches
-  std::uint64_t search_misses = 0;  ///< exhaustive ones that found no obstacle in their cells
-  Walk_counts walk;                 ///< of all walks and signs
+  /// Exhaustive ones that found no obstacle in their cells, and bisections of a segment that is free at the end.
+  std::uint64_t search_misses = 0;
+  Walk_counts walk;  ///< of all walks and signs
 
   Edge_counts& operator+=(const Edge_counts& other);
 };

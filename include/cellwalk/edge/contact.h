@@ -18,8 +18,8 @@ enum class Body_feature : std::uint8_t { vertex, edge, face };
 ///
 /// time: share of the motion of p that is free, never later than the contact; impact is the same before rounding, where the
 /// search is exact. point: rounded. normal: unit, on the free side. If the vertex is blocked, or an edge by the inside of a
-/// facet, that of the wall; if an edge is blocked by an edge or vertex, the direction that is perpendicular to both and
-/// against the motion. kind, facet, corner: the feature of the environment.
+/// facet, that of the wall; if an edge is blocked by an edge or vertex, the direction that is perpendicular to both. Always
+/// against the motion: docs/bodies.md says what it is where that asks for another. kind, facet, corner: of the environment.
 template <int D>
 struct Contact : Wall_contact<D> {
   Body_feature body = Body_feature::vertex;

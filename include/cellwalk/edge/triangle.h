@@ -15,6 +15,8 @@ struct Way {
   std::span<const Half_facet> crossed;
   /// True if a wall blocked p: to.position is then where it was going, and the edge is swept until p is blocked.
   bool blocked = false;
+  /// True if it is known that p met no wall on its way, and passed each facet strictly inside.
+  bool is_apart = false;
 };
 
 /// Sweeps the edge pq while p goes its way and q stands still. Returns the chain of the edge afterwards, or the first contact:
