@@ -17,25 +17,22 @@
 namespace cellwalk::io {
 namespace {
 
-/// Thrown where the bytes end: Gmsh says so better.
-struct Cut_short {};
-
 class Binary_msh {
  public:
   Binary_msh(const std::string& name, std::string_view bytes, const Msh_header& header)
       : name_(name), bytes_(bytes), is_4_(header.version.starts_with('4')) {}
 
   void check() {
-    try {
-      for (std::string section = next_section(); !section.empty(); section = next_section()) read(section);
-    } catch (const Cut_short&) {
-    }
+    for (std::string section = next_section(); !section.empty(); section = next_section()) read(section);
   }
 
  private:
   using Number = std::int64_t;
 
   [[noreturn]] void refuse(const std::string& what) const { fail(name_, what); }
+  [[noreturn]] void cut_short() const {
+    refuse("the file ends inside its nodes or elements: it is cut short, or broken");
+  }
 
   /// The name on the next line that begins with $; nothing at the end. The position is after that line.
   std::string next_section() {
@@ -49,6 +46,10 @@ class Binary_msh {
 
   void read(const std::string& section) {
     if (section.starts_with("$End")) return;
+    for (const char* known :
+         {"$MeshFormat", "$Nodes", "$Elements", "$ParametricNodes"})  // Gmsh looks at the beginning only
+      if (section.starts_with(known) && section != known)
+        refuse(fmt::format("text follows '{}', where the line should end", known));
     if (section == "$MeshFormat") {
       line();
       std::int32_t one = 0;
@@ -64,8 +65,10 @@ class Binary_msh {
     } else if (section == "$ParametricNodes") {
       refuse("binary nodes with parameters are not read: write them without, or the mesh as text");
     } else {
+      // Of other sections nothing is known but where they end.
       const std::size_t end = bytes_.find("$End" + section.substr(1), at_);
-      at_ = std::min(end, bytes_.size());
+      if (end == std::string_view::npos) refuse(fmt::format("the section '{}' has no end", shown(section)));
+      at_ = end;
     }
   }
 
@@ -90,13 +93,13 @@ class Binary_msh {
   }
 
   void copy(void* to, std::size_t size) {
-    if (bytes_.size() - at_ < size) throw Cut_short();
+    if (bytes_.size() - at_ < size) cut_short();
     std::memcpy(to, bytes_.data() + at_, size);
     at_ += size;
   }
 
   void skip(Number count, std::size_t size) {
-    if (count < 0 || static_cast<std::uint64_t>(count) > (bytes_.size() - at_) / size) throw Cut_short();
+    if (count < 0 || static_cast<std::uint64_t>(count) > (bytes_.size() - at_) / size) cut_short();
     at_ += static_cast<std::size_t>(count) * size;
   }
 
@@ -147,9 +150,9 @@ class Binary_msh {
     while (left > 0) {
       const Number type = take_int(), count = take_int(), tags = take_int();
       const int corners = known_type(type);
-      if (count <= 0) throw Cut_short();
+      if (count <= 0 || count > left)
+        refuse(fmt::format("a block of {} elements, where {} are left", count, left));
       left -= count;
-      if (left < 0) refuse("the blocks hold more elements than the section announces");
       for (Number i = 0; i < count; ++i) {
         const Number element = take_int();
         skip(tags, sizeof(std::int32_t));
@@ -169,37 +172,42 @@ class Binary_msh {
     Number dimension, kind, size;
   };
 
-  Block block_head(const char* what, Number& left) {
+  Block block_head() {
     const Number dimension = take_int();
     take_int();  // the tag of the entity
     const Number kind = take_int(), size = take_size();
-    if (size > left) refuse(fmt::format("the blocks hold more {} than the section announces", what));
-    left -= size;
     return {dimension, kind, size};
+  }
+
+  void expect_all(const char* what, Number announced, Number held) const {
+    if (announced != held)
+      refuse(fmt::format("the section announces {} {}, and its blocks hold {}", announced, what, held));
   }
 
   void blocks_of_nodes() {
     const auto [blocks, total] = section_head();
-    Number left = total;
+    Number held = 0;
     for (Number b = 0; b < blocks; ++b) {
-      const Block block = block_head("nodes", left);
-      const Number coordinates = 3 + (block.kind != 0 ? std::max<Number>(block.dimension, 0) : 0);
-      for (Number i = 0; i < block.size; ++i) add_node(take_size());
-      for (Number i = 0; i < block.size; ++i) skip(coordinates, sizeof(double));
+      const Block block = block_head();
+      const Number axes = 3 + (block.kind != 0 ? std::clamp<Number>(block.dimension, 0, 3) : 0);
+      for (Number i = 0; i < block.size; ++i, ++held) add_node(take_size());
+      for (Number i = 0; i < block.size; ++i) skip(axes, sizeof(double));
     }
+    expect_all("nodes", total, held);
   }
 
   void blocks_of_elements() {
     const auto [blocks, total] = section_head();
-    Number left = total;
+    Number held = 0;
     for (Number b = 0; b < blocks; ++b) {
-      const Block block = block_head("elements", left);
+      const Block block = block_head();
       const int corners = known_type(block.kind);
-      for (Number i = 0; i < block.size; ++i) {
+      for (Number i = 0; i < block.size; ++i, ++held) {
         const Number element = take_size();
         check_nodes(element, corners, [this] { return take_size(); });
       }
     }
+    expect_all("elements", total, held);
   }
 
   const std::string& name_;

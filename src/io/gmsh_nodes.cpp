@@ -15,9 +15,6 @@
 namespace cellwalk::io {
 namespace {
 
-/// Thrown where the text ends, or has no number where one should be: Gmsh says so better.
-struct Unreadable {};
-
 class Msh_nodes {
  public:
   Msh_nodes(const std::string& name, std::string_view text, const Msh_header& header)
@@ -25,19 +22,18 @@ class Msh_nodes {
 
   void check() {
     const bool is_1 = version_ == "1", is_4 = version_.starts_with('4');
-    try {
-      while (in_.next_line()) {
-        const std::string_view section = in_.word();
-        if (section == (is_1 ? "$NOD" : "$Nodes") || section == "$NOE" || section == "$ParametricNodes") {
-          once(section, has_nodes_);
-          is_4 ? blocks_of_nodes() : nodes();
-          nodes_.sort();
-        } else if (section == (is_1 ? "$ELM" : "$Elements")) {
-          once(section, has_elements_);
-          is_4 ? blocks_of_elements() : elements(is_1);
-        }
+    while (in_.next_line()) {
+      if (!in_.rest().starts_with('$')) continue;
+      const std::string_view section = in_.word();
+      if (is_section(section, is_1 ? "$NOD" : "$Nodes") || is_section(section, "$NOE") ||
+          is_section(section, "$ParametricNodes")) {
+        once(section, has_nodes_);
+        is_4 ? blocks_of_nodes() : nodes();
+        nodes_.sort();
+      } else if (is_section(section, is_1 ? "$ELM" : "$Elements")) {
+        once(section, has_elements_);
+        is_4 ? blocks_of_elements() : elements(is_1);
       }
-    } catch (const Unreadable&) {
     }
   }
 
@@ -49,24 +45,39 @@ class Msh_nodes {
     seen = true;
   }
 
-  std::string_view word() {
-    for (;;) {
-      if (const std::string_view w = in_.word(); !w.empty()) return w;
-      if (!in_.next_line()) throw Unreadable();
-    }
+  /// Gmsh looks at the beginning of a line only.
+  bool is_section(std::string_view found, std::string_view section) {
+    if (!found.starts_with(section)) return false;
+    if (found != section || !in_.at_line_end())
+      in_.fail(fmt::format("text follows '{}', where the line should end", section));
+    return true;
   }
 
-  Number number() {
-    const std::string_view w = word();
+  /// Moves on to the next line at the end of one, as Gmsh does.
+  void need_word(std::string_view what) {
+    while (in_.at_line_end()) in_.need_line(what);
+  }
+
+  Number number(std::string_view what) {
+    need_word(what);
+    const std::string_view w = in_.word();
     Number value = 0;
     const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
     if (error == std::errc::result_out_of_range) return std::numeric_limits<Number>::max();
-    if (error != std::errc{} || end != w.data() + w.size()) throw Unreadable();
+    if (error != std::errc{} || end != w.data() + w.size())
+      in_.fail(fmt::format("{}: '{}' is not an integer", what, shown(w)));
     return value;
   }
 
-  void skip(Number count) {
-    for (Number i = 0; i < count; ++i) word();
+  void skip_integers(Number count, std::string_view what) {
+    for (Number i = 0; i < count; ++i) number(what);
+  }
+
+  void coordinates(Number count) {
+    for (Number i = 0; i < count; ++i) {
+      need_word("a coordinate");
+      in_.number("a coordinate");
+    }
   }
 
   void add_node(Number node) {
@@ -81,81 +92,88 @@ class Msh_nodes {
 
   /// The nodes of an element whose type is not listed are what is left of its line.
   void check_nodes(Number element, Number type, Number count) {
-    if (count < 0) count = nodes_of_msh_type(type);
-    for (Number i = 0; i < count; ++i) check_node(element, number());
-    while (count == 0 && !in_.at_line_end()) check_node(element, number());
+    if (count == listed) count = nodes_of_msh_type(type);
+    for (Number i = 0; i < count; ++i) check_node(element, number("a node"));
+    while (count == 0 && !in_.at_line_end()) check_node(element, number("a node"));
   }
 
-  /// Versions 1 and 2: a line each. What follows the coordinates of a node, parameters, is passed over.
+  /// Versions 1 and 2: a line each. What follows the coordinates of a node are its parameters.
   void nodes() {
-    const Number count = number();
+    const Number count = number("the number of nodes");
     for (Number i = 0; i < count; ++i) {
-      add_node(number());
-      skip(3);
-      while (!in_.at_line_end()) in_.word();
+      add_node(number("a node"));
+      coordinates(3);
+      while (!in_.at_line_end()) in_.number("a parameter");
     }
   }
 
   void elements(bool is_1) {
-    const Number count = number();
+    const Number count = number("the number of elements");
     for (Number i = 0; i < count; ++i) {
-      const Number element = number(), type = number();
+      const Number element = number("an element"), type = number("a type of elements");
       if (is_1) {
-        skip(2);
-        check_nodes(element, type, std::max<Number>(number(), 0));
+        skip_integers(2, "a tag");
+        check_nodes(element, type, std::max<Number>(number("a number of nodes"), 0));
       } else {
-        skip(number());
+        skip_integers(number("a number of tags"), "a tag");
         check_nodes(element, type, listed);
       }
     }
   }
 
-  /// Version 4: blocks of entities.
-  struct Block {
-    Number kind, size;
+  /// The head of a section of version 4: the number of blocks, and of all that they hold.
+  struct Section {
+    Number blocks, total;
   };
 
-  /// The head of a section: the number of blocks, and of all that they hold.
-  Block section_head() {
-    const Number blocks = number(), total = number();
-    if (is_4_1()) skip(2);
+  Section section_head(std::string_view what) {
+    const Number blocks = number("the number of blocks"), total = number(what);
+    if (is_4_1()) skip_integers(2, what);
     return {blocks, total};
   }
 
-  /// The head of a block; its third number says how the members are written.
-  Block block_head(std::string_view what, Number& left, Number& dimension) {
-    const Number first = number(), second = number();
-    dimension = is_4_1() ? first : second;
-    const Number kind = number(), size = number();
-    left -= std::max<Number>(size, 0);
-    if (left < 0) in_.fail(fmt::format("the blocks hold more {} than the section announces", what));
-    return {kind, size};
+  /// The head of a block: how its members are written (their type, or whether they have parameters), and how many there are.
+  struct Block {
+    Number dimension, kind, size;
+  };
+
+  Block block_head() {
+    const Number first = number("a block"), second = number("a block");
+    const Number kind = number("a block"), size = number("the size of a block");
+    return {is_4_1() ? first : second, kind, size};
+  }
+
+  void expect_all(std::string_view what, Number announced, Number held) {
+    if (announced != held)
+      in_.fail(fmt::format("the section announces {} {}, and its blocks hold {}", announced, what, held));
   }
 
   void blocks_of_nodes() {
-    const auto [blocks, total] = section_head();
-    Number left = total, dimension = 0;
-    for (Number b = 0; b < blocks; ++b) {
-      const auto [parametric, size] = block_head("nodes", left, dimension);
-      const Number coordinates = 3 + (parametric != 0 ? std::clamp<Number>(dimension, 0, 3) : 0);
-      for (Number i = 0; i < size; ++i) {
-        add_node(number());
-        if (!is_4_1()) skip(coordinates);
+    const Section section = section_head("the number of nodes");
+    Number held = 0;
+    for (Number b = 0; b < section.blocks; ++b) {
+      const Block block = block_head();
+      const Number axes = 3 + (block.kind != 0 ? std::clamp<Number>(block.dimension, 0, 3) : 0);
+      for (Number i = 0; i < block.size; ++i, ++held) {
+        add_node(number("a node"));
+        if (!is_4_1()) coordinates(axes);
       }
-      if (is_4_1()) skip(size * coordinates);
+      for (Number i = 0; is_4_1() && i < block.size; ++i) coordinates(axes);
     }
+    expect_all("nodes", section.total, held);
   }
 
   void blocks_of_elements() {
-    const auto [blocks, total] = section_head();
-    Number left = total, dimension = 0;
-    for (Number b = 0; b < blocks; ++b) {
-      const auto [type, size] = block_head("elements", left, dimension);
-      for (Number i = 0; i < size; ++i) {
-        const Number element = number();
-        check_nodes(element, type, listed);
+    const Section section = section_head("the number of elements");
+    Number held = 0;
+    for (Number b = 0; b < section.blocks; ++b) {
+      const Block block = block_head();
+      for (Number i = 0; i < block.size; ++i, ++held) {
+        const Number element = number("an element");
+        check_nodes(element, block.kind, listed);
       }
     }
+    expect_all("elements", section.total, held);
   }
 
   bool is_4_1() const { return version_ != "4" && version_ != "4.0"; }

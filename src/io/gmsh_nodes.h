@@ -10,9 +10,10 @@
 
 namespace cellwalk::io {
 
-/// Looks through the nodes and elements of a file of version 1, 2 or 4. What is cut short or no number is left for Gmsh to refuse.
+/// Looks through the nodes and elements of a file of version 1, 2 or 4, strictly: what Gmsh reads otherwise than it is meant leads out of
+/// its tables.
 /// \throw Error(input), with the line of a text, where an element names a node that is not there before it, a node's number is not one,
-///        blocks hold more than was announced, or a section occurs twice
+///        blocks hold another number than was announced, a section occurs twice, or they are cut short or hold what is no number
 void check_msh_nodes(const std::string& name, std::string_view bytes, const Msh_header& header);
 
 /// \throw Error(input) with file and line where an element has a negative number among those of its nodes, which Gmsh does not look at

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "damaged.h"
 #include "io_fixture.h"
 
 namespace cellwalk::io {
@@ -74,11 +75,11 @@ TEST(GmshNodes, ElementsOfOtherTypesAreLookedThroughToo) {
   EXPECT_TRUE(holds(why(other), "element 1 names node 8, which does not exist"));
 }
 
-TEST(GmshNodes, SectionsThatHoldMoreThanTheyAnnounceAreRefused) {
+TEST(GmshNodes, SectionsThatHoldOtherNumbersThanTheyAnnounceAreRefused) {
   EXPECT_TRUE(holds(why(with(version_4_1, "1 4 1 4\n3 1 0 4\n", "1 3 1 4\n3 1 0 4\n")),
-                    "t.msh:6: the blocks hold more nodes than the section announces"));
+                    ":14: the section announces 3 nodes, and its blocks hold 4"));
   EXPECT_TRUE(holds(why(with(version_4_1, "1 1 1 1\n", "1 0 1 1\n")),
-                    "t.msh:18: the blocks hold more elements than the section announces"));
+                    ": the section announces 0 elements, and its blocks hold 1"));
   EXPECT_TRUE(
       holds(why(version_2 + "$Nodes\n0\n$EndNodes\n"), "t.msh:15: the section '$Nodes' occurs twice"));
   EXPECT_TRUE(
@@ -110,9 +111,9 @@ std::string binary_2(std::int32_t node, bool swap = false) {
          "\n$EndElements\n";
 }
 
-std::string binary_4_1(std::int64_t node, std::int64_t nodes = 4) {
+std::string binary_4_1(std::int64_t node, std::int64_t announced = 4) {
   std::string text = "$MeshFormat\n4.1 1 8\n" + raw<std::int32_t>({1}) + "\n$EndMeshFormat\n$Nodes\n" +
-                     raw<std::int64_t>({1, nodes, 1, 4}) + raw<std::int32_t>({3, 1, 0}) +
+                     raw<std::int64_t>({1, announced, 1, 4}) + raw<std::int32_t>({3, 1, 0}) +
                      raw<std::int64_t>({4, 1, 2, 3, 4});
   for (const auto& corner : corners) text += raw<double>(corner);
   return text + "\n$EndNodes\n$Elements\n" + raw<std::int64_t>({1, 1, 1, 1}) + raw<std::int32_t>({3, 1, 4}) +
@@ -127,11 +128,11 @@ TEST(GmshNodes, BinaryFilesAreLookedThroughToo) {
       EXPECT_TRUE(holds(why(text), "t.msh: element 1 names node ") &&
                   holds(why(text), ", which does not exist"))
           << why(text);
-  EXPECT_TRUE(holds(why(binary_4_1(4, 3)), "t.msh: the blocks hold more nodes than the section announces"));
+  EXPECT_TRUE(holds(why(binary_4_1(4, 3)), "t.msh: the section announces 3 nodes, and its blocks hold 4"));
   EXPECT_TRUE(holds(why(with(binary_2(4), raw<std::int32_t>({4, 1, 2}), raw<std::int32_t>({61, 1, 2}))),
                     "t.msh: elements of type 61 are not read"));
   EXPECT_TRUE(holds(why(with(binary_2(4), raw<std::int32_t>({4, 1, 2}), raw<std::int32_t>({4, 2, 2}))),
-                    "t.msh: the blocks hold more elements than the section announces"));
+                    "t.msh: a block of 2 elements, where 1 are left"));
   EXPECT_TRUE(holds(why(with(binary_2(4), "$Nodes", "$ParametricNodes")),
                     "binary nodes with parameters are not read"));
   EXPECT_TRUE(holds(why(binary_2(4) + "$Nodes\n0\n$EndNodes\n"), "the section '$Nodes' occurs twice"));
@@ -159,11 +160,50 @@ TEST(GmshNodes, UnvWithNegativeNodesIsRefused) {
 }
 
 TEST(GmshNodes, AnnouncedCountsAreNotTrusted) {
-  for (const std::string& text : {with(version_1, "$NOD\n4\n", "$NOD\n4000000000\n"),
-                                  with(version_2, "$Nodes\n4\n", "$Nodes\n4000000000\n"),
-                                  with(version_4_1, "1 4 1 4\n", "1 4000000000 1 4000000000\n"),
-                                  with(version_4_0, "$Nodes\n1 4\n", "$Nodes\n1 4000000000\n")})
-    EXPECT_TRUE(holds(why(text), "t.msh: ")) << why(text);
+  EXPECT_TRUE(holds(why(with(version_1, "$NOD\n4\n", "$NOD\n4000000000\n")),
+                    ":7: a node: '$ENDNOD' is not an integer"));
+  EXPECT_TRUE(holds(why(with(version_2, "$Nodes\n4\n", "$Nodes\n4000000000\n")),
+                    ":10: a node: '$EndNodes' is not an integer"));
+  EXPECT_TRUE(holds(why(with(version_4_1, "1 4 1 4\n", "1 4000000000 1 4\n")),
+                    ":14: the section announces 4000000000 nodes, and its blocks hold 4"));
+  EXPECT_TRUE(holds(why(with(version_4_0, "$Nodes\n1 4\n", "$Nodes\n1 4000000000\n")),
+                    ": the section announces 4000000000 nodes, and its blocks hold 4"));
+  EXPECT_TRUE(holds(why(binary_4_1(4, 4'000'000'000)),
+                    "t.msh: the section announces 4000000000 nodes, and its blocks hold 4"));
+}
+
+TEST(GmshNodes, WhatGmshWouldReadOtherwiseIsRefused) {
+  EXPECT_TRUE(holds(why(with(version_4_1, "$Nodes\n", "$NodesH")),
+                    ":4: text follows '$Nodes', where the line should end"));
+  EXPECT_TRUE(holds(why(with(version_4_1, "$Nodes\n", "$Nodes ")),
+                    ":4: text follows '$Nodes', where the line should end"));
+  EXPECT_TRUE(holds(why(with(binary_4_1(4), "$Elements\n", "$Elements 1\n")),
+                    "text follows '$Elements', where the line"));
+  EXPECT_TRUE(
+      holds(why(with(version_2, "2 1 0 0\n", "2 1 0.5-3 0\n")), ":7: a coordinate: '0.5-3' is not a number"));
+  EXPECT_TRUE(holds(why(with(version_2, "2 1 0 0\n", "2.5 1 0 0\n")), ":7: a node: '2.5' is not an integer"));
+  const std::string binary = binary_4_1(4);
+  EXPECT_TRUE(holds(why(with(binary, "$EndMeshFormat", "$(EndMeshFormat")),
+                    "t.msh: the section '$(EndMeshFormat' has no end"));
+  EXPECT_TRUE(holds(why(binary.substr(0, binary.find("$EndNodes") - 9)),
+                    "t.msh: the file ends inside its nodes or elements"));
+}
+
+TEST(GmshNodes, DamagedFilesNeverCrash) {
+  std::mt19937 random(7);
+  int was_read = 0, was_refused = 0;
+  const std::string files[] = {version_1, version_2, version_4_0, version_4_1, binary_2(4), binary_4_1(4)};
+  for (int i = 0; i < 1200; ++i) {
+    try {
+      read(damaged(files[i % 6], random));
+      ++was_read;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Error_code::input) << error.what();
+      ++was_refused;
+    }
+  }
+  EXPECT_GT(was_read, 50);
+  EXPECT_GT(was_refused, 300);
 }
 
 }  // namespace
