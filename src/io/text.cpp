@@ -17,14 +17,12 @@ namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
 
-/// How much of an offending word an error message shows.
-constexpr std::size_t shown_length = 40;
+}  // namespace
 
 std::string shown(std::string_view word) {
-  return word.size() <= shown_length ? std::string(word) : std::string(word.substr(0, shown_length)) + "...";
+  constexpr std::size_t most = 40;  // bytes
+  return word.size() <= most ? std::string(word) : std::string(word.substr(0, most)) + "...";
 }
-
-}  // namespace
 
 std::string unpack(const std::string& file, const std::string& packed) {
   z_stream stream{};

@@ -23,6 +23,9 @@ std::string unpack(const std::string& file, const std::string& packed);
 /// True if the bytes begin like a gzip stream.
 bool is_gzip(std::string_view bytes);
 
+/// A word as error messages show it: the beginning of a long one.
+std::string shown(std::string_view word);
+
 /// \throw Error(input) "file: what" always
 [[noreturn]] void fail(const std::string& file, const std::string& what);
 /// \throw Error(input) "file:line: what" always

@@ -8,39 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <set>
 
+#include "damaged.h"
 #include "io_fixture.h"
 #include "records/body_checks.h"
 
 namespace cellwalk::io {
 namespace {
-
-/// Replaces, removes or inserts a few bytes, preferring those that mean something to a parser.
-std::string damaged(std::string text, std::mt19937& random) {
-  constexpr std::string_view meaningful("0123456789 -+.,()\"/\n#eEx\0\xff", 27);
-  for (unsigned n = 1 + random() % 4; n > 0; --n) {
-    const std::size_t at = random() % text.size();
-    const char c = meaningful[random() % meaningful.size()];
-    switch (random() % 4) {
-      case 0:
-        text[at] = c;
-        break;
-      case 1:
-        text.erase(at, 1 + random() % 3);
-        break;
-      case 2:
-        text.insert(at, 1, c);
-        break;
-      default:
-        text[at] = static_cast<char>(random());
-        break;
-    }
-    if (text.empty()) text.push_back(' ');
-  }
-  return text;
-}
 
 struct Damage {
   std::size_t read = 0, refused = 0;
