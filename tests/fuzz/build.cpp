@@ -106,8 +106,10 @@ void part(Cell_soup<D>& soup, std::size_t cell, std::span<const std::uint32_t> l
   for (const std::uint32_t v : loop)
     if (copies.try_emplace(v, static_cast<std::uint32_t>(soup.points.size())).second)
       soup.points.push_back(Point<D>(soup.points[v]));
-  for (std::size_t i = soup.facet_begin[soup.cell_begin[cell]]; i < soup.facet_begin[soup.cell_begin[cell + 1]]; ++i)
-    if (const auto found = copies.find(soup.vertices[i]); found != copies.end()) soup.vertices[i] = found->second;
+  for (std::size_t i = soup.facet_begin[soup.cell_begin[cell]];
+       i < soup.facet_begin[soup.cell_begin[cell + 1]]; ++i)
+    if (const auto found = copies.find(soup.vertices[i]); found != copies.end())
+      soup.vertices[i] = found->second;
 }
 
 using Loops = std::vector<std::vector<std::uint32_t>>;
@@ -126,10 +128,11 @@ std::pair<Loops, Loops> pieces(Cell_soup<3>& soup, const std::vector<std::uint32
   rest.erase(rest.begin() + 1);
   if (rest.size() < 3) return {{loop}, {{loop.rbegin(), loop.rend()}}};
   const auto centre = static_cast<std::uint32_t>(soup.points.size());
-  soup.points.push_back(combination<3>(
-      soup.points[rest[0]], combination<3>(soup.points[rest[1]], soup.points[rest[2]], 0.5), 0.5));
+  soup.points.push_back(combination<3>(soup.points[rest[0]],
+                                       combination<3>(soup.points[rest[1]], soup.points[rest[2]], 0.5), 0.5));
   Loops others{{loop[2], loop[1], loop[0]}};
-  for (std::size_t i = 0; i < rest.size(); ++i) others.push_back({rest[(i + 1) % rest.size()], rest[i], centre});
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    others.push_back({rest[(i + 1) % rest.size()], rest[i], centre});
   return {{{loop[0], loop[1], loop[2]}, rest}, others};
 }
 
@@ -169,7 +172,8 @@ void drop(Cell_soup<D>& soup, std::size_t dropped) {
 
 template <int D>
 void alter(Cell_soup<D>& soup, Decoder& in) {
-  const std::size_t kind = in.below(9), cell = in.below(soup.cell_count()), facet = in.below(soup.facet_count());
+  const std::size_t kind = in.below(9), cell = in.below(soup.cell_count()),
+                    facet = in.below(soup.facet_count());
   const std::vector<std::uint32_t> loop(soup.facet(facet).begin(), soup.facet(facet).end());
   if (*std::max_element(loop.begin(), loop.end()) >= soup.points.size()) return;  // already broken
   switch (kind) {
@@ -199,14 +203,16 @@ void alter(Cell_soup<D>& soup, Decoder& in) {
       reads([&] { slit(soup, facet); }, {Error_code::input, Error_code::not_certified});
       break;
     default:
-      std::reverse(soup.vertices.begin() + soup.facet_begin[facet], soup.vertices.begin() + soup.facet_begin[facet + 1]);
+      std::reverse(soup.vertices.begin() + soup.facet_begin[facet],
+                   soup.vertices.begin() + soup.facet_begin[facet + 1]);
   }
 }
 
 bool are_alike(const Certificate& a, const Certificate& b) {
   return a.cells == b.cells && a.facets == b.facets && a.ridges == b.ridges && a.vertices == b.vertices &&
          a.solid_cells == b.solid_cells && a.walls == b.walls && a.boundary_facets == b.boundary_facets &&
-         a.membranes == b.membranes && a.components == b.components && a.pinched_vertices == b.pinched_vertices;
+         a.membranes == b.membranes && a.components == b.components &&
+         a.pinched_vertices == b.pinched_vertices;
 }
 
 template <int D>

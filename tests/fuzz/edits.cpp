@@ -82,8 +82,9 @@ auto facets_of(const Snapshot<D>& snapshot) {
       auto loop = snapshot.loop(f);
       if (D == 3) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
       const Cell neighbor = snapshot.neighbor(f);
-      facets.emplace(i, snapshot.is_solid(c), loop, neighbor == Cell::none ? no_facet : snapshot.index(neighbor),
-                     snapshot.is_impassable(f), snapshot.is_convex_pair(f));
+      facets.emplace(i, snapshot.is_solid(c), loop,
+                     neighbor == Cell::none ? no_facet : snapshot.index(neighbor), snapshot.is_impassable(f),
+                     snapshot.is_convex_pair(f));
     }
   }
   return facets;
@@ -121,6 +122,7 @@ class Editing {
         move_about(snapshot(), environment_.soup(), in_, 1);
         continue;
       }
+      replaced_ = Cell::none;
       const Cell_soup<D> before = environment_.soup();
       const bool done = kind % 5 == 0 ? wall() : kind % 5 == 1 ? move() : insert();
       if (!done) {
@@ -152,8 +154,9 @@ class Editing {
     const Point<D> position = some_point(snapshot(), in_);
     const bool certified = is_certified(environment_.soup(), point, position);
     const bool done = reads([&] { environment_.move_vertex(point, position); }, {Error_code::not_certified});
-    if (done)
-      demand(certified && snapshot().point(point) == position, "a vertex moves where it makes cells wrong");
+    demand(done == certified,
+           certified ? "a vertex may not move where it could" : "a vertex moves where it makes cells wrong");
+    demand(!done || snapshot().point(point) == position, "a vertex is not where it was moved");
     return done;
   }
 
@@ -161,15 +164,18 @@ class Editing {
     if (snapshot().cell_count() > most_cells) return false;
     // A name of a cell, or of none.
     const bool is_named = in_.byte() % 8 != 7;
-    const Cell cell = is_named ? snapshot().cell(in_.below(snapshot().cell_count()))
-                               : Cell{static_cast<std::uint32_t>(in_.below(snapshot().half_facet_slots() / 4 + 1))};
+    const Cell cell =
+        is_named ? snapshot().cell(in_.below(snapshot().cell_count()))
+                 : Cell{static_cast<std::uint32_t>(in_.below(snapshot().half_facet_slots() / 4 + 1))};
     const Point<D> position = some_point(snapshot(), in_);
-    return reads(
+    const bool done = reads(
         [&] {
           for (const Cell added : environment_.insert_point(cell, position))
             demand(in_closure(snapshot(), added, position), "a new cell does not have the new point");
         },
         {Error_code::usage, Error_code::not_certified});
+    if (done) replaced_ = cell;
+    return done;
   }
 
   void keep_particle() {
@@ -180,14 +186,21 @@ class Editing {
     target_ = some_point(snapshot(), in_);
   }
 
-  /// A particle that was registered before an edit is refused, or goes where one that is registered now can go.
+  /// A particle that was registered before an edit is refused, or goes where one that is registered now can go. It is not asked for
+  /// where its cell moved away from it: then it is to be located again.
   void walk_kept_particle() {
     if (!kept_) return;
+    const bool is_in_its_cell = in_closure(snapshot(), kept_->cell, kept_->position);
+    if (is_in_its_cell || kept_->cell == replaced_) demand_no_wall_passed();
+    if (!is_in_its_cell) kept_.reset();
+  }
+
+  void demand_no_wall_passed() {
     Walk_counts counts;
     Walk_result<D> result;
     Particle<D> particle = *kept_;
-    const auto codes = {Error_code::usage, Error_code::outside};
-    if (!reads([&] { result = cellwalk::move(snapshot(), particle, target_, counts); }, codes)) return;
+    if (!reads([&] { result = cellwalk::move(snapshot(), particle, target_, counts); }, {Error_code::usage}))
+      return;
     if (result.status != Walk_status::arrived) return;
     bool can = false;
     for (const Cell cell : Locator<D>(snapshot()).locate(kept_->position).cells) {
@@ -201,6 +214,7 @@ class Editing {
   Environment<D> environment_;
   std::optional<Particle<D>> kept_;
   Point<D> target_{};
+  Cell replaced_ = Cell::none;  ///< by the last edit
 };
 
 }  // namespace

@@ -99,8 +99,10 @@ void msh(std::string_view bytes) {
     const io::Msh_header header = io::read_msh_header("in", bytes);
     io::announced_counts(bytes, header);
     if (const auto text = io::renumbered_elements(bytes, header)) {
-      const io::Msh_counts before = io::announced_counts(bytes, header), after = io::announced_counts(*text, header);
-      demand((!before.nodes || before.nodes == after.nodes) && (!before.elements || before.elements == after.elements),
+      const io::Msh_counts before = io::announced_counts(bytes, header),
+                           after = io::announced_counts(*text, header);
+      demand((!before.nodes || before.nodes == after.nodes) &&
+                 (!before.elements || before.elements == after.elements),
              "numbers anew change the counts");
       demand(!io::renumbered_elements(*text, header), "numbers that repeat after they were made anew");
     }

@@ -137,8 +137,7 @@ class Mover {
     const Way<D> way{from, to, visited, crossed, blocked};
     const Chain_result<D> result = sweep_triangle<D>(snapshot_, way, q, before, counts, certificates);
     if (!blocked && !result.contact) demand_chain(to, q, result.chain);
-    if (!sweeps_ || !has_few_digits(from.position) || !has_few_digits(target) ||
-        !has_few_digits(q.position))
+    if (!sweeps_ || !has_few_digits(from.position) || !has_few_digits(target) || !has_few_digits(q.position))
       return;
     const auto motion = test::motion_of(sweeps_->soup(), snapshot_, way, q, before);
     try {
@@ -155,7 +154,7 @@ class Mover {
 
   const Snapshot<D>& snapshot_;
   Locator<D> locator_;
-  std::optional<oracle::Oracle<D>> walks_;        // of environments whose coordinates have few digits
+  std::optional<oracle::Oracle<D>> walks_;         // of environments whose coordinates have few digits
   std::optional<oracle::Chain_oracle<D>> sweeps_;  // and few cells
 };
 

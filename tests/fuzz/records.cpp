@@ -83,7 +83,8 @@ void record(std::string_view bytes) {
   reads([&] {
     std::visit(
         [](const auto& motion) {
-          demand(motion.soup.cell_count() > 0 && is_finite(motion.from) && is_finite(motion.to), "an empty record");
+          demand(motion.soup.cell_count() > 0 && is_finite(motion.from) && is_finite(motion.to),
+                 "an empty record");
           for (const std::uint32_t v : motion.soup.vertices)
             demand(v < motion.soup.points.size(), "an index is out of range");
           demand(!motion.cell || *motion.cell < motion.soup.cell_count(), "a cell is out of range");
@@ -111,7 +112,8 @@ void trace(std::string_view bytes) {
 void motion(std::string_view bytes) {
   reads([&] {
     const Motion_scene scene = io::parse_motion("in", bytes);
-    const std::uint64_t records = 1 + std::uint64_t{scene.steps} / scene.every + (scene.steps % scene.every != 0);
+    const std::uint64_t records =
+        1 + std::uint64_t{scene.steps} / scene.every + (scene.steps % scene.every != 0);
     demand(records == scene.record_count() && bytes.size() >= records, "more records than bytes");
     for (const auto* loops : {&scene.walls, &scene.floor})
       for (const auto& loop : *loops)
@@ -132,7 +134,8 @@ void gzip(std::string_view bytes) {
   const std::size_t at = in.below(65536);
   const std::string plain(in.rest());
   std::string packed = io::gzip(plain);
-  demand(io::is_gzip(packed) && io::unpack("in", packed) == plain, "gzip does not give back what it was given");
+  demand(io::is_gzip(packed) && io::unpack("in", packed) == plain,
+         "gzip does not give back what it was given");
   if (damage % 3 == 1)
     packed[at % packed.size()] ^= static_cast<char>(1 + damage / 3);
   else

@@ -70,8 +70,10 @@ bool reads(const Work& work, std::initializer_list<Error_code> allowed = {Error_
     demand(std::find(allowed.begin(), allowed.end(), error.code()) != allowed.end(),
            "an error has code " + std::to_string(static_cast<int>(error.code())) + ": " + error.what());
     constexpr std::size_t longest = 1000;
-    demand(!message.empty() && message.size() <= longest, "an error of " + std::to_string(message.size()) + " bytes");
-    demand(message.find_first_of("\n\r") == message.npos, "an error of several lines: " + std::string(message));
+    demand(!message.empty() && message.size() <= longest,
+           "an error of " + std::to_string(message.size()) + " bytes");
+    demand(message.find_first_of("\n\r") == message.npos,
+           "an error of several lines: " + std::string(message));
     ++outcomes.refused;
     return false;
   }

@@ -71,7 +71,8 @@ std::vector<Entry> all_entries() {
 /// Names of tests have letters, digits and _.
 std::string name_of(const testing::TestParamInfo<Entry>& info) {
   std::string name = info.param.target->name + "_" + info.param.file.filename().string();
-  std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 
@@ -94,7 +95,8 @@ TEST(Corpora, HoldWhatIsReadAndWhatIsRefused) {
 TEST(Corpora, AreJudgedByOracles) {
   for (const char* name : {"build", "edits"}) {
     SCOPED_TRACE(name);
-    const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == name; });
+    const auto target =
+        std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == name; });
     const Judged before = judged();
     for (const auto& file : corpus(*target)) run(*target, file);
     EXPECT_GT(judged().places, before.places + 20);
