@@ -18,11 +18,17 @@ bool lies_in(const Cell_view<D>& cell, std::size_t i, const Point<D>& x, Walk_co
 }
 
 /// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. If there is no way,
-/// the two are not linked at x: returns the first wall at x that the search met, else Half_facet::none.
+/// the two are not linked at x: returns a wall at x that the search met, the same however cells are numbered. Else
+/// Half_facet::none.
 template <int D>
 Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
                        Walk_counts& counts) {
-  boost::container::small_vector<Star_cell, 16> queue{{from, 0, Half_facet::none}};
+  struct Found {
+    Cell cell;
+    std::size_t parent;
+    Half_facet facet;  ///< of the parent
+  };
+  boost::container::small_vector<Found, 16> queue{{from, 0, Half_facet::none}};
   Half_facet wall = Half_facet::none;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const Cell c = queue[head].cell;
@@ -37,11 +43,13 @@ Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cel
       if (!lies_in(cell, i, x, counts)) continue;
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       if (snapshot.is_impassable(f)) {
-        if (wall == Half_facet::none) wall = f;
+        if (wall == Half_facet::none ||
+            is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
+          wall = f;
         continue;
       }
       const Cell next = snapshot.neighbor(f);
-      const auto is_next = [next](const Star_cell& known) { return known.cell == next; };
+      const auto is_next = [next](const Found& known) { return known.cell == next; };
       if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
     }
   }

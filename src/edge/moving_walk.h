@@ -47,16 +47,15 @@ class Moving_walk {
   }
 
   bool pass_star(Cell c, const Exit& exit) {
-    bool accepted = false;
-    const Half_facet wall = explore_star<Exact>(snapshot_, c, exit.u, exit.v, line_.triangle().a, q_.position,
-                                                line_.counts(), [&](Cell next, const Star_way& way) {
-                                                  const std::size_t before = chain_.size();
-                                                  for (const Half_facet f : way) chain_.push_back(f);
-                                                  accepted = from(next);
-                                                  if (!accepted) chain_.resize(before);
-                                                  return accepted;
-                                                });
-    return accepted || block(wall);
+    const Star_search<Exact, D> star(snapshot_, c, exit.u, exit.v, line_.triangle().a, q_.position,
+                                     line_.counts());
+    for (const auto& candidate : star.candidates()) {
+      const std::size_t before = chain_.size();
+      for (const Half_facet f : star.way(candidate)) chain_.push_back(f);
+      if (from(star.cell(candidate))) return true;
+      chain_.resize(before);
+    }
+    return block(star.wall());
   }
 
   bool arrive(Cell c) {

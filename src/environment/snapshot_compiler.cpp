@@ -42,6 +42,16 @@ std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint3
   return cell.facet_count();
 }
 
+/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its plane.
+template <int D>
+bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::uint32_t u, std::uint32_t v) {
+  const auto loop = cell.loop(j);
+  return std::all_of(loop.begin(), loop.end(), [&](std::uint16_t w) {
+    const std::uint32_t point = cell.point_index(w);
+    return point == u || (D == 3 && point == v) || side(cell, i, cell.point(w)) == 0;
+  });
+}
+
 }  // namespace
 
 template <int D>
@@ -123,11 +133,17 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
         if (s_.neighbor(s_.half_facet(a, ga)) == b &&
             s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
           continue;
+        bool in_one_plane = true;
         for (const std::uint16_t w : vb.loop(gb)) {
           // The ridge itself lies in both facets: exact zeros that need not be computed.
           const std::uint32_t point = vb.point_index(w);
-          if (point != u && (D == 2 || point != v) && side(va, ga, vb.point(w)) > 0) return false;
+          if (point == u || (D == 3 && point == v)) continue;
+          const int s = side(va, ga, vb.point(w));
+          if (s > 0) return false;
+          in_one_plane &= s == 0;
         }
+        // Where that plane is the one of the shared facet, both cells go on in it without being glued: a slit.
+        if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
       }
     }
     return true;

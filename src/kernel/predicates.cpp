@@ -163,6 +163,21 @@ double time_of(const Point<sizeof...(P)>& a, const Point<sizeof...(P)>& b, const
 
 }  // namespace
 
+int displaced_side(const Point<2>& p, const Point<2>& q) {
+  // The signs of the components of the normal (p_y - q_y, q_x - p_x).
+  const int first = p[1] > q[1] ? 1 : p[1] < q[1] ? -1 : 0;
+  return first != 0 ? first : q[0] > p[0] ? 1 : q[0] < p[0] ? -1 : 0;
+}
+
+int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r) {
+  // The components of (q - p) x (r - p) are the areas of the triangle seen along the axes.
+  Predicate_counts counts;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int sign = Exact::orientation(counts, drop(p, axis), drop(q, axis), drop(r, axis)); sign != 0)
+      return sign;
+  return 0;
+}
+
 bool are_collinear(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
   return filtered_sign(p, q, r) == 0 && detail::orientation_cgal(p, q, r) == 0;
 }

@@ -67,13 +67,18 @@ Path_fault check_path(const Trace& trace, std::uint32_t start, std::span<const s
   if (path.empty() || path.front() != start) return Path_fault::wrong_start;
   int current = trace.visit_of(start);
   if (current < 0 || trace.visits[current].first != 0) return Path_fault::not_met;
+  int event = 0;  // at which the motion came into the current cell
   for (const std::uint32_t cell : path.subspan(1)) {
-    const int event = trace.visits[current].last;
     const int next = trace.visit_of(cell);
     if (next < 0) return Path_fault::not_met;
+    const int last = trace.visits[current].last;
+    const auto is_linked = [&](int e) {
+      const std::vector<int> at = trace.classes_at(e);
+      return at[next] >= 0 && at[next] == at[current];
+    };
+    while (event < last && !is_linked(event)) ++event;
     if (event == trace.last_event() || trace.visits[next].last <= event) return Path_fault::no_further_piece;
-    const std::vector<int> at = trace.classes_at(event);
-    if (at[next] < 0 || at[next] != at[current]) return Path_fault::not_linked;
+    if (!is_linked(event)) return Path_fault::not_linked;
     current = next;
   }
   return Path_fault::none;

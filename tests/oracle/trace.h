@@ -71,8 +71,8 @@ struct Truth {
 /// \pre the cell's closure holds the start
 Truth judge(const Trace& trace, std::uint32_t start);
 
-/// What is wrong with a list of cells as the way of a walk: each must be linked with the one before at the
-/// point where that one ends, and must hold a further piece.
+/// What is wrong with a list of cells as the way of a walk: each must be linked with the one before at a point of both, one after
+/// the other, and must hold a further piece.
 enum class Path_fault { none, wrong_start, not_met, not_linked, no_further_piece };
 Path_fault check_path(const Trace& trace, std::uint32_t start, std::span<const std::uint32_t> path);
 

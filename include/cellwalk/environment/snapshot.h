@@ -79,14 +79,15 @@ class Snapshot {
     static_assert(wall_bit == 1u << 31, "walls are those whose links are negative");
     return lane_mask(links_of_block < 0);
   }
-  /// True if the union of the two cells is convex and every facet they share is passable.
+  /// True if the union of the two cells is convex, every facet they share is passable, and they meet in nothing but these facets:
+  /// no slit lies between them.
   bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.
   Cell neighbor(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
-  /// The facet that all segments between the insides of two cells pass: their union is convex, and they share no other facet.
+  /// The facet that all segments between two cells pass: they are a convex pair, and share no other facet.
   /// Half_facet::none if there is no such facet. Seen from the first cell. Cost: a look at the links of its facets.
   Half_facet convex_passage(Cell from, Cell to) const {
     Half_facet passage = Half_facet::none;

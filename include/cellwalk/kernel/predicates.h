@@ -21,6 +21,12 @@ bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x);
 /// \pre the first three vertices of the polygon do not lie on one line
 bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x);
 
+/// On which side of the line pq (2D) or the plane pqr (3D) a point of it comes to lie when it is displaced by (e, e^2, e^3), e > 0
+/// as small as one likes: the sign that orientation(p, q, x) or orientation(p, q, r, x) then has. So it is 0 only where p and q
+/// coincide (3D: where p, q and r lie on one line). Decides between the two sides of a wall where nothing else does.
+int displaced_side(const Point<2>& p, const Point<2>& q);
+int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r);
+
 /// The parameter t at which the line a + t (b - a) meets the line uv (2D) or the plane uvw (3D).
 /// \pre a and b do not lie on the same side strictly, and not both on it
 /// Returns the exact fraction clamped to [0,1] and rounded: within 4 ulp, 0 and 1 only if exact.

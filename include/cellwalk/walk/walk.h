@@ -78,6 +78,7 @@ struct Walk_result {
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex that the target lies on, if arrived
   std::uint16_t aimed = 0;      ///< facet of the last cell that the motion aims at
   std::uint32_t cells = 1;      ///< cells visited
+  bool had_choice = false;      ///< it ran along a wall from its rim on, and could have taken its other side
   std::optional<Wall_contact<D>> contact;  ///< if status is contact
 };
 
@@ -132,7 +133,7 @@ inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, c
       ++counts.stays;
       particle.position = target;
       particle.dimension = D;
-      return {Walk_status::arrived, particle.cell, D, particle.aimed, 1, {}};
+      return {Walk_status::arrived, particle.cell, D, particle.aimed, 1, false, {}};
     }
   }
   return detail::move_by_walk<Kernel>(snapshot, particle, target, counts, options);

@@ -6,11 +6,15 @@
 #define CELLWALK_WALK_WALK_IMPL_H
 
 #include <cellwalk/walk/detail/certified_exit.h>
+#include <cellwalk/walk/detail/in_boundary.h>
 #include <cellwalk/walk/detail/signs.h>
 #include <cellwalk/walk/detail/star.h>
 #include <cellwalk/walk/walk.h>
 
 #include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <tuple>
 
 namespace cellwalk {
 namespace detail {
@@ -60,6 +64,7 @@ class Walker {
       : snapshot_(snapshot), a_(from.position), b_(to), counts_(counts), options_(options), cell_(from.cell) {
     result_.aimed = from.aimed;
     starts_inside_ = from.dimension == D;
+    in_boundary_ = !starts_inside_;
     if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
       planes_b_ = snapshot.frame().map(b_, y_b_);
   }
@@ -87,7 +92,14 @@ class Walker {
   /// Leaves the cell or ends the walk; true if the walk goes on.
   bool step() {
     const Cell_view<D> cell = snapshot_.view(cell_);
+    on_planes_ = false;
     const Exit exit = find_exit(cell);
+    // Where the motion runs in the boundary of the cell, walls may begin on it before it leaves.
+    if (Kernel::is_exact && in_boundary_ && on_planes_) {
+      const Exit place = detail::next_in_boundary(cell, a_, b_, passed_, exit.kind == Exit::arrived, counts_);
+      if (place.kind != Exit::none) return pass_star(place);
+      in_boundary_ = false;
+    }
     switch (exit.kind) {
       case Exit::arrived:
         result_.status = Walk_status::arrived;
@@ -99,13 +111,26 @@ class Walker {
         return pass(exit.number);
       default: {
         result_.aimed = exit.number;
-        const Star_result star = search_star<Kernel>(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
-        if (star.cell == Cell::none) return block(cell, exit, star.wall);
-        if (options_.crossed)
-          options_.crossed->insert(options_.crossed->end(), star.way.begin(), star.way.end());
-        return enter(star.cell);
+        return pass_star(exit);
       }
     }
+  }
+
+  /// Goes on where the motion passes a ridge or vertex of the cell, or ends the walk there: then false.
+  bool pass_star(const Exit& exit) {
+    const Star_search<Kernel, D> star(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
+    if (star.candidates().empty()) return block(exit, star.wall());
+    const auto& first = star.candidates().front();
+    result_.had_choice |= star.has_choice();
+    passed_ = exit;
+    if (Kernel::is_exact && star.cell(first) == cell_) return true;
+    if (options_.crossed) {
+      const Star_way way = star.way(first);
+      options_.crossed->insert(options_.crossed->end(), way.begin(), way.end());
+    }
+    enter(star.cell(first));
+    in_boundary_ = true;
+    return true;
   }
 
   bool enter(Cell next) {
@@ -113,26 +138,24 @@ class Walker {
     ++result_.cells;
     cell_ = next;
     starts_inside_ = true;
+    in_boundary_ = false;
     result_.aimed = 0;
     if (options_.visited) options_.visited->push_back(next);
     return true;
   }
 
-  bool block(const Cell_view<D>& cell, const Exit& exit, Half_facet wall) {
+  bool block(const Exit& exit, Half_facet wall) {
     if (wall == Half_facet::none) {  // no wall in the way: signs contradict each other (inexact policies)
       result_.status = Walk_status::lost;
       return false;
     }
     result_.status = Walk_status::contact;
     Wall_contact<D>& contact = result_.contact.emplace();
-    const auto loop = cell.loop(exit.number);
-    if constexpr (D == 2)
-      contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), a_, b_);
-    else
-      contact.time = crossing_time(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), a_, b_);
+    const Cell_view<D> wall_view = snapshot_.view(snapshot_.cell_of(wall));
+    const auto corners = spanning_corners(wall_view, snapshot_.facet_of(wall));
+    contact.time =
+        std::apply([&](const auto&... corner) { return crossing_time(corner..., a_, b_); }, corners);
     contact.point = point_on<D>(a_, b_, contact.time);
-    const Cell wall_cell = snapshot_.cell_of(wall);
-    const Cell_view<D> wall_view = snapshot_.view(wall_cell);
     contact.normal = inner_normal(wall_view, snapshot_.facet_of(wall));
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
                    : exit.kind == Exit::vertex ? Contact_kind::vertex
@@ -146,7 +169,7 @@ class Walker {
 
   Exit find_exit(const Cell_view<D>& cell) {
     if (planes_b_) return exit_after_doubt(cell);
-    if (options_.strategy == Walk_strategy::predictive_simplex && starts_inside_ && a_ != b_)
+    if (options_.strategy == Walk_strategy::predictive_simplex && starts_inside_ && !in_boundary_ && a_ != b_)
       return predictive_exit(cell);
     return exit_by_rule(cell);
   }
@@ -165,6 +188,8 @@ class Walker {
 
   template <class Sides>
   Exit exit_by_sides(const Cell_view<D>& cell, const Sides& sides, bool outside) {
+    on_planes_ = std::find(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(cell.facet_count()),
+                           0) != sides.begin() + static_cast<std::ptrdiff_t>(cell.facet_count());
     if (!outside) {
       result_.dimension = lowest_dimension(cell, b_, [&](std::size_t i) { return sides[i] == 0; });
       return {Exit::arrived};
@@ -239,7 +264,7 @@ class Walker {
   bool pass(std::uint16_t facet) {
     const Half_facet f = Snapshot<D>::half_facet(cell_, facet);
     result_.aimed = facet;
-    if (snapshot_.is_impassable(f)) return block(snapshot_.view(cell_), {Exit::facet, facet, 0, 0}, f);
+    if (snapshot_.is_impassable(f)) return block({Exit::facet, facet, 0, 0}, f);
     if (options_.crossed) options_.crossed->push_back(f);
     return enter(snapshot_.neighbor(f));
   }
@@ -344,6 +369,9 @@ class Walker {
   /// The line holds a point of the cell strictly before any exit: a is in the interior, or a facet was
   /// crossed.
   bool starts_inside_;
+  bool in_boundary_;        ///< the line may run in the boundary of the cell from where it entered it
+  bool on_planes_ = false;  ///< b lies on the plane of a facet of the cell
+  Exit passed_;             ///< the last ridge or vertex passed
 };
 
 }  // namespace detail

@@ -10,17 +10,47 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace cellwalk::detail {
+
+/// Corners that span facet i, in its order: the same ones in whatever order cells and points are listed.
+inline std::array<Point<2>, 2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
+  const auto loop = cell.loop(i);
+  return {cell.point(loop[0]), cell.point(loop[1])};
+}
+
+inline std::array<Point<3>, 3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
+  const auto loop = cell.loop(i);
+  const std::size_t n = loop.size();
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if (cell.point(loop[k]) < cell.point(loop[first])) first = k;
+  const auto at = [&](std::size_t k) -> const Point<3>& { return cell.point(loop[k % n]); };
+  while (n > 3 && are_collinear(at(first), at(first + 1), at(first + 2))) ++first;
+  return {at(first), at(first + 1), at(first + 2)};
+}
 
 /// Unit normal of a half-facet towards its cell, rounded.
 template <int D>
 Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
-  const auto loop = cell.loop(i);
+  const auto corners = spanning_corners(cell, i);
   if constexpr (D == 2)
-    return unit_normal(cell.point(loop[0]), cell.point(loop[1]));
+    return unit_normal(corners[0], corners[1]);
   else
-    return unit_normal(cell.point(loop[0]), cell.point(loop[2]), cell.point(loop[1]));
+    return unit_normal(corners[0], corners[2], corners[1]);
+}
+
+/// An order of facets by the places of their corners: the same however they are numbered. Facets that coincide are equal.
+template <int D>
+bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D>& other, std::size_t j) {
+  const auto sorted_corners = [](const Cell_view<D>& of, std::size_t facet) {
+    boost::container::small_vector<Point<D>, 4> corners;
+    for (const std::uint16_t v : of.loop(facet)) corners.push_back(of.point(v));
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  return sorted_corners(cell, i) < sorted_corners(other, j);
 }
 
 /// True if facet i of a cell contains point u, and v too (3D ridge).
@@ -34,78 +64,198 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
   return has_u && has_v;
 }
 
+/// On which side of facet i a point of its plane lies once it is displaced, see displaced_side(): > 0 outside the cell.
+inline int displaced_side(const Cell_view<2>& cell, std::size_t i) {
+  const auto loop = cell.loop(i);
+  return -cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]));
+}
+
+inline int displaced_side(const Cell_view<3>& cell, std::size_t i) {
+  const auto loop = cell.loop(i);
+  return cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+}
+
+/// An order of cells that have the line ab in their boundary: as one comes to them turning counterclockwise about it, seen against
+/// its direction, from where a point of the line comes to lie when it is displaced.
+/// \pre no two of the cells overlap, and the displaced point is in none of them
+template <class Kernel>
+class Turn {
+ public:
+  Turn(const Point<3>& a, const Point<3>& b, Walk_counts& counts) : a_(a), b_(b), counts_(counts) {}
+
+  bool operator()(const Cell_view<3>& x, const Cell_view<3>& y) const {
+    const Point<3>&u = first_corner(x), &v = first_corner(y);
+    const int u_side = cellwalk::displaced_side(a_, b_, u), v_side = cellwalk::displaced_side(a_, b_, v);
+    // Where the plane of the line and a corner has the displaced point on its right, the corner comes within half a turn.
+    return u_side != v_side ? u_side < v_side : orientation(u, v) > 0;
+  }
+
+ private:
+  int orientation(const Point<3>& u, const Point<3>& v) const {
+    ++counts_.along_tests;
+    return Kernel::orientation(counts_.predicates, a_, b_, u, v);
+  }
+
+  /// A corner off the line that comes before all others, if the turn starts outside of the cell.
+  const Point<3>& first_corner(const Cell_view<3>& cell) const {
+    std::size_t first = cell.vertex_count();
+    for (std::size_t k = 0; k < cell.vertex_count(); ++k) {
+      if (are_collinear(a_, b_, cell.point(k))) continue;
+      if (first == cell.vertex_count() || orientation(cell.point(first), cell.point(k)) < 0) first = k;
+    }
+    // Half a turn on from the first corner signs are 0: corners in between have told which is first, unless they came later.
+    for (std::size_t k = 0; k < cell.vertex_count(); ++k)
+      if (first != k && !are_collinear(a_, b_, cell.point(k)) &&
+          orientation(cell.point(first), cell.point(k)) < 0)
+        first = k;
+    return cell.point(first);
+  }
+
+  const Point<3>&a_, &b_;
+  Walk_counts& counts_;
+};
+
 /// Facets on a way through a star.
 using Star_way = boost::container::small_vector<Half_facet, 8>;
 
-struct Star_result {
-  Cell cell = Cell::none;              ///< where the motion goes on; none: blocked
-  Half_facet wall = Half_facet::none;  ///< if blocked: the wall that blocks it
-  Star_way way;                        ///< the way there
-};
+/// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in which the motion from
+/// a towards b continues: all their facets at the ridge or vertex have b on their inner side or on them.
+///
+/// They are the candidates. Those that passable facets along the motion join are one side; there are several where it runs along
+/// walls. The sides come in an order that depends on the geometry only: first the one that b is on once it is displaced, see
+/// displaced_side(); then, turning from there about the line ab (3D), one after the other. Within the first one `start` comes
+/// first.
+template <class Kernel, int D>
+class Star_search {
+ public:
+  Star_search(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v, const Point<D>& a,
+              const Point<D>& b, Walk_counts& counts)
+      : snapshot_(snapshot),
+        u_(u),
+        v_(v),
+        a_(a),
+        b_(b),
+        counts_(counts),
+        found_{{start, 0, Half_facet::none}} {
+    ++counts.star_searches;
+    for (std::size_t head = 0; head < found_.size(); ++head)
+      if (visit(head)) return;
+    if (candidates_.size() > 1) sort();
+  }
 
-/// A cell of a star, and how the search came to it.
-struct Star_cell {
-  Cell cell;
-  std::size_t parent;
-  Half_facet facet;  ///< of the parent
-};
+  struct Candidate {
+    std::size_t place;  ///< among the cells found
+    bool is_displaced;  ///< b lies in it once it is displaced
+    int side;           ///< candidates of one side have the same number
+  };
+  using Candidates = boost::container::small_vector<Candidate, 4>;
 
-/// Searches the star of ridge uv (or vertex u = v), breadth first from `start` through passable facets, for cells in which
-/// the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner side or on them.
-/// Each is handed to accept(cell, way), way being the facets on the way there, until that returns true. Returns a wall that
-/// is in the way, if there is one.
-template <class Kernel, int D, class Accept>
-Half_facet explore_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
-                        const Point<D>& a, const Point<D>& b, Walk_counts& counts, Accept accept) {
-  ++counts.star_searches;
-  boost::container::small_vector<Star_cell, 32> queue{{start, 0, Half_facet::none}};
-  Half_facet wall = Half_facet::none;
-  double steepest = 0;
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const Cell c = queue[head].cell;
-    const Cell_view<D> cell = snapshot.view(c);
-    ++counts.star_cells;
-    bool accepted = true;
+  const Candidates& candidates() const { return candidates_; }
+  Cell cell(const Candidate& candidate) const { return found_[candidate.place].cell; }
+  /// True if there is more than one side to go on along.
+  bool has_choice() const {
+    return std::any_of(candidates_.begin(), candidates_.end(),
+                       [&](const Candidate& c) { return c.side != candidates_.front().side; });
+  }
+  /// The facets on the way to a candidate.
+  Star_way way(const Candidate& candidate) const {
+    Star_way way;
+    for (std::size_t i = candidate.place; i != 0; i = found_[i].parent) way.push_back(found_[i].facet);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides nothing.
+  Half_facet wall() const { return wall_; }
+
+ private:
+  /// A cell of the star, and how the search came to it.
+  struct Found {
+    Cell cell;
+    std::size_t parent;
+    Half_facet facet;  ///< of the parent
+  };
+
+  /// True if the motion continues in the inside of the cell, so that there is no other.
+  bool visit(std::size_t place) {
+    const Cell c = found_[place].cell;
+    const Cell_view<D> cell = snapshot_.view(c);
+    ++counts_.star_cells;
+    bool is_candidate = true, is_inside = true, is_displaced = true;
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!facet_contains(cell, i, u, v)) continue;
+      if (!facet_contains(cell, i, u_, v_)) continue;
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      const bool outside = side<Kernel>(cell, i, b, counts) > 0;
-      accepted &= !outside;
-      if (!snapshot.is_impassable(f)) {
-        const Cell next = snapshot.neighbor(f);
-        const auto is_next = [next](const Star_cell& known) { return known.cell == next; };
-        if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
-      } else if (outside) {
-        // Of all walls in the way the one met most head-on is reported; the choice decides nothing.
-        const double slope = dot(inner_normal(cell, i), a - b);
-        if (wall == Half_facet::none || slope > steepest) {
-          wall = f;
-          steepest = slope;
-        }
+      const int side = detail::side<Kernel>(cell, i, b_, counts_);
+      is_candidate &= side <= 0;
+      is_inside &= side < 0;
+      is_displaced &= side < 0 || (side == 0 && displaced_side(cell, i) < 0);
+      if (!snapshot_.is_impassable(f))
+        add(snapshot_.neighbor(f), place, f);
+      else if (side > 0)
+        note_wall(f, cell, i);
+    }
+    if (is_candidate) candidates_.push_back({place, is_displaced, static_cast<int>(candidates_.size())});
+    return is_candidate && is_inside;
+  }
+
+  void add(Cell next, std::size_t parent, Half_facet facet) {
+    const auto is_next = [next](const Found& known) { return known.cell == next; };
+    if (std::none_of(found_.begin(), found_.end(), is_next)) found_.push_back({next, parent, facet});
+  }
+
+  void note_wall(Half_facet f, const Cell_view<D>& cell, std::size_t i) {
+    const double slope = dot(inner_normal(cell, i), a_ - b_);
+    if (wall_ != Half_facet::none) {
+      if (slope < steepest_) return;
+      const Cell_view<D> other = snapshot_.view(snapshot_.cell_of(wall_));
+      if (slope == steepest_ && !is_placed_before(cell, i, other, snapshot_.facet_of(wall_))) return;
+    }
+    wall_ = f;
+    steepest_ = slope;
+  }
+
+  void sort() {
+    join_sides();
+    std::stable_sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
+      if (x.is_displaced != y.is_displaced) return x.is_displaced;
+      if constexpr (D == 2)
+        return false;
+      else
+        return Turn<Kernel>{a_, b_, counts_}(snapshot_.view(cell(x)), snapshot_.view(cell(y)));
+    });
+    const int first = candidates_.front().side;
+    std::stable_sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
+      const auto rank = [&](const Candidate& c) { return c.side != first ? 2 : c.place != 0 ? 1 : 0; };
+      return rank(x) < rank(y);
+    });
+  }
+
+  /// Gives candidates that a passable facet along the motion joins the same number.
+  void join_sides() {
+    for (const Candidate& x : candidates_) {
+      const Cell_view<D> view = snapshot_.view(cell(x));
+      for (std::size_t i = 0; i < view.facet_count(); ++i) {
+        const Half_facet f = Snapshot<D>::half_facet(cell(x), i);
+        if (snapshot_.is_impassable(f) || !facet_contains(view, i, u_, v_)) continue;
+        const Cell next = snapshot_.neighbor(f);
+        const auto other = std::find_if(candidates_.begin(), candidates_.end(),
+                                        [&](const Candidate& y) { return cell(y) == next; });
+        if (other == candidates_.end() || detail::side<Kernel>(view, i, b_, counts_) != 0) continue;
+        const int from = other->side, to = x.side;
+        for (Candidate& y : candidates_)
+          if (y.side == from) y.side = to;
       }
     }
-    if (!accepted) continue;
-    Star_way way;
-    for (std::size_t i = head; i != 0; i = queue[i].parent) way.push_back(queue[i].facet);
-    std::reverse(way.begin(), way.end());
-    if (accept(c, way)) break;
   }
-  return wall;
-}
 
-/// The first cell of a star in which the motion continues.
-template <class Kernel, int D>
-Star_result search_star(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v,
-                        const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
-  Star_result result;
-  result.wall =
-      explore_star<Kernel>(snapshot, start, u, v, a, b, counts, [&](Cell cell, const Star_way& way) {
-        result.cell = cell;
-        result.way = way;
-        return true;
-      });
-  return result;
-}
+  const Snapshot<D>& snapshot_;
+  const std::uint32_t u_, v_;
+  const Point<D>&a_, &b_;
+  Walk_counts& counts_;
+  boost::container::small_vector<Found, 32> found_;
+  Candidates candidates_;
+  Half_facet wall_ = Half_facet::none;
+  double steepest_ = 0;
+};
 
 }  // namespace cellwalk::detail
 
