@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
 #   core     LGPL  kernel to simulation                 target cellwalk::core
-#   io       LGPL  readers and writers (GPL with Gmsh)  target cellwalk::io
+#   io       LGPL  readers and writers                  target cellwalk::io; its modules for Gmsh (GPL) and VTK are the component readers
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
 #   loading  LGPL  environments from files (GPL where it is built with meshing or Gmsh)  target cellwalk::loading
 include(CMakePackageConfigHelpers)
@@ -30,14 +30,12 @@ foreach(component ${CELLWALK_COMPONENTS})
 endforeach()
 
 set(CELLWALK_HAS_TETGEN ${TetGen_FOUND})
-set(CELLWALK_HAS_GMSH ${Gmsh_FOUND})
-set(CELLWALK_HAS_VTK ${VTK_FOUND})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cellwalkConfig.cmake.in
   ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake
         DESTINATION ${package_dir} COMPONENT dev)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev

@@ -2,7 +2,8 @@
 # Debian packages by CPack, one for each component of the install rules:
 #   cellwalk                 tools    the program
 #   libcellwalk-dev          dev      headers and libraries of the core, which need no reader's libraries
-#   libcellwalk-io-dev       io       those of io, which need what its readers are built with: Gmsh, VTK
+#   cellwalk-readers         readers  modules that the program, the Python module and programs of users load to read by Gmsh and VTK
+#   libcellwalk-io-dev       io       those of io
 #   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
 #   python3-cellwalk         python   the Python module
 # Configure with CMAKE_INSTALL_PREFIX=/usr; scripts/package.sh does.
@@ -32,15 +33,18 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libcellwalk-io-dev, libcellwalk-meshing-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static libraries of the core")
 
-# What only walks is not to pay for what reads: libvtk9-dev brings Java, Qt and more, 2.2 GB with all else, 0.3 GB without.
+# What reads by Gmsh and VTK is loaded at run time, so that nobody needs their development packages, of which VTK's brings Java and Qt.
+set(readers)
+if(TARGET Gmsh::Gmsh OR TARGET VTK::IOXML)
+  list(APPEND CPACK_COMPONENTS_ALL readers)
+  set(readers "cellwalk-readers (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_READERS_PACKAGE_NAME cellwalk-readers)
+  set(CPACK_DEBIAN_READERS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_COMPONENT_READERS_DESCRIPTION "Readers of meshes by Gmsh and VTK, for Cellwalk")
+endif()
+
 list(APPEND CPACK_COMPONENTS_ALL io)
-set(io_depends "libcellwalk-dev (= ${PROJECT_VERSION})" zlib1g-dev)
-if(TARGET Gmsh::Gmsh)
-  list(APPEND io_depends libgmsh-dev)
-endif()
-if(TARGET VTK::IOXML)
-  list(APPEND io_depends libvtk9-dev)
-endif()
+set(io_depends "libcellwalk-dev (= ${PROJECT_VERSION})" zlib1g-dev ${readers})
 list(JOIN io_depends ", " CPACK_DEBIAN_IO_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_IO_PACKAGE_NAME libcellwalk-io-dev)
 set(CPACK_DEBIAN_IO_PACKAGE_SECTION libdevel)
@@ -56,11 +60,15 @@ endif()
 set(CPACK_COMPONENT_MESHING_DESCRIPTION "Environments of surfaces, polygons and files, for libcellwalk-dev (GPL)")
 
 set(licences dev io meshing)
+if(readers)
+  list(APPEND licences readers)
+endif()
 if(TARGET cellwalk_cli)
   list(APPEND CPACK_COMPONENTS_ALL tools)
   list(APPEND licences tools)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME cellwalk)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${readers}")
   set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
 endif()
 if(TARGET cellwalk_python)
@@ -72,6 +80,9 @@ if(TARGET cellwalk_python)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy")
+  if(readers)
+    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", ${readers}")
+  endif()
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
 endif()
 
@@ -79,9 +90,9 @@ endif()
 foreach(component ${licences})
   string(TOUPPER ${component} upper)
   set(licence LICENSE)
-  if(component STREQUAL io AND TARGET Gmsh::Gmsh)
+  if(component STREQUAL readers AND TARGET Gmsh::Gmsh)
     set(licence COPYING.GPL)
-  elseif(NOT component MATCHES "^(dev|io)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
+  elseif(NOT component MATCHES "^(dev|io|readers)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
     set(licence COPYING.GPL)
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} RENAME copyright COMPONENT ${component}

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Finds TetGen as a library: target TetGen::TetGen, variable TetGen_FOUND.
 #
-# Gmsh's library carries a TetGen of its own under the same names, and the first one on the link line is used by both:
-# TetGen links Gmsh where a project has it, so that Gmsh always comes after. (Gmsh is only asked to read files, which needs
-# no TetGen.)
+# Gmsh's library carries a TetGen of its own under the same names. It is loaded later, if at all, and is only asked to read files, which
+# needs no TetGen: this one is used.
 find_path(TetGen_INCLUDE_DIR tetgen.h)
 find_library(TetGen_LIBRARY NAMES tet tetgen)
 include(FindPackageHandleStandardArgs)
@@ -13,7 +12,6 @@ if(TetGen_FOUND AND NOT TARGET TetGen::TetGen)
   set_target_properties(TetGen::TetGen PROPERTIES
     IMPORTED_LOCATION "${TetGen_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${TetGen_INCLUDE_DIR}"
-    INTERFACE_COMPILE_DEFINITIONS TETLIBRARY
-    INTERFACE_LINK_LIBRARIES "$<TARGET_NAME_IF_EXISTS:Gmsh::Gmsh>")
+    INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
 endif()
 mark_as_advanced(TetGen_INCLUDE_DIR TetGen_LIBRARY)

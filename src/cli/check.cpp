@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk check ENV: certifies an environment, its map included, and says what it holds.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
+#include "cli/outputs.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -17,13 +18,15 @@ struct Check_options {
 };
 
 void check(const Check_options& options) {
+  Outputs outputs({options.environment});
+  io::Atomic_file* const json = outputs.file(options.json);
   const Loaded_environment loaded = load_with_progress(options.environment, options.build);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
         const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
-        write_json(options.json,
-                   {{"environment", options.environment}, {"certificate", to_json(certificate, D)}});
-        fmt::print("{}: certified, {}D\n{}", options.environment, D, describe(certificate, D));
+        write_json(json, {{"environment", options.environment}, {"certificate", to_json(certificate, D)}});
+        outputs.commit(
+            fmt::format("{}: certified, {}D\n{}", options.environment, D, describe(certificate, D)));
       },
       loaded.environment);
 }

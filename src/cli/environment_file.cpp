@@ -39,8 +39,8 @@ void add_json(CLI::App& command, std::string& path) {
   command.add_option("--json", path, "Write the report as JSON too")->type_name("FILE");
 }
 
-void write_json(const std::string& path, const nlohmann::ordered_json& report) {
-  if (!path.empty()) io::write_json(path, report);
+void write_json(io::Atomic_file* file, const nlohmann::ordered_json& report) {
+  if (file != nullptr) io::write_json(*file, report);
 }
 
 }  // namespace cellwalk::cli

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_CLI_ENVIRONMENT_FILE_H
 #define CELLWALK_CLI_ENVIRONMENT_FILE_H
 
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/loading/report.h>
 
@@ -28,8 +29,8 @@ void add_environment_output(CLI::App& command, std::string& path);
 
 /// Adds --json OUT.
 void add_json(CLI::App& command, std::string& path);
-/// Writes a report where --json asked for one.
-void write_json(const std::string& path, const nlohmann::ordered_json& report);
+/// Writes a report where --json asked for one: into no file if it is null.
+void write_json(io::Atomic_file* file, const nlohmann::ordered_json& report);
 
 }  // namespace cellwalk::cli
 

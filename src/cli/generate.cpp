@@ -13,6 +13,7 @@
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 
 namespace cellwalk::cli {
@@ -23,18 +24,24 @@ struct Generate_options {
   std::string environment, json;
 };
 
+struct Files {
+  io::Atomic_file *environment, *json;
+};
+
 template <int D>
-void write_environment(Cell_soup<D> soup, const Generate_options& options) {
+void write_environment(Cell_soup<D> soup, const Generate_options& options, Outputs& outputs,
+                       const Files& files) {
   Build_report report;
   {
     const Progress progress("certifying and writing " + options.environment);
     const auto environment =
         Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
-    io::write_ovm(options.environment, environment.soup());
+    io::write_ovm(*files.environment, environment.soup());
   }
-  write_json(options.json,
+  write_json(files.json,
              {{"environment", options.environment}, {"certificate", to_json(report.certificate, D)}});
-  fmt::print("{}: certified, {}D\n{}", options.environment, D, describe(report.certificate, D));
+  outputs.commit(
+      fmt::format("{}: certified, {}D\n{}", options.environment, D, describe(report.certificate, D)));
 }
 
 std::string default_text(const std::vector<double>& numbers) {
@@ -69,7 +76,9 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
   add_json(*command, options->json);
   command->callback([options, &chosen, name = generator.name] {
     chosen = [options, name] {
-      std::visit([&](auto&& soup) { write_environment(std::move(soup), *options); },
+      Outputs outputs({});
+      const Files files{outputs.file(options->environment), outputs.file(options->json)};
+      std::visit([&](auto&& soup) { write_environment(std::move(soup), *options, outputs, files); },
                  generate(name, options->values));
     };
   });

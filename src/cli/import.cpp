@@ -2,15 +2,18 @@
 // cellwalk import MESH -o ENV.ovm: any mesh becomes a certified environment, and every change is reported.
 #include <cellwalk/io/ovm.h>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 
 namespace cellwalk::cli {
@@ -22,6 +25,17 @@ struct Options {
   Import_options import;
 };
 
+constexpr double least_size = std::numeric_limits<double>::denorm_min();  // what is greater than 0
+
+/// A finite number not below a bound.
+auto number_from(double least, const char* bound) {
+  return [least, bound](const std::string& text) {
+    double value = 0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= least;
+    return fits ? std::string{} : fmt::format("takes a number {}, not {}", bound, text);
+  };
+}
+
 /// Those of the meshers this build has.
 void add_mesher_options(CLI::App& command, Mesher_options& options) {
   if (!mesher_parts().meshing) return;
@@ -31,11 +45,14 @@ void add_mesher_options(CLI::App& command, Mesher_options& options) {
   command
       .add_option("--quality", options.quality,
                   "TetGen: bound of circumradius to shortest edge, such as 1.5; 0: none")
+      ->check(number_from(0, "of at least 0"))
       ->type_name("Q");
   command
       .add_option("--cell-size", options.cell_size, "Mesh_3: bound of circumradii, in units of the surface")
+      ->check(number_from(least_size, "greater than 0"))
       ->type_name("H");
   command.add_option("--distance", options.distance, "Mesh_3: how far the boundary may leave the surface")
+      ->check(number_from(least_size, "greater than 0"))
       ->type_name("D");
   command.add_flag("--keep-obstacles", options.keep_obstacles,
                    "Keep the inside of obstacles and holes as solid cells");
@@ -50,6 +67,11 @@ std::string text(const Import_report& report) {
 }
 
 void import(Options& options) {
+  std::vector<std::string> inputs = options.import.obstacles;
+  inputs.push_back(options.mesh);
+  Outputs outputs(inputs);
+  io::Atomic_file* const file = outputs.file(options.environment);
+  io::Atomic_file* const json = outputs.file(options.json);
   options.import.build.split = !options.no_split;
   std::optional<Progress> progress;
   options.import.on_stage = [&progress](const std::string& stage) {
@@ -59,12 +81,12 @@ void import(Options& options) {
   Imported_environment imported = import_environment(options.mesh, options.import);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
-        io::write_ovm(options.environment, environment.soup());
+        io::write_ovm(*file, environment.soup());
         progress.reset();
         imported.report.json["environment"] = options.environment;
-        write_json(options.json, imported.report.json);
-        fmt::print("{}{}: certified, {}D\n{}", text(imported.report), options.environment, D,
-                   describe(imported.built.certificate, D));
+        write_json(json, imported.report.json);
+        outputs.commit(fmt::format("{}{}: certified, {}D\n{}", text(imported.report), options.environment, D,
+                                   describe(imported.built.certificate, D)));
       },
       imported.environment);
 }

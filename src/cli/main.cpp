@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The program: parses the command line, runs one command, turns exceptions into one line and an exit code.
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/io/output.h>
 #include <cellwalk/kernel/error.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/command.h"
 
@@ -22,6 +27,30 @@ void discard_and_stop(int signal) {
   cellwalk::io::discard_unfinished_files();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
+}
+
+constexpr std::size_t longest_name = 255;  // bytes that Linux allows
+
+/// A word, or the beginning of one that is too long to be read in a line.
+std::string shortened(std::string_view word, std::size_t longest = 100) {
+  constexpr std::size_t shown = 40;  // bytes
+  if (word.size() <= longest) return std::string(word);
+  return fmt::format("{}...", word.substr(0, shown));
+}
+
+/// What is wrong with a command line can quote it: long words are quoted shortened. Names of files can be longer.
+std::string with_short_words(std::string message, std::span<char* const> words, Error_code code) {
+  const auto shorten = [&](std::string_view word) {
+    const std::string brief = code == Error_code::usage ? shortened(word) : shortened(word, longest_name);
+    if (brief.size() == word.size()) return;
+    for (std::size_t at = 0; (at = message.find(word, at)) != message.npos; at += brief.size())
+      message.replace(at, word.size(), brief);
+  };
+  for (const std::string_view word : words) {
+    shorten(word);
+    shorten(word.substr(std::min(word.find('=') + 1, word.size())));  // what --option=VALUE gives
+  }
+  return message;
 }
 
 int fail(Error_code code, const std::string& message) {
@@ -39,13 +68,27 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   return message + "; see cellwalk --help";
 }
 
-int run(const cellwalk::cli::Action& action) {
+/// No command takes an empty word, which a script makes of a variable that is not set. Empty: there is none.
+std::string empty_word(std::span<char* const> words) {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string_view word = words[i];
+    if (word.empty())
+      return fmt::format("argument {}, after {}, is empty: give a value, or leave the option out", i,
+                         shortened(i == 1 ? "cellwalk" : words[i - 1]));
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      return fmt::format("{} is given no value: give one, or leave the option out", shortened(word));
+  }
+  return {};
+}
+
+int run(const cellwalk::cli::Action& action, std::span<char* const> words) {
   try {
     action();
-    if (std::fflush(stdout) != 0) throw Error(Error_code::other, "standard output cannot be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw Error(Error_code::other, "standard output cannot be written");
     return EXIT_SUCCESS;
   } catch (const Error& error) {
-    return fail(error.code(), error.what());
+    return fail(error.code(), with_short_words(error.what(), words, error.code()));
   } catch (const std::bad_alloc&) {
     return fail(Error_code::other, "out of memory: use a smaller input or a larger machine");
   } catch (const std::exception& error) {
@@ -58,6 +101,11 @@ int run(const cellwalk::cli::Action& action) {
 int main(int argc, char** argv) {
   using namespace cellwalk::cli;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, discard_and_stop);
+  // A reader that goes away and a limit of file sizes are errors of writing, after which nothing is left behind.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
+  if (const std::string problem = empty_word(words); !problem.empty())
+    return fail(Error_code::usage, problem + "; see cellwalk --help");
 
   CLI::App app{"Exact, fast contact detection in convex cell complexes.", "cellwalk"};
   add_version(app);
@@ -81,11 +129,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    return run([&] { app.exit(help_or_version); });
+    return run([&] { app.exit(help_or_version); }, words);
   } catch (const CLI::ParseError& error) {
-    return fail(Error_code::usage, explain(app, error));
+    return fail(Error_code::usage, with_short_words(explain(app, error), words, Error_code::usage));
   } catch (const Error& error) {  // --version --json FILE
     return fail(error.code(), error.what());
   }
-  return run(action);
+  return run(action, words);
 }

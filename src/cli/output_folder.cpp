@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <string>
 #include <system_error>
-#include <utility>
 
 namespace cellwalk::cli {
 namespace {
@@ -19,17 +19,15 @@ namespace fs = std::filesystem;
   throw Error(Error_code::other, path.string() + ": " + what + ": " + reason.message());
 }
 
-/// A name beside the destination that no other process uses.
-fs::path beside(const fs::path& destination, const char* word) {
-  fs::path name = destination;
-  if (!name.has_filename()) name = name.parent_path();  // a name that ends in a slash
-  name += fmt::format(".{}-{}", word, getpid());
-  return name;
+/// What a name leads to, absolute and without a slash at its end.
+fs::path place_of(const fs::path& name) {
+  std::error_code failure;
+  fs::path place = fs::weakly_canonical(fs::absolute(name, failure), failure);
+  if (failure) place = name;
+  return place.has_filename() ? place : place.parent_path();
 }
 
-}  // namespace
-
-void Output_folder::check(const fs::path& destination, bool replace) {
+void check_destination(const fs::path& destination, bool replace) {
   std::error_code ignored;
   if (!fs::exists(destination, ignored)) return;
   if (!replace)
@@ -40,33 +38,30 @@ void Output_folder::check(const fs::path& destination, bool replace) {
                 destination.string() + ": holds no run.json, so it is no earlier run; give another folder");
 }
 
-Output_folder::Output_folder(fs::path destination, bool replace)
-    : destination_(std::move(destination)), temporary_(beside(destination_, "tmp")) {
-  check(destination_, replace);
+}  // namespace
+
+Output_folder::Output_folder(const fs::path& destination, bool replace)
+    : name_(destination), destination_(place_of(destination)) {
+  check_destination(name_, replace);
+  temporary_ = destination_;
+  temporary_ += fmt::format(".tmp-{}", getpid());  // a name that no other process uses
   std::error_code failure;
-  if (!fs::create_directory(temporary_, failure)) fail(destination_, "cannot be made", failure);
+  if (!fs::create_directory(temporary_, failure)) fail(name_, "cannot be made", failure);
+  unfinished_.hold(temporary_.string());
 }
 
-Output_folder::~Output_folder() {
+Output_folder::~Output_folder() { settle(); }
+
+void Output_folder::put() {
+  if (!replacement_.put(temporary_, destination_))
+    fail(name_, "cannot be put in place", std::error_code(errno, std::generic_category()));
+}
+
+void Output_folder::take_back() noexcept { replacement_.take_back(temporary_, destination_); }
+
+void Output_folder::settle() noexcept {
   std::error_code ignored;
-  fs::remove_all(temporary_, ignored);  // nothing is there after commit()
-}
-
-void Output_folder::commit() {
-  std::error_code failure;
-  const fs::path old = beside(destination_, "old");
-  const bool replaces = fs::exists(destination_, failure);
-  if (replaces) {
-    fs::rename(destination_, old, failure);
-    if (failure) fail(destination_, "cannot be replaced", failure);
-  }
-  fs::rename(temporary_, destination_, failure);
-  if (failure) {
-    std::error_code ignored;
-    if (replaces) fs::rename(old, destination_, ignored);
-    fail(destination_, "cannot be put in place", failure);
-  }
-  if (replaces) fs::remove_all(old, failure);
+  fs::remove_all(temporary_, ignored);  // the new folder before put(), the old one after it
 }
 
 }  // namespace cellwalk::cli

@@ -3,31 +3,33 @@
 #ifndef CELLWALK_CLI_OUTPUT_FOLDER_H
 #define CELLWALK_CLI_OUTPUT_FOLDER_H
 
+#include <cellwalk/io/output.h>
+
 #include <filesystem>
 
 namespace cellwalk::cli {
 
-/// A folder written beside its destination and renamed on commit(). Destroyed without commit() it leaves nothing behind.
-class Output_folder {
+/// A folder written beside its destination. Destroyed before put() it leaves nothing behind.
+class Output_folder final : public io::Output {
  public:
   /// \throw Error(usage) if the destination exists, unless `replace` is set and it holds a run.json (so that nothing but
   ///        an earlier run is ever replaced); Error(other) if the folder cannot be made
-  Output_folder(std::filesystem::path destination, bool replace);
-  ~Output_folder();
-  Output_folder(const Output_folder&) = delete;
-  Output_folder& operator=(const Output_folder&) = delete;
-
-  /// The checks of the constructor, for an early answer.
-  static void check(const std::filesystem::path& destination, bool replace);
+  Output_folder(const std::filesystem::path& destination, bool replace);
+  ~Output_folder() override;
 
   /// Where to write.
   const std::filesystem::path& path() const { return temporary_; }
 
-  /// \throw Error(other) if the folder cannot be put in place
-  void commit();
+  void prepare() override {}
+  void put() override;
+  void take_back() noexcept override;
+  void settle() noexcept override;
+  bool can_be_taken_back() const override { return true; }
 
  private:
-  std::filesystem::path destination_, temporary_;
+  std::filesystem::path name_, destination_, temporary_;  ///< the name as given, and what it leads to
+  io::Unfinished unfinished_;
+  io::Replacement replacement_;
 };
 
 }  // namespace cellwalk::cli

@@ -18,6 +18,7 @@
 #include "cli/counts_json.h"
 #include "cli/environment_file.h"
 #include "cli/kernel_words.h"
+#include "cli/outputs.h"
 #include "cli/query_answers.h"
 #include "cli/query_picture.h"
 #include "cli/replay_failure.h"
@@ -40,12 +41,25 @@ struct Query_options {
   Build_options build{.keep_map = false};
 };
 
-/// Writes the answers and says how many there are of each status.
+/// The files of a query; null where one is not wanted.
+struct Query_files {
+  explicit Query_files(const Query_options& options)
+      : all({options.environment, options.queries}),
+        answers(all.file(options.output)),
+        json(all.file(options.json)),
+        record(all.file(options.record)),
+        picture(all.file(options.picture)) {}
+
+  Outputs all;
+  io::Atomic_file *answers, *json, *record, *picture;
+};
+
+/// Completes all files and says how many answers there are of each status.
 template <int D, std::size_t N>
-void report(const Query_options& options, const Snapshot<D>& snapshot,
+void report(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
             const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
             const nlohmann::ordered_json& counts) {
-  write_answers(options.output, snapshot, rows, answers);
+  write_answers(*files.answers, snapshot, rows, answers);
   std::array<std::size_t, std::size(motion_status_names)> tally{};
   for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
   nlohmann::ordered_json by_status;
@@ -55,8 +69,8 @@ void report(const Query_options& options, const Snapshot<D>& snapshot,
     if (tally[s] != 0)
       line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], motion_status_names[s]);
   }
-  write_json(options.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
-  fmt::print("{}: {} motions{}\n", options.output, answers.size(), line);
+  write_json(files.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
+  files.all.commit(fmt::format("{}: {} motions{}\n", options.output, answers.size(), line));
   const auto invalid =
       std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
   if (invalid != rows.end())
@@ -75,26 +89,28 @@ void check_row(const Query_options& options, const std::vector<Query_row<D, N>>&
 
 /// Draws the row that is wanted.
 template <int D, std::size_t N>
-void draw_row(const Query_options& options, const Snapshot<D>& snapshot, const Locator<D>& locator,
-              const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
+void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
+              const Locator<D>& locator, const std::vector<Query_row<D, N>>& rows,
+              const std::vector<Answer<D>>& answers) {
   if constexpr (D == 2)
-    if (!options.picture.empty())
-      write_picture(options.picture, snapshot, locator, *options.row, rows[*options.row].points,
+    if (files.picture != nullptr)
+      write_picture(*files.picture, snapshot, locator, *options.row, rows[*options.row].points,
                     answers[*options.row]);
 }
 
 /// Writes the record of the row that is wanted.
 template <int D>
-void record_row(const Query_options& options, const Environment<D>& environment,
+void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
                 const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
+  if (files.record == nullptr) return;
   const std::size_t row = *options.row;
   const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
-  record_motion(options.record, environment, moves[row].points[0], moves[row].points[1], options.move,
+  record_motion(*files.record, environment, moves[row].points[0], moves[row].points[1], options.move,
                 fmt::format("row {} of a query: {}", row, status));
 }
 
 template <int D>
-void query_environment(const Query_options& options, const Environment<D>& environment) {
+void query_environment(const Query_options& options, Query_files& files, const Environment<D>& environment) {
   const Snapshot<D>& snapshot = environment.snapshot();
   Edge_counts counts;
   if (options.mode == Query_mode::move) {
@@ -105,9 +121,9 @@ void query_environment(const Query_options& options, const Environment<D>& envir
         answer_rows(moves, "walking", counts, [&](const Move_query<D>& move, Edge_counts& local) {
           return answer_move(snapshot, locator, move.points[0], move.points[1], options.move, local);
         });
-    report(options, snapshot, moves, answers, cli::to_json(counts.walk));
-    if (!options.record.empty()) record_row(options, environment, moves, answers);
-    draw_row(options, snapshot, locator, moves, answers);
+    record_row(options, files, environment, moves, answers);
+    draw_row(options, files, snapshot, locator, moves, answers);
+    report(options, files, snapshot, moves, answers, cli::to_json(counts.walk));
   } else {
     const auto sweeps = io::read_sweeps<D>(options.queries);
     check_row(options, sweeps);
@@ -119,8 +135,8 @@ void query_environment(const Query_options& options, const Environment<D>& envir
         });
     nlohmann::ordered_json work = cli::to_json(counts);
     work["walk"] = cli::to_json(counts.walk);
-    report(options, snapshot, sweeps, answers, work);
-    draw_row(options, snapshot, locator, sweeps, answers);
+    draw_row(options, files, snapshot, locator, sweeps, answers);
+    report(options, files, snapshot, sweeps, answers, work);
   }
 }
 
@@ -173,11 +189,13 @@ void query(Query_options& options, const CLI::App& command) {
   options.move.strategy = options.strategy.value_or(
       options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
   options.move.touch = options.sweep.touch;
+  Query_files files(options);
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const Loaded_environment loaded = load_with_progress(options.environment, options.build);
-  std::visit([&](const auto& environment) { query_environment(options, environment); }, loaded.environment);
+  std::visit([&](const auto& environment) { query_environment(options, files, environment); },
+             loaded.environment);
 }
 
 void add_move_options(CLI::App& command, Query_options& options) {

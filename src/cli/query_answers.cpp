@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 
 #include "cli/kind_names.h"
 
@@ -25,13 +26,13 @@ std::array<double, 3> fields(const std::array<double, D>& p) {
 }  // namespace
 
 template <int D, std::size_t N>
-void write_answers(const std::string& path, const Snapshot<D>& snapshot,
+void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
                    const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
   constexpr bool has_body = N == 3;
   std::vector<std::string> columns{"row",  "status", "time", "x",  "y",     "z",
                                    "kind", "nx",     "ny",   "nz", "cells", "cell"};
   if (has_body) columns.insert(columns.begin() + 7, "body");
-  io::Csv_writer table(path, columns);
+  io::Csv_writer table(file, columns);
   for (std::size_t row = 0; row < answers.size(); ++row) {
     const Answer<D>& answer = answers[row];
     double time = absent;
@@ -57,17 +58,16 @@ void write_answers(const std::string& path, const Snapshot<D>& snapshot,
     else
       write();
   }
-  table.commit();
 }
 
-template void write_answers(const std::string&, const Snapshot<2>&, const std::vector<Query_row<2, 2>>&,
+template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 2>>&,
                             const std::vector<Answer<2>>&);
-template void write_answers(const std::string&, const Snapshot<3>&, const std::vector<Query_row<3, 2>>&,
+template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 2>>&,
                             const std::vector<Answer<3>>&);
 
-template void write_answers(const std::string&, const Snapshot<2>&, const std::vector<Query_row<2, 3>>&,
+template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 3>>&,
                             const std::vector<Answer<2>>&);
-template void write_answers(const std::string&, const Snapshot<3>&, const std::vector<Query_row<3, 3>>&,
+template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 3>>&,
                             const std::vector<Answer<3>>&);
 
 }  // namespace cellwalk::cli

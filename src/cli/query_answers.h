@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_QUERY_ANSWERS_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/query/answer.h>
 #include <cellwalk/records/queries.h>
 
@@ -12,7 +13,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "cli/progress.h"
@@ -45,7 +45,7 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
 /// ends at the second point of its row.
 /// \throw Error(other) where it cannot be written
 template <int D, std::size_t N>
-void write_answers(const std::string& path, const Snapshot<D>& snapshot,
+void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
                    const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers);
 
 }  // namespace cellwalk::cli

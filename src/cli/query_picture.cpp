@@ -101,13 +101,13 @@ void add_contact(Query_plot& plot, const Answer<2>& answer) {
 
 }  // namespace
 
-void write_picture(const std::string& path, const Snapshot<2>& snapshot, const Locator<2>& locator,
+void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
                    std::size_t row, const std::array<Point<2>, 2>& points, const Answer<2>& answer) {
   const auto& [a, b] = points;
   if (answer.cell == Cell::none) {
     Query_plot plot(snapshot, points, {});
     plot.dashes(a, b, usual, Layer::lines, motion);
-    return plot.write(path, title_of(row, answer, "a"));
+    return plot.write(file, title_of(row, answer, "a"));
   }
   const Shown_walk walk = walk_of(snapshot, locator, a, b, answer);
   const std::set<std::uint32_t> vertices = passed_vertices(snapshot, walk, a, b);
@@ -135,16 +135,16 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   add_contact(plot, answer);
   plot.point(a, "a", motion);
   plot.point(b, "b", motion);
-  plot.write(path, title_of(row, answer, "a"));
+  plot.write(file, title_of(row, answer, "a"));
 }
 
-void write_picture(const std::string& path, const Snapshot<2>& snapshot, const Locator<2>& locator,
+void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
                    std::size_t row, const std::array<Point<2>, 3>& points, const Answer<2>& answer) {
   const auto& [p, t, q] = points;
   if (answer.cell == Cell::none) {
     Query_plot plot(snapshot, points, {});
     plot.dashes(p, q, usual, Layer::lines, motion);
-    return plot.write(path, title_of(row, answer, "p"));
+    return plot.write(file, title_of(row, answer, "p"));
   }
   const Particle<2> start = locator.particle_at(p), still = locator.particle_at(q);
   Walk_counts counts;
@@ -179,7 +179,7 @@ void write_picture(const std::string& path, const Snapshot<2>& snapshot, const L
   plot.point(p, "p", motion);
   plot.point(t, "t", motion);
   plot.point(q, "q", motion);
-  plot.write(path, title_of(row, answer, "p"));
+  plot.write(file, title_of(row, answer, "p"));
 }
 
 }  // namespace cellwalk::cli

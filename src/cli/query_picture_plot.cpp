@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "cli/query_picture_plot.h"
 
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/drawing.h>
 
 #include <algorithm>
@@ -156,7 +155,7 @@ void Query_plot::label(const Point<2>& x, const std::string& text, double right,
   panel_.labels.push_back({{x[0], x[1], 0}, text, right, up});
 }
 
-void Query_plot::write(const std::string& path, const std::string& title) {
+void Query_plot::write(io::Atomic_file& file, const std::string& title) {
   panel_.title = title;
   const double shape = (upper_[1] - lower_[1]) / std::max(upper_[0] - lower_[0], 1e-300);
   io::Sheet_options options;
@@ -166,7 +165,7 @@ void Query_plot::write(const std::string& path, const std::string& title) {
       static_cast<int>(std::lround(panel_width * std::clamp(shape, least_shape, largest_shape)));
   options.columns = 1;
   options.key_columns = 2;
-  io::write_file(path, io::encode_png(io::make_sheet({&panel_, 1}, keys_, options)));
+  file.write(io::encode_png(io::make_sheet({&panel_, 1}, keys_, options)));
 }
 
 }  // namespace cellwalk::cli

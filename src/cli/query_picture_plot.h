@@ -5,6 +5,7 @@
 
 #include <cellwalk/edge/contact.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/sheet.h>
 
 #include <set>
@@ -49,7 +50,7 @@ class Query_plot {
   void key(io::Key::Sign sign, const io::Color& color, const std::string& text);
 
   /// \throw Error(other) where it cannot be written
-  void write(const std::string& path, const std::string& title);
+  void write(io::Atomic_file& file, const std::string& title);
 
  private:
   void add_cell(Cell cell, const io::Color& color);

@@ -11,12 +11,14 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
 #include "cli/kind_names.h"
 #include "cli/machine.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/run_bodies.h"
 
@@ -126,15 +128,16 @@ ordered_json manifest(const Trace& trace, const Replay_options& options) {
   return result;
 }
 
-void print_summary(const Trace& trace, const Replay_options& options, const Replayed& replayed) {
-  const auto line = [](const char* name, const std::string& value) {
-    fmt::print("  {:<12}{}\n", name, value);
+std::string summary(const Trace& trace, const Replay_options& options, const Replayed& replayed) {
+  std::string text;
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
   };
   const Replay_counts& c = replayed.counts;
   const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
-  fmt::print("{}: {} x {} x {} cells{}, {} of them solid, {} bodies, {} steps\n", options.trace, trace.nx,
-             trace.ny, trace.nz, options.sheared ? ", sheared" : "", trace.obstacles.size(), trace.bodies,
-             trace.steps);
+  text = fmt::format("{}: {} x {} x {} cells{}, {} of them solid, {} bodies, {} steps\n", options.trace,
+                     trace.nx, trace.ny, trace.nz, options.sheared ? ", sheared" : "", trace.obstacles.size(),
+                     trace.bodies, trace.steps);
   line("time", fmt::format("{:.1f} ns per vertex move with its three edges, by {} (median of {} rounds, from "
                            "{:.1f} to {:.1f})",
                            replayed.median(), sweep_names[static_cast<std::size_t>(options.sweep)],
@@ -144,18 +147,21 @@ void print_summary(const Trace& trace, const Replay_options& options, const Repl
   line("contacts", fmt::format("{} vertices were held by walls; {} edges went round an obstacle",
                                c.body.contacts, c.rounds));
   line("edges", describe_edges(c.body.edges));
+  return text;
 }
 
 void replay(const Replay_options& options) {
+  Outputs outputs({options.trace});
+  io::Atomic_file* const json = outputs.file(options.json);
   const Trace trace = load(options);
   const Environment<3> environment = build(trace, options);
   const Replayed replayed = replay_rounds(trace, environment, options);
-  write_json(options.json, {{"ns_per_vertex_move", replayed.median()},
-                            {"ns_per_vertex_move_rounds", replayed.ns_per_move},
-                            {"mismatches", replayed.mismatches},
-                            {"counts", counts_json(replayed)},
-                            {"manifest", manifest(trace, options)}});
-  print_summary(trace, options, replayed);
+  write_json(json, {{"ns_per_vertex_move", replayed.median()},
+                    {"ns_per_vertex_move_rounds", replayed.ns_per_move},
+                    {"mismatches", replayed.mismatches},
+                    {"counts", counts_json(replayed)},
+                    {"manifest", manifest(trace, options)}});
+  outputs.commit(summary(trace, options, replayed));
 }
 
 }  // namespace

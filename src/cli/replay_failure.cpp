@@ -86,7 +86,7 @@ void replay_failure(const std::string& path) {
 }
 
 template <int D>
-void record_motion(const std::string& path, const Environment<D>& environment, const Point<D>& from,
+void record_motion(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
                    const Point<D>& to, const Move_options& options, const std::string& note) {
   Motion_record<D> record;
   record.soup = environment.soup();
@@ -97,12 +97,12 @@ void record_motion(const std::string& path, const Environment<D>& environment, c
     if (value == options.kernel) record.kernel = name;
   for (const auto& [name, value] : strategy_words)
     if (value == options.strategy) record.strategy = name;
-  io::write_motion_record(path, record);
+  io::write_motion_record(file, record);
 }
 
-template void record_motion<2>(const std::string&, const Environment<2>&, const Point<2>&, const Point<2>&,
+template void record_motion<2>(io::Atomic_file&, const Environment<2>&, const Point<2>&, const Point<2>&,
                                const Move_options&, const std::string&);
-template void record_motion<3>(const std::string&, const Environment<3>&, const Point<3>&, const Point<3>&,
+template void record_motion<3>(io::Atomic_file&, const Environment<3>&, const Point<3>&, const Point<3>&,
                                const Move_options&, const std::string&);
 
 }  // namespace cellwalk::cli

@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_REPLAY_FAILURE_H
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/io/atomic_file.h>
 
 #include <string>
 
@@ -18,9 +19,8 @@ namespace cellwalk::cli {
 void replay_failure(const std::string& path);
 
 /// Writes the record of a motion in an environment.
-/// \throw Error(other) where it cannot be written
 template <int D>
-void record_motion(const std::string& path, const Environment<D>& environment, const Point<D>& from,
+void record_motion(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
                    const Point<D>& to, const Move_options& options, const std::string& note);
 
 }  // namespace cellwalk::cli

@@ -19,7 +19,7 @@
 #include "cli/environment_file.h"
 #include "cli/interruption.h"
 #include "cli/kind_names.h"
-#include "cli/output_folder.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/run_bodies.h"
 #include "cli/run_files.h"
@@ -43,6 +43,19 @@ struct Run_options {
   std::size_t threads = 0;  ///< 0: as many as there are cores
   bool force = false;
   Body_options body;
+};
+
+/// What a run writes; null where it is not wanted.
+struct Run_outputs {
+  explicit Run_outputs(const Run_options& options)
+      : all({options.scene}),
+        folder(all.folder(options.folder, options.force)),
+        record(all.file(options.record)),
+        json(all.file(options.json)) {}
+
+  Outputs all;
+  Output_folder& folder;
+  io::Atomic_file *record, *json;
 };
 
 struct Prepared_environment {
@@ -79,6 +92,7 @@ template <int D>
 struct Run {
   const Scene<D>& scene;
   const Run_options& options;
+  Run_outputs& outputs;
   const Environment<D>& environment;
   const Certificate& certificate;
   const Scene_bodies<D>& bodies;
@@ -91,7 +105,7 @@ struct Run {
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
   ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_motion<D>* motion) const;
-  void summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
+  std::string summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
 };
 
 template <int D>
@@ -108,15 +122,14 @@ World<D> Run<D>::make_world() const {
 template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
-  const auto record = start_record(options.record, options.scene, environment, world, scene);
+  const auto record = start_record(outputs.record, options.scene, environment, world, scene);
   const Cell_soup<D> soup = environment.soup();
-  Output_folder folder(options.folder, options.force);
+  const std::filesystem::path& folder = outputs.folder.path();
   const Interruption interruption;
-  Run_files<D> files(folder.path(), soup, world, scene);
+  Run_files<D> files(folder, soup, world, scene);
   std::optional<Run_motion<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
-    motion.emplace(folder.path() / "motion.gz", environment.snapshot(), world, scene.time_step, steps(),
-                   every);
+    motion.emplace(folder / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world);
   {
@@ -148,16 +161,14 @@ void Run<D>::operator()() const {
     how.camera.up = direction(request.up);
     if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
     const io::Image image = io::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
-    io::write_file(folder.path() / "picture.png", io::encode_png(image));
+    io::write_file(folder / "picture.png", io::encode_png(image));
   }
   const ordered_json said = report(world, files, motion ? &*motion : nullptr);
-  io::write_json(folder.path() / "run.json", said);
+  io::write_json(folder / "run.json", said);
   if (record) record->write();
+  write_json(outputs.json, said);
   interruption.check();
-  folder.commit();
-  if (record) record->commit();
-  write_json(options.json, said);
-  summary(world, files, motion.has_value(), picture.has_value());
+  outputs.all.commit(summary(world, files, motion.has_value(), picture.has_value()));
 }
 
 template <int D>
@@ -205,12 +216,13 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
 }
 
 template <int D>
-void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const {
-  const auto line = [](const char* name, const std::string& value) {
-    fmt::print("  {:<12}{}\n", name, value);
+std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion,
+                            bool picture) const {
+  std::string text = fmt::format("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
   };
   const auto& contacts = files.contacts();
-  fmt::print("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
   if (!world.particles().empty()) line("particles", fmt::format("{} free", world.particles().size()));
   const Body_sizes sizes = sizes_of(world, scene);
@@ -238,10 +250,14 @@ void Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool moti
   if (picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
   if (!options.record.empty()) line("recorded", options.record);
+  return text;
 }
 
 template <int D>
-void run_scene(const Run_options& options, const Scene<D>& scene) {
+void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>& scene) {
+  if (const auto* file = std::get_if<std::string>(&scene.environment)) outputs.all.also_reads(*file);
+  for (const auto& body : scene.bodies)
+    if (const auto* file = std::get_if<std::string>(&body.source)) outputs.all.also_reads(*file);
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, bodies.shapes, options.scene);
   const Prepared_environment prepared = prepare(scene.environment, options.scene);
@@ -250,15 +266,15 @@ void run_scene(const Run_options& options, const Scene<D>& scene) {
     throw Error(Error_code::input,
                 fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",
                             options.scene, 5 - D, D));
-  Run<D>{scene, options, *environment, prepared.certificate, bodies}();
+  Run<D>{scene, options, outputs, *environment, prepared.certificate, bodies}();
 }
 
 void run(Run_options options) {
-  Output_folder::check(options.folder, options.force);
+  Run_outputs outputs(options);
   Scene_source source = load_scene(options.scene, options.changes);
   options.scene = source.name;
   options.scene_text = std::move(source.text);
-  std::visit([&](const auto& scene) { run_scene(options, scene); }, source.scene);
+  std::visit([&](const auto& scene) { run_scene(options, outputs, scene); }, source.scene);
 }
 
 }  // namespace

@@ -84,9 +84,9 @@ void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& sh
   }
 }
 
-Run_record::Run_record(const std::string& path, const std::string& scene_name,
+Run_record::Run_record(io::Atomic_file& file, const std::string& scene_name,
                        const Environment<3>& environment, const World<3>& world, const Scene<3>& scene)
-    : scene_name_(scene_name), file_(path), recorder_(naming(scene_name, [&] {
+    : scene_name_(scene_name), file_(file), recorder_(naming(scene_name, [&] {
         return Trace_recorder(environment.snapshot(), Locator<3>(environment.snapshot()),
                               start_of(environment, world, scene));
       })) {}

@@ -26,8 +26,8 @@ void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& sh
 class Run_record {
  public:
   /// \pre the scene is recordable, the world has made no step
-  /// \throw Error(other) if the file cannot be written; as Trace_recorder, with the name of the scene
-  Run_record(const std::string& path, const std::string& scene_name, const Environment<3>& environment,
+  /// \throw Error as Trace_recorder, with the name of the scene
+  Run_record(io::Atomic_file& file, const std::string& scene_name, const Environment<3>& environment,
              const World<3>& world, const Scene<3>& scene);
 
   /// To be called after each step. \throw Error(input) as Trace_recorder, with the name of the scene; Error(other) if the
@@ -36,27 +36,26 @@ class Run_record {
   /// Scenes of the plane are not recordable: never called.
   void record(const World<2>&) {}
 
-  /// Completes the file; commit() puts it in place.
+  /// Completes the file, which the caller commits.
   void write() { io::write_trace(file_, recorder_.trace()); }
-  void commit() { file_.commit(); }
 
   const Trace& trace() const { return recorder_.trace(); }
   const Trace_counts& counts() const { return recorder_.counts(); }
 
  private:
   std::string scene_name_;
-  io::Atomic_file file_;
+  io::Atomic_file& file_;
   Trace_recorder recorder_;
   std::vector<Point<3>> targets_;
 };
 
-/// A record into a file of that name; none if it is empty.
+/// A record into a file; none if it is null.
 template <int D>
-std::unique_ptr<Run_record> start_record(const std::string& path, const std::string& scene_name,
+std::unique_ptr<Run_record> start_record(io::Atomic_file* file, const std::string& scene_name,
                                          const Environment<D>& environment, const World<D>& world,
                                          const Scene<D>& scene) {
   if constexpr (D == 3)
-    if (!path.empty()) return std::make_unique<Run_record>(path, scene_name, environment, world, scene);
+    if (file != nullptr) return std::make_unique<Run_record>(*file, scene_name, environment, world, scene);
   return nullptr;
 }
 

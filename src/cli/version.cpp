@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/json_file.h>
 #include <cellwalk/io/mesh_file.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 
 #include <CGAL/version.h>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/environment_file.h"
 #include "cli/machine.h"
 #include "cli/viewer_page.h"
 
@@ -71,11 +72,14 @@ void add_version(CLI::App& app) {
           ->expected(0, 1);
   CLI::Option* const version = app.set_version_flag(
       "--version",
-      [json] {
+      [json, &app] {
+        // CLI11 asks before it looks at what it did not understand.
+        if (const auto unknown = app.remaining(true); !unknown.empty())
+          throw Error(Error_code::usage, unknown.front() + " is not known here; see cellwalk --help");
         if (json->count() == 0) return as_text();
         const std::string path = json->results().front();
         if (path.empty()) return as_json().dump(2);
-        write_json(path, as_json());
+        io::write_json(path, as_json());
         return as_text();
       },
       "Print the version and the optional parts of this build");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk view DIR -o run.html: one page that replays a run in a browser, without network.
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/motion_file.h>
 
 #include <fmt/core.h>
@@ -10,9 +9,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/environment_file.h"
+#include "cli/outputs.h"
 #include "cli/run_results.h"
 #include "cli/viewer_page.h"
 
@@ -64,19 +65,25 @@ std::string page_of(const Run_results& results) {
 
 void view(const View_options& options) {
   check_build();
+  std::vector<std::string> inputs;
+  for (const char* name : {"run.json", "motion.gz", "contacts.csv"})
+    inputs.push_back((fs::path(options.folder) / name).string());
+  Outputs outputs(inputs);
+  io::Atomic_file* const output = outputs.file(options.output);
+  io::Atomic_file* const json = outputs.file(options.json);
   const Run_results results = read_run(options.folder);
   const Motion_scene& scene = results.motion.scene;
   const std::string page = page_of(results);
-  io::write_file(options.output, page);
-  write_json(options.json, {{"run", options.folder},
-                            {"page", options.output},
-                            {"bytes", page.size()},
-                            {"records", scene.record_count()},
-                            {"every", scene.every},
-                            {"contacts", results.contact_count}});
-  fmt::print("{}: {} records of {} steps, {} contacts, {:.1f} MB; open it in a browser\n", options.output,
-             scene.record_count(), scene.steps, results.contact_count,
-             static_cast<double>(page.size()) / 1e6);
+  output->write(page);
+  write_json(json, {{"run", options.folder},
+                    {"page", options.output},
+                    {"bytes", page.size()},
+                    {"records", scene.record_count()},
+                    {"every", scene.every},
+                    {"contacts", results.contact_count}});
+  outputs.commit(fmt::format("{}: {} records of {} steps, {} contacts, {:.1f} MB; open it in a browser\n",
+                             options.output, scene.record_count(), scene.steps, results.contact_count,
+                             static_cast<double>(page.size()) / 1e6));
 }
 
 }  // namespace

@@ -7,47 +7,42 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
+#include <charconv>
 #include <cstring>
+#include <optional>
+#include <system_error>
 
 namespace cellwalk::io {
 namespace {
 
 /// Bytes gathered before they are handed to the system.
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
-/// Files a signal handler can clean up at a time; further ones are written all the same.
-constexpr std::size_t slot_count = 32;
-constexpr std::size_t longest_path = 4096;  // PATH_MAX of Linux
+/// Bytes of a name that a temporary name repeats: names end at 255 bytes.
+constexpr std::size_t repeated_length = 200;
+/// Links from one name to the next, as many as Linux follows.
+constexpr int most_links = 40;
 
-/// Names of unfinished files where a signal handler can read them: fixed storage, no allocation.
-struct Slot {
-  std::atomic<int> state{0};  // 0 free, 1 being filled, 2 filled
-  std::array<char, longest_path> path{};
-};
-std::array<Slot, slot_count> slots;
-
-int occupy(const std::string& path) {
-  if (path.size() >= longest_path) return -1;
-  for (std::size_t i = 0; i < slot_count; ++i) {
-    int free = 0;
-    if (!slots[i].state.compare_exchange_strong(free, 1)) continue;
-    std::memcpy(slots[i].path.data(), path.c_str(), path.size() + 1);
-    slots[i].state.store(2);
-    return static_cast<int>(i);
+/// The descriptor of this process that a path such as /dev/stdout or /proc/self/fd/3 stands for. Opened by its path, a file that it
+/// leads to would be written from its beginning, and replaced it would not be the file any more that the shell gave.
+std::optional<int> own_descriptor(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(
+      path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), error);
+  if (error) return std::nullopt;
+  std::filesystem::path entry = folder / path.filename();
+  const std::filesystem::path own = std::filesystem::canonical("/proc/self/fd", error);
+  // /dev/stdout leads to /proc/self/fd/1, which itself leads to a file and is not to be followed.
+  for (int i = 0; i < most_links && entry.parent_path() != own && std::filesystem::is_symlink(entry, error);
+       ++i) {
+    entry = entry.parent_path() / std::filesystem::read_symlink(entry, error);
+    entry = std::filesystem::canonical(entry.parent_path(), error) / entry.filename();
   }
-  return -1;
-}
-
-void vacate(int slot) noexcept {
-  if (slot >= 0) slots[static_cast<std::size_t>(slot)].state.store(0);
-}
-
-bool is_regular_or_new(const std::filesystem::path& path) {
-  struct stat status;
-  return stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
+  if (error || own.empty() || entry.parent_path() != own) return std::nullopt;
+  const std::string digits = entry.filename().string();
+  int number = 0;
+  const auto [end, wrong] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return wrong == std::errc{} && end == digits.data() + digits.size() ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -55,32 +50,41 @@ bool is_regular_or_new(const std::filesystem::path& path) {
 Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::move(destination)) {
   if (destination_.empty()) throw Error(Error_code::usage, "an output file without a name: give one");
   constexpr mode_t permissions = 0666;  // less the umask of the user
-  if (!is_regular_or_new(destination_)) {
-    descriptor_ = open(destination_.c_str(), O_WRONLY | O_CLOEXEC);
+  struct stat old;
+  const bool exists = stat(destination_.c_str(), &old) == 0;
+  if (!exists && errno == ENAMETOOLONG) fail("cannot be written");  // the temporary name is shorter
+  const auto own = own_descriptor(destination_);
+  is_direct_ = own || (exists && !S_ISREG(old.st_mode));
+  if (is_direct_) {
+    descriptor_ = own ? fcntl(*own, F_DUPFD_CLOEXEC, 0) : open(destination_.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail("cannot be written");
     return;
   }
-  // A link keeps pointing where it points: the file behind it is replaced.
+  // A rename would replace a file that its owner has protected.
+  if (exists && access(destination_.c_str(), W_OK) != 0) fail("cannot be written");
   std::error_code error;
-  std::filesystem::path target = std::filesystem::weakly_canonical(destination_, error);
-  if (error) target = destination_;
-  const std::string stem = fmt::format(".{}.{}", target.filename().string(), getpid());
+  target_ = std::filesystem::weakly_canonical(destination_, error);
+  if (error) target_ = destination_;
+  const std::string stem =
+      fmt::format(".{}.{}", target_.filename().string().substr(0, repeated_length), getpid());
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
-    temporary_ = (target.parent_path() / fmt::format("{}.{}.tmp", stem, attempt)).string();
+    temporary_ = (target_.parent_path() / fmt::format("{}.{}.tmp", stem, attempt)).string();
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
     if (descriptor_ < 0 && errno != EEXIST) {
       temporary_.clear();
       fail("cannot be written: check that its directory exists and may be written");
     }
   }
-  slot_ = occupy(temporary_);
+  unfinished_.hold(temporary_);
+  constexpr mode_t permission_bits = 0777;
+  if (exists) fchmod(descriptor_, old.st_mode & permission_bits);
 }
 
 Atomic_file::~Atomic_file() { discard(); }
 
 void Atomic_file::write(std::string_view text) {
   buffer_.append(text);
-  if (buffer_.size() >= buffer_size) flush();
+  if (!is_direct_ && buffer_.size() >= buffer_size) flush();
 }
 
 void Atomic_file::flush() {
@@ -96,19 +100,31 @@ void Atomic_file::flush() {
   buffer_.clear();
 }
 
-void Atomic_file::commit() {
+void Atomic_file::prepare() {
   flush();
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (close(descriptor) != 0) fail("writing failed");
-  if (temporary_.empty()) return;
-  std::error_code error;
-  std::filesystem::path target = std::filesystem::weakly_canonical(destination_, error);
-  if (error) target = destination_;
-  if (std::rename(temporary_.c_str(), target.c_str()) != 0) fail("cannot be replaced");
-  temporary_.clear();
-  vacate(slot_);
-  slot_ = -1;
+}
+
+void Atomic_file::put() {
+  if (is_direct_) return;
+  struct stat now;
+  const bool is_directory = stat(target_.c_str(), &now) == 0 && S_ISDIR(now.st_mode);
+  if (is_directory) errno = EISDIR;  // a file and a directory could exchange names
+  if (is_directory || !replacement_.put(temporary_, target_)) fail("cannot be put in place");
+}
+
+void Atomic_file::take_back() noexcept {
+  if (!is_direct_) replacement_.take_back(temporary_, target_);
+  discard();
+}
+
+void Atomic_file::settle() noexcept { discard(); }
+
+void Atomic_file::commit() {
+  Output* const alone[] = {this};
+  put_in_place(alone);
 }
 
 void Atomic_file::discard() noexcept {
@@ -116,8 +132,7 @@ void Atomic_file::discard() noexcept {
   descriptor_ = -1;
   if (!temporary_.empty()) unlink(temporary_.c_str());
   temporary_.clear();
-  vacate(slot_);
-  slot_ = -1;
+  unfinished_.release();
 }
 
 void Atomic_file::fail(const char* what) {
@@ -130,11 +145,6 @@ void write_file(const std::filesystem::path& destination, std::string_view text)
   Atomic_file file(destination);
   file.write(text);
   file.commit();
-}
-
-void discard_unfinished_files() noexcept {
-  for (Slot& slot : slots)
-    if (slot.state.load() == 2) unlink(slot.path.data());
 }
 
 }  // namespace cellwalk::io

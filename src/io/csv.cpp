@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "text.h"
 
@@ -62,9 +63,10 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text) {
   };
   if (!next()) io::fail(name, "holds no header: the names of the columns are to stand in its first line");
   table.columns_ = split(in);
-  for (auto c = table.columns_.begin(); c != table.columns_.end(); ++c) {
-    if (c->empty()) in.fail("a column without a name");
-    if (std::find(table.columns_.begin(), c, *c) != c) in.fail(fmt::format("two columns are named '{}'", *c));
+  std::unordered_set<std::string_view> names;
+  for (const std::string& column : table.columns_) {
+    if (column.empty()) in.fail("a column without a name");
+    if (!names.insert(column).second) in.fail(fmt::format("two columns are named '{}'", shown(column)));
   }
   while (next()) {
     for (std::string& field : split(in)) table.fields_.push_back(std::move(field));
@@ -84,7 +86,12 @@ std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {
 
 std::size_t Csv_table::column(std::string_view name) const {
   if (const auto found = find_column(name)) return *found;
-  io::fail(name_, fmt::format("has no column '{}': its header names {}", name, fmt::join(columns_, ",")));
+  constexpr std::size_t most = 20;  // names that one line can show
+  const std::size_t named = std::min(most, columns_.size());
+  std::string names = shown(columns_[0]);
+  for (std::size_t c = 1; c < named; ++c) names.append(",").append(shown(columns_[c]));
+  if (named < columns_.size()) names += fmt::format(" and {} more", columns_.size() - named);
+  io::fail(name_, fmt::format("has no column '{}': its header names {}", name, names));
 }
 
 std::optional<std::string_view> Csv_table::field(std::size_t row, std::size_t column) const {
@@ -96,7 +103,7 @@ std::optional<std::string_view> Csv_table::field(std::size_t row, std::size_t co
 Parsed_number Csv_table::number(std::size_t row, std::size_t column) const {
   const auto text = field(row, column);
   Parsed_number number = text ? parse_number(*text) : Parsed_number{0, "the row ends before it"};
-  if (!number) number.reason = fmt::format("{}: {}", columns_[column], number.reason);
+  if (!number) number.reason = fmt::format("{}: {}", shown(columns_[column]), number.reason);
   return number;
 }
 
@@ -107,7 +114,16 @@ std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
 }
 
 Csv_writer::Csv_writer(std::filesystem::path path, std::vector<std::string> columns)
-    : file_(std::move(path)), column_count_(columns.size()) {
+    : own_(std::make_unique<Atomic_file>(std::move(path))), file_(*own_), column_count_(columns.size()) {
+  header(columns);
+}
+
+Csv_writer::Csv_writer(Atomic_file& file, std::vector<std::string> columns)
+    : file_(file), column_count_(columns.size()) {
+  header(columns);
+}
+
+void Csv_writer::header(const std::vector<std::string>& columns) {
   begin_row(columns.size());
   for (const std::string& column : columns) add(column);
   end_row();
@@ -144,6 +160,8 @@ void Csv_writer::add(std::string_view text) {
   add_bare(quoted + "\"");
 }
 
-void Csv_writer::commit() { file_.commit(); }
+void Csv_writer::commit() {
+  if (own_) own_->commit();
+}
 
 }  // namespace cellwalk::io

@@ -13,11 +13,12 @@ namespace {
 
 using Named = std::pair<std::string_view, Format>;
 
-constexpr std::array<Named, 16> extensions{{{".off", Format::off},
+constexpr std::array<Named, 17> extensions{{{".off", Format::off},
                                             {".obj", Format::obj},
                                             {".stl", Format::stl},
                                             {".ply", Format::ply},
                                             {".ovm", Format::ovm},
+                                            {".ovmb", Format::ovm},
                                             {".poly", Format::poly},
                                             {".wkt", Format::wkt},
                                             {".msh", Format::msh},

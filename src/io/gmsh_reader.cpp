@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, from its own session.
-#include <cellwalk/kernel/error.h>
-
+// The module that reads .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, from its own session.
 #include <fmt/format.h>
 #include <gmsh.h>
 
 #include <algorithm>
 #include <array>
 #include <clocale>
-#include <mutex>
 #include <numeric>
 #include <string>
 #include <unordered_map>
 
-#include "element_soup.h"
-#include "gmsh_text.h"
-#include "optional_readers.h"
-#include "temporary_folder.h"
+#include "reader_module.h"
 #include "text.h"
 
 namespace cellwalk::io {
@@ -203,68 +197,32 @@ Element_soup model(const std::string& name, const Msh_counts& announced, Lines l
   return soup;
 }
 
-/// What is given to Gmsh: bytes, and the name that makes it choose the right reader.
-struct Input {
-  std::string file_name;
-  std::string changed;  ///< the bytes to read instead of the file's, if not empty
-  Msh_counts counts;
-};
-
-Input prepare(const std::string& name, std::string_view bytes, Format format, Read_report& report) {
-  if (format == Format::medit) {
-    report.format = "MEDIT";
-    return {"mesh.mesh", {}, check_medit(name, bytes)};
+Element_soup read_with_gmsh(const std::string& name, const Reader_input& input, Read_report& report) {
+  const Session session;
+  std::string why;
+  try {
+    gmsh::open(input.path);
+  } catch (const std::exception& e) {
+    why = e.what();
+  } catch (...) {
+    why = "an unknown exception";
   }
-  if (format == Format::unv) {
-    report.format = "UNV";
-    Line_reader in(name, bytes);
-    in.need_line("'-1'");
-    if (in.word() != "-1") in.fail("not a UNV file: it does not begin with '-1'");
-    return {"mesh.unv", {}, {}};
+  const auto errors = session.messages("Error");
+  if (!errors.empty()) why = errors.front();
+  if (!why.empty()) {
+    for (std::size_t at; (at = why.find(input.path)) != std::string::npos;)
+      why.replace(at, input.path.size(), name);
+    fail(name, fmt::format("broken or cut short: Gmsh cannot read it as {} ({})", report.format, why));
   }
-  const Msh_header header = read_msh_header(name, bytes);
-  report.format = fmt::format("Gmsh {}{}", header.version, header.binary ? " (binary)" : "");
-  Input input{"mesh.msh", {}, announced_counts(bytes, header)};
-  if (auto text = renumbered_elements(bytes, header)) {
-    report.notes.push_back("numbers of elements repeat: the elements were numbered anew");
-    input.changed = std::move(*text);
-  }
-  return input;
-}
-
-}  // namespace
-
-Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
-                           Read_report& report) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  const Input input = prepare(name, bytes, format, report);
-  const Temporary_folder folder;
-  const std::string path = folder.write(input.file_name, input.changed.empty() ? bytes : input.changed);
-  Element_soup soup;
-  {
-    const Session session;
-    std::string why;
-    try {
-      gmsh::open(path);
-    } catch (const std::exception& e) {
-      why = e.what();
-    } catch (...) {
-      why = "an unknown exception";
-    }
-    const auto errors = session.messages("Error");
-    if (!errors.empty()) why = errors.front();
-    if (!why.empty()) {
-      for (std::size_t at; (at = why.find(path)) != std::string::npos;) why.replace(at, path.size(), name);
-      fail(name, fmt::format("broken or cut short: Gmsh cannot read it as {} ({})", report.format, why));
-    }
-    soup = model(name, input.counts, lines, report);
-    for (const std::string& warning : session.messages("Warning"))
-      report.notes.push_back("Gmsh warns: " + warning);
-  }
+  Element_soup soup = model(name, input.counts, input.lines, report);
+  for (const std::string& warning : session.messages("Warning"))
+    report.notes.push_back("Gmsh warns: " + warning);
   return soup;
 }
 
-std::string gmsh_version() { return GMSH_API_VERSION; }
+constexpr Reader_module gmsh_reader{CELLWALK_VERSION, GMSH_API_VERSION, read_with_gmsh};
 
+}  // namespace
 }  // namespace cellwalk::io
+
+CELLWALK_READER_MODULE(cellwalk::io::gmsh_reader)

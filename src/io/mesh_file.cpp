@@ -17,6 +17,8 @@
 namespace cellwalk::io {
 namespace {
 
+constexpr const char *gmsh_purpose = "reads .msh, .mesh and .unv", *vtk_purpose = "reads .vtk, .vtu and .vtp";
+
 Mesh_file surface(const std::string& name, std::string_view bytes, Surface_format format) {
   Read_report report;
   Surface_soup soup = parse_surface(name, bytes, format, &report);
@@ -82,17 +84,19 @@ Mesh_file read_mesh(const std::filesystem::path& path) {
 }
 
 std::vector<Build_feature> build_features() {
-  const std::string gmsh = gmsh_version(), vtk = vtk_version();
-  return {{"gmsh", !gmsh.empty(), gmsh, "reads .msh, .mesh and .unv"},
-          {"vtk", !vtk.empty(), vtk, "reads .vtk, .vtu and .vtp"}};
+  const Reader_module* const gmsh = has_gmsh() ? gmsh_module().module : nullptr;
+  const Reader_module* const vtk = has_vtk() ? vtk_module().module : nullptr;
+  return {{"gmsh", gmsh != nullptr, gmsh ? gmsh->library : "", gmsh_purpose},
+          {"vtk", vtk != nullptr, vtk ? vtk->library : "", vtk_purpose}};
 }
 
 std::string supported_formats() {
   std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt";
-  for (const Build_feature& feature : build_features())
-    text += feature.present
-                ? std::string(feature.name == "gmsh" ? ", .msh, .mesh, .unv" : ", .vtk, .vtu, .vtp")
-                : fmt::format(" (this build lacks {}, which {})", feature.name, feature.purpose);
+  const auto add = [&text](bool is_in, const char* formats, const char* library, const char* purpose) {
+    text += is_in ? formats : fmt::format(" (this build lacks {}, which {})", library, purpose);
+  };
+  add(has_gmsh(), ", .msh, .mesh, .unv", "gmsh", gmsh_purpose);
+  add(has_vtk(), ", .vtk, .vtu, .vtp", "vtk", vtk_purpose);
   return text;
 }
 

@@ -70,7 +70,7 @@ Motion_record<D> motion_record(const Json_node& root) {
 }  // namespace
 
 template <int D>
-void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record) {
+void write_motion_record(Atomic_file& file, const Motion_record<D>& record) {
   nlohmann::ordered_json json{
       {"format", record_format},     {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
       {"strategy", record.strategy}, {"from", record.from}, {"to", record.to}};
@@ -78,9 +78,18 @@ void write_motion_record(const std::filesystem::path& path, const Motion_record<
   json["points"] = record.soup.points;
   json["cells"] = nlohmann::ordered_json::array();
   for (std::size_t c = 0; c < record.soup.cell_count(); ++c) json["cells"].push_back(to_json(record.soup, c));
-  write_json(path, json);
+  write_json(file, json);
 }
 
+template <int D>
+void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record) {
+  Atomic_file file(path);
+  write_motion_record(file, record);
+  file.commit();
+}
+
+template void write_motion_record(Atomic_file&, const Motion_record<2>&);
+template void write_motion_record(Atomic_file&, const Motion_record<3>&);
 template void write_motion_record(const std::filesystem::path&, const Motion_record<2>&);
 template void write_motion_record(const std::filesystem::path&, const Motion_record<3>&);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: readers of libraries that a build may lack. For each, one of two files is compiled: the reader, or the
-// one that says what is missing.
+// Private to io: readers of libraries that a build may lack. What can be judged without them is judged first.
 #ifndef CELLWALK_IO_OPTIONAL_READERS_H
 #define CELLWALK_IO_OPTIONAL_READERS_H
 
@@ -9,23 +8,21 @@
 #include <string>
 #include <string_view>
 
-#include "element_soup.h"
-#include "format.h"
+#include "reader_module.h"
 
 namespace cellwalk::io {
 
-enum class Lines { left_out, read };
-
 /// .msh, .mesh and .unv by Gmsh. `bytes` are the whole file, inflated.
+/// \throw Error(input) also where this build lacks Gmsh, or its module cannot be loaded
 Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
                            Read_report& report);
-/// Empty where this build lacks Gmsh.
-std::string gmsh_version();
 
-/// Legacy VTK and VTK XML, unstructured grids and polygonal data.
-Mesh_file parse_by_vtk(const std::string& name, const std::string& bytes, Format format);
-/// Empty where this build lacks VTK.
-std::string vtk_version();
+/// Legacy VTK and VTK XML, unstructured grids and polygonal data. \throw Error(input) as above
+Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format format);
+
+/// Whether this build was made with them.
+bool has_gmsh();
+bool has_vtk();
 
 }  // namespace cellwalk::io
 

@@ -56,9 +56,14 @@ class Ovm_reader {
   void header() {
     in_.need_line("'OVM ASCII'");
     const std::string_view magic = in_.word(), encoding = in_.word();
+    if (magic.starts_with("OVMB") || same_word(encoding, "BINARY"))
+      in_.fail(
+          "only OVM ASCII is read: load the binary file with OpenVolumeMesh and write it as .ovm "
+          "(OpenVolumeMesh::IO::FileManager::writeFile)");
     if (!same_word(magic, "OVM")) in_.fail("not an OpenVolumeMesh file: it does not begin with 'OVM ASCII'");
-    if (!same_word(encoding, "ASCII"))
-      in_.fail("only OVM ASCII is read: convert the binary file with OpenVolumeMesh's file converter");
+    // OpenVolumeMesh's own files leave the encoding out.
+    if (!encoding.empty() && !same_word(encoding, "ASCII"))
+      in_.fail(fmt::format("'{}' is no encoding of OpenVolumeMesh: only OVM ASCII is read", shown(encoding)));
   }
 
   template <class Row>

@@ -132,7 +132,7 @@ class Faces {
 
 class Writer {
  public:
-  explicit Writer(const std::filesystem::path& path) : file_(path) {}
+  explicit Writer(Atomic_file& file) : file_(file) {}
 
   template <class... Arguments>
   void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -160,10 +160,9 @@ class Writer {
   }
 
   void dimension(int d) { line("MProp int \"dimension\"\n{}", d); }
-  void commit() { file_.commit(); }
 
  private:
-  Atomic_file file_;
+  Atomic_file& file_;
   fmt::memory_buffer line_;
 };
 
@@ -232,9 +231,9 @@ void write_cells(Writer& out, const Cell_soup<2>& soup) {
 }  // namespace
 
 template <int D>
-void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup) {
+void write_ovm(Atomic_file& file, const Cell_soup<D>& soup) {
   check(soup);
-  Writer out(path);
+  Writer out(file);
   out.line("OVM ASCII\nVertices\n{}", soup.points.size());
   for (const Point<D>& p : soup.points) {
     if constexpr (D == 3)
@@ -244,9 +243,17 @@ void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup) {
   }
   write_cells(out, soup);
   out.dimension(D);
-  out.commit();
 }
 
+template <int D>
+void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup) {
+  Atomic_file file(path);
+  write_ovm(file, soup);
+  file.commit();
+}
+
+template void write_ovm<2>(Atomic_file&, const Cell_soup<2>&);
+template void write_ovm<3>(Atomic_file&, const Cell_soup<3>&);
 template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&);
 template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&);
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/io/scene.h>
-#include <cellwalk/kernel/error.h>
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
-
 #include "json_node.h"
 #include "scene_bodies.h"
+#include "text.h"
 
 namespace cellwalk::io {
 namespace {
@@ -168,12 +165,10 @@ Any_scene parse_scene(const std::string& name, std::string_view text, const std:
   return result;
 }
 
+std::string scene_text(const std::filesystem::path& path) { return load(path); }
+
 Any_scene read_scene(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file)
-    throw Error(Error_code::input, path.string() + ": cannot be read; check the name and its permissions");
-  return parse_scene(path.string(), text, path.parent_path());
+  return parse_scene(path.string(), scene_text(path), path.parent_path());
 }
 
 }  // namespace cellwalk::io

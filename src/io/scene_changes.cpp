@@ -46,14 +46,17 @@ json& at_key(json& document, std::string_view key, const std::string& change) {
         refuse(change, fmt::format("there is no element {}", index));
       here = &(*here)[index];
       key.remove_prefix(end + 1);
-      if (!key.empty() && key.front() == '.') key.remove_prefix(1);
-      continue;
+      if (!key.empty() && key.front() != '.' && key.front() != '[')
+        refuse(change, "a dot is missing after ]");
+    } else {
+      const std::size_t end = std::min(key.find_first_of(".["), key.size());
+      if (end == 0) refuse(change, "a key is empty");
+      if (!here->is_object() && !here->is_null())
+        refuse(change, "what the key leads through is not an object");
+      here = &(*here)[std::string(key.substr(0, end))];
+      key.remove_prefix(end);
     }
-    const std::size_t end = std::min(key.find_first_of(".["), key.size());
-    if (end == 0) refuse(change, "a key is empty");
-    if (!here->is_object() && !here->is_null()) refuse(change, "what the key leads through is not an object");
-    here = &(*here)[std::string(key.substr(0, end))];
-    key.remove_prefix(end);
+    if (key == ".") refuse(change, "a key is empty");
     if (key.starts_with('.')) key.remove_prefix(1);
   }
   return *here;

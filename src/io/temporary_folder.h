@@ -3,6 +3,7 @@
 #ifndef CELLWALK_IO_TEMPORARY_FOLDER_H
 #define CELLWALK_IO_TEMPORARY_FOLDER_H
 
+#include <cellwalk/io/output.h>
 #include <cellwalk/kernel/error.h>
 
 #include <stdlib.h>
@@ -14,12 +15,13 @@
 
 namespace cellwalk::io {
 
-/// A folder of a fresh name among the temporary files, removed with its content at the end.
+/// A folder of a fresh name among the temporary files for one file, removed with it at the end.
 class Temporary_folder {
  public:
   Temporary_folder() : path_((std::filesystem::temp_directory_path() / "cellwalk-XXXXXX").string()) {
     if (!mkdtemp(path_.data()))
       throw Error(Error_code::other, path_ + ": no temporary folder can be made: set TMPDIR");
+    unfinished_.hold(path_);
   }
   ~Temporary_folder() {
     std::error_code ignored;
@@ -28,9 +30,10 @@ class Temporary_folder {
   Temporary_folder(const Temporary_folder&) = delete;
   Temporary_folder& operator=(const Temporary_folder&) = delete;
 
-  /// Writes a file into the folder; returns its path. \throw Error(other) where the device is full
-  std::string write(const std::string& name, std::string_view bytes) const {
+  /// Writes the file into the folder; returns its path. \throw Error(other) where the device is full
+  std::string write(const std::string& name, std::string_view bytes) {
     const std::string path = path_ + "/" + name;
+    unfinished_file_.hold(path);
     std::ofstream out(path, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
@@ -40,6 +43,7 @@ class Temporary_folder {
 
  private:
   std::string path_;
+  Unfinished unfinished_, unfinished_file_;
 };
 
 }  // namespace cellwalk::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Legacy VTK and VTK XML by VTK's readers, from memory. What VTK prints is caught and becomes the error.
+// The module that reads legacy VTK and VTK XML by VTK's readers, from memory. What VTK prints is caught and becomes the error.
 #include <fmt/format.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkLogger.h>
@@ -15,10 +15,9 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <limits>
-#include <mutex>
 #include <regex>
 
-#include "optional_readers.h"
+#include "reader_module.h"
 #include "text.h"
 #include "vtk_cells.h"
 
@@ -141,18 +140,17 @@ Read_elements parse_xml(const std::string& name, const std::string& bytes, Read_
   fail(name, fmt::format("holds a {}: only UnstructuredGrid and PolyData are read", match[1].str()));
 }
 
-}  // namespace
-
-Mesh_file parse_by_vtk(const std::string& name, const std::string& bytes, Format format) {
-  static std::mutex one_at_a_time;  // VTK's output is global
-  const std::lock_guard lock(one_at_a_time);
-  Read_report report;
+Element_soup read_with_vtk(const std::string& name, const Reader_input& input, Read_report& report) {
+  const std::string bytes(input.bytes);
   Read_elements read =
-      format == Format::vtk_xml ? parse_xml(name, bytes, report) : parse_legacy(name, bytes, report);
+      input.format == Format::vtk_xml ? parse_xml(name, bytes, report) : parse_legacy(name, bytes, report);
   report.notes = std::move(read.notes);
-  return volumes_or_polygons(name, std::move(read.elements), std::move(report));
+  return std::move(read.elements);
 }
 
-std::string vtk_version() { return VTK_VERSION; }
+constexpr Reader_module vtk_reader{CELLWALK_VERSION, VTK_VERSION, read_with_vtk};
 
+}  // namespace
 }  // namespace cellwalk::io
+
+CELLWALK_READER_MODULE(cellwalk::io::vtk_reader)

@@ -28,7 +28,9 @@ class Import {
     if (const auto* surface = std::get_if<Surface_soup>(&file.mesh)) {
       const std::vector<Surface_soup> obstacles = read_obstacles();
       begin("meshing " + path_);
-      return build_meshed(naming(path_, [&] { return mesh_surface(*surface, obstacles, options_.mesher); }));
+      Mesher_options mesher = options_.mesher;
+      for (const std::string& path : options_.obstacles) mesher.obstacle_names.push_back("obstacle " + path);
+      return build_meshed(naming(path_, [&] { return mesh_surface(*surface, obstacles, mesher); }));
     }
     if (!options_.obstacles.empty())
       throw Error(Error_code::usage, fmt::format("--obstacle goes with a surface, and {} holds a {}", path_,

@@ -40,6 +40,7 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
   Tetrahedralize_options tetgen;
   tetgen.quality = options.quality;
   tetgen.keep_obstacles = options.keep_obstacles;
+  tetgen.obstacle_names = options.obstacle_names;
   Tetrahedralize_report report;
   Meshed<3> meshed{tetrahedralize(surface, obstacles, tetgen, &report), {}, {}};
   meshed.lines.push_back(
@@ -59,6 +60,7 @@ Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup
   Mesh3_options mesh;
   mesh.cell_size = options.cell_size;
   mesh.facet_distance = options.distance;
+  mesh.obstacle_names = options.obstacle_names;
   Mesh3_report report;
   Meshed<3> meshed{mesh3(surface, obstacles, mesh, &report), {}, {}};
   meshed.lines.push_back(

@@ -13,6 +13,7 @@
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,38 @@ using Triangles = std::vector<Triangle_3>;
 using Triangle_tree = CGAL::AABB_tree<
     CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
-Criteria criteria(const Mesh3_options& options, double diagonal) {
+/// More cells or facets than this are not begun: they take an hour, and some tens of gigabytes.
+constexpr double most_elements = 1e8;
+/// Of the diagonal. Near edges of the surface, facets are about as small as their distance to it is to be: a million in a row.
+constexpr double least_distance = 0x1p-20;
+
+/// What is to be filled, and its boundary.
+struct Extent {
+  double diagonal = 0, volume = 0, area = 0;
+};
+
+void check_least(const char* what, double value, double least, const std::string& why) {
+  constexpr double room_to_round = 1.05;  // two digits are shown
+  if (value < least)
+    throw Error(Error_code::usage,
+                fmt::format("Mesh_3: a {} of {:g} is too small for a surface {}: give at least {:.2g}", what,
+                            value, why, room_to_round * least));
+}
+
+/// Refuses sizes at which meshing would not end.
+void check_sizes(const Mesh3_options& options, double cell, double facet, const Extent& extent) {
+  // The largest tetrahedron in a sphere of radius r has volume 8/(9 sqrt 3) r^3, the largest triangle in a circle area 3 sqrt(3)/4 r^2.
+  constexpr double tetrahedron = 0.5133, triangle = 1.2991;
+  check_least("cell size", cell, std::cbrt(extent.volume / (tetrahedron * most_elements)),
+              fmt::format("that holds a volume of {:g}", extent.volume));
+  check_least("facet size", facet, std::sqrt(extent.area / (triangle * most_elements)),
+              fmt::format("with an area of {:g}", extent.area));
+  if (options.facet_distance > 0)
+    check_least("distance", options.facet_distance, least_distance * extent.diagonal,
+                fmt::format("of diagonal {:g}", extent.diagonal));
+}
+
+Criteria criteria(const Mesh3_options& options, const Extent& extent) {
   // NaN fails every comparison.
   if (!(options.cell_size >= 0 && options.facet_size >= 0 && options.facet_distance >= 0))
     throw Error(Error_code::usage, "Mesh_3: sizes and distances must not be negative");
@@ -45,19 +77,27 @@ Criteria criteria(const Mesh3_options& options, double diagonal) {
   if (!(options.radius_edge >= 2))
     throw Error(Error_code::usage,
                 "Mesh_3: the radius-edge bound must be at least 2; below, meshing may not end");
-  const double cell = options.cell_size > 0 ? options.cell_size : diagonal / 20;
+  const double cell = options.cell_size > 0 ? options.cell_size : extent.diagonal / 20;
   const double facet = options.facet_size > 0 ? options.facet_size : cell;
   const double distance = options.facet_distance > 0 ? options.facet_distance : facet / 50;
+  check_sizes(options, cell, facet, extent);
   namespace P = CGAL::parameters;
   return Criteria(P::facet_angle = options.facet_angle, P::facet_size = facet, P::facet_distance = distance,
                   P::cell_radius_edge_ratio = options.radius_edge, P::cell_size = cell);
 }
 
-double bounding_diagonal(const Surface_soup& surface) {
-  Point<3> low = surface.points[0], high = low;
-  for (const auto& p : surface.points)
+Extent extent_of(const std::vector<Surface_soup>& surfaces, const Mesh3_report& report) {
+  Extent extent;
+  Point<3> low = surfaces[0].points[0], high = low;
+  for (const auto& p : surfaces[0].points)
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
-  return length(high - low);
+  extent.diagonal = length(high - low);
+  extent.volume = report.surface.volume;
+  for (const Surface_report& obstacle : report.obstacles) extent.volume -= obstacle.volume;
+  for (const Surface_soup& s : surfaces)
+    for (const auto& f : s.facets)
+      extent.area += length(cross(s.points[f[1]] - s.points[f[0]], s.points[f[2]] - s.points[f[0]])) / 2;
+  return extent;
 }
 
 Cell_soup<3> collect(const Complex& complex) {
@@ -123,8 +163,9 @@ Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>&
   Mesh3_report own;
   Mesh3_report& r = report ? *report : own;
   r = {};
-  const auto surfaces = detail::check_apart(surface, obstacles, r.surface, r.obstacles);
-  const Criteria bounds = criteria(options, bounding_diagonal(surfaces[0]));
+  const auto surfaces =
+      detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
+  const Criteria bounds = criteria(options, extent_of(surfaces, r));
   // A point is inside where a ray from it crosses the surfaces an odd number of times: obstacles are left out.
   Surface_mesh mesh;
   for (const auto& s : surfaces) detail::append(mesh, s);

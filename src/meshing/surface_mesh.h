@@ -25,9 +25,11 @@ void append(Surface_mesh& mesh, const Surface_soup& surface);
 /// Pairs of faces that meet elsewhere than in an edge or vertex they share, each pair ascending, all in order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Surface_mesh& mesh);
 
-/// The surface and then its obstacles, each of them checked, and that they do not meet.
+/// The surface and then its obstacles, each of them checked, and that they do not meet. Messages call the obstacles by their names,
+/// those without one by their number.
 /// \throw Error(input)
 std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                                      const std::vector<std::string>& obstacle_names,
                                       Surface_report& surface_report,
                                       std::vector<Surface_report>& obstacle_reports);
 

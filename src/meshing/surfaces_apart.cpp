@@ -40,13 +40,14 @@ std::size_t enclosed(const Surface_soup& surface, const Surface_soup& points) {
 }  // namespace
 
 std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                                      const std::vector<std::string>& obstacle_names,
                                       Surface_report& surface_report,
                                       std::vector<Surface_report>& obstacle_reports) {
   std::vector<std::string> names{"surface"};
   std::vector<Surface_soup> checked{check_surface(surface, names[0], &surface_report)};
   obstacle_reports.resize(obstacles.size());
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    names.push_back("obstacle " + std::to_string(i + 1));
+    names.push_back(i < obstacle_names.size() ? obstacle_names[i] : "obstacle " + std::to_string(i + 1));
     checked.push_back(check_surface(obstacles[i], names.back(), &obstacle_reports[i]));
   }
   if (obstacles.empty()) return checked;

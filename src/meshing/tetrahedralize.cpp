@@ -176,7 +176,8 @@ Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surfa
   Tetrahedralize_report own;
   Tetrahedralize_report& r = report ? *report : own;
   r = {};
-  const auto surfaces = detail::check_apart(surface, obstacles, r.surface, r.obstacles);
+  const auto surfaces =
+      detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
   const Owners owners = owners_of(surfaces);
   const Tetgen_result mesh = detail::call_tetgen(surfaces, options);
   check_kept(mesh, surfaces, owners);

@@ -66,12 +66,6 @@ TEST_F(Import, LeavesNothingBehindWhereItFails) {
                  {"--obstacle", "surface"});
 }
 
-TEST_F(Import, AnOutputMayReplaceItsInput) {
-  write("env.ovm", hexahedron_ovm(0.25));
-  succeed({"import", "env.ovm", "-o", "env.ovm"});
-  succeed({"check", "env.ovm"});
-}
-
 #ifdef CELLWALK_TEST_MESHING
 TEST_F(Import, FillsAClosedSurface) {
   write("cube.off", cube_off(2));
@@ -100,9 +94,40 @@ TEST_F(Import, ObstaclesBecomeWalls) {
   EXPECT_EQ(kept.at("certificate").at("volume"), 64);
   EXPECT_EQ(kept.at("certificate").at("free_volume"), 62);
 
+  write("open.off", open_cube_off());
+  expect_failure(3,
+                 {"import", "cube.off", "--obstacle", "inner.off", "--obstacle", "open.off", "-o", "out.ovm"},
+                 {"cube.off: obstacle open.off is open"});
+  write("outside.off", cube_off(1, 9));
+  expect_failure(3, {"import", "cube.off", "--obstacle", "outside.off", "-o", "out.ovm", "--mesher", "mesh3"},
+                 {"cube.off: obstacle outside.off does not lie inside the surface"});
+  expect_failure(
+      3, {"import", "cube.off", "--obstacle", "inner.off", "--obstacle", "inner.off", "-o", "out.ovm"},
+      {"cube.off: obstacle inner.off meets obstacle inner.off"});
+
   write("env2.ovm", hexahedron_ovm(0));
   expect_failure(3, {"import", "cube.off", "--obstacle", "env2.ovm", "-o", "out.ovm"},
                  {"env2.ovm", "obstacle"});
+}
+
+TEST_F(Import, SizesAtWhichMeshingWouldNotEndAreRefused) {
+  write("cube.off", cube_off(2));
+  const auto refuse = [this](const char* option, const char* value, const std::vector<std::string>& texts) {
+    SCOPED_TRACE(value);
+    expect_failure(2, {"import", "cube.off", "-o", "env.ovm", "--mesher", "mesh3", option, value}, texts);
+  };
+  const std::string of_the_volume =
+      "is too small for a surface that holds a volume of 8: give at least 0.0057";
+  refuse("--cell-size", "1e-300", {"cube.off: Mesh_3: a cell size of 1e-300 " + of_the_volume});
+  refuse("--cell-size", "0.005", {"cube.off: Mesh_3: a cell size of 0.005 " + of_the_volume});
+  refuse("--distance", "1e-9", {"Mesh_3: a distance of 1e-09 is too small for a surface of diagonal 3.4641"});
+  for (const char* value : {"0", "-1", "nan", "inf", "x", "-0.0"}) {
+    refuse("--cell-size", value, {"--cell-size: takes a number greater than 0, not ", value});
+    refuse("--distance", value, {"--distance: takes a number greater than 0, not ", value});
+  }
+  refuse("--quality", "", {"argument 8, after --quality, is empty"});
+  refuse("--quality", "inf", {"--quality: takes a number of at least 0, not inf"});
+  import("cube.off", {"--mesher", "mesh3", "--cell-size", "1e300"});
 }
 
 TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {

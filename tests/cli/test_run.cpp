@@ -220,8 +220,11 @@ TEST_F(Run, LeavesNothingWhenItIsInterrupted) {
   write("long.json", R"({"environment": {"generate": "hexes"}, "particles": [{"count": 2000, "speed": 50}],
                          "steps": 1000000, "output": {"frame_every": 1}})");
   const auto before = files();
-  interrupt_program({"run", "long.json", "-o", "out"}, path(""), 700);
-  EXPECT_EQ(files(), before);
+  for (const int milliseconds :
+       {10, 30, 90, 700}) {  // also while the scene is read and the environment is made
+    interrupt_program({"run", "long.json", "-o", "out", "--json", "r.json"}, path(""), milliseconds);
+    EXPECT_EQ(files(), before) << milliseconds;
+  }
 }
 
 }  // namespace

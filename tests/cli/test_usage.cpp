@@ -76,6 +76,41 @@ TEST_F(Usage, ModesThatDoNotExistAreRefused) {
                  {"--mode", "takes move|sweep"});
 }
 
+TEST_F(Usage, EmptyWordsAreRefused) {
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
+  expect_failure(2, {"check", "env.ovm", "--json", ""}, {"argument 4, after --json, is empty"});
+  expect_failure(2, {"check", "env.ovm", "--json="}, {"--json= is given no value"});
+  expect_failure(2, {"--version", "--json", ""}, {"argument 3, after --json, is empty"});
+  expect_failure(2, {"completion", ""}, {"argument 2, after completion, is empty"});
+  expect_failure(2, {""}, {"argument 1, after cellwalk, is empty"});
+  expect_failure(2, {"run", "-o", ""}, {"argument 3, after -o, is empty"});
+  expect_failure(2, {"query", "env.ovm", "q.csv", "-o", "a.csv", "--row", ""}, {"after --row, is empty"});
+  expect_failure(2, {"--version", "--json", "a", "b"}, {"b is not known here"});
+}
+
+TEST_F(Usage, LongWordsAreQuotedShortened) {
+  const std::string word = std::string(4000, 'a');
+  const std::string brief = std::string(40, 'a') + "...";
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
+  const auto refuse = [&](int code, const std::vector<std::string>& arguments, const std::string& said) {
+    expect_failure(code, arguments, {said});
+    EXPECT_LT(run(arguments).err.size(), 300u);
+  };
+  refuse(2, {word}, brief + " is not known here");
+  refuse(2, {"check", "env.ovm", word}, brief);
+  refuse(2, {"check", "env.ovm", "--duplicates", word}, "takes refuse|merge|keep, not " + brief);
+  refuse(2, {"check", "env.ovm", "--duplicates=" + word}, "takes refuse|merge|keep, not " + brief);
+  refuse(2, {"generate", "hexes", "--cells", word, "-o", "e.ovm"}, brief);
+  refuse(2, {"run", "-o", "out", "--set", word}, brief + ": no key");
+  refuse(3, {"check", word}, brief + ": cannot be opened");
+  refuse(1, {"check", "env.ovm", "--json", word}, brief + ": cannot be written");
+}
+
+TEST_F(Usage, AFolderIsNoScene) {
+  expect_failure(3, {"run", ".", "-o", "out"}, {".: is a directory: name a file"});
+  expect_failure(3, {"run", "none.json", "-o", "out"}, {"none.json: cannot be opened"});
+}
+
 TEST_F(Usage, ReportsThatCannotBeWrittenAreErrors) {
   succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
   expect_failure(1, {"check", "env.ovm", "--json", "nowhere/report.json"}, {"nowhere"});

@@ -13,12 +13,19 @@ mkdir -p "$folder/root"
 for package in "$folder"/made/*.deb; do
   dpkg-deb --info "$package" >"$folder/info"
   grep -E "^ (Package|Depends)" "$folder/info"
-  # What the programs link is found by dpkg-shlibdeps.
-  grep -q "Depends:.*libgmp10.*libtbb12" <(tr '\n' ' ' <"$folder/info") || { echo "$package misses dependencies" >&2; exit 1; }
+  # What is linked is found by dpkg-shlibdeps.
+  case "$package" in
+    */cellwalk-readers_*) needed="libgmsh4.*libvtk9" ;;
+    *) needed="libgmp10.*libtbb12" ;;
+  esac
+  grep -q "Depends:.*$needed" <(tr '\n' ' ' <"$folder/info") || { echo "$package misses dependencies" >&2; exit 1; }
   dpkg-deb --extract "$package" "$folder/root"
 done
 "$folder/root/usr/bin/cellwalk" --version | head -1
 "$folder/root/usr/bin/cellwalk" generate hexes --cells 4 -o "$folder/grid.ovm" | sed "s|$folder/||"
+case "$components" in
+  *readers*) "$folder/root/usr/bin/cellwalk" check "$(dirname "$0")/project/tetrahedron.msh" | grep cells ;;
+esac
 case "$components" in
   *python*)
     dist=$(dirname "$(find "$folder/root/usr" -type d -name cellwalk -path '*dist-packages*')")

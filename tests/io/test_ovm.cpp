@@ -222,7 +222,10 @@ TEST(Ovm, RefusesWithFileAndLine) {
   };
   const Case cases[] = {
       {"OVM ASCII", "OVM BINARY",
-       "t.ovm:1: only OVM ASCII is read: convert the binary file with OpenVolumeMesh's file converter"},
+       "t.ovm:1: only OVM ASCII is read: load the binary file with OpenVolumeMesh and write it as .ovm "
+       "(OpenVolumeMesh::IO::FileManager::writeFile)"},
+      {"OVM ASCII", "OVM UTF8", "t.ovm:1: 'UTF8' is no encoding of OpenVolumeMesh: only OVM ASCII is read"},
+      {"OVM ASCII", "OVMASCII", "t.ovm:1: not an OpenVolumeMesh file: it does not begin with 'OVM ASCII'"},
       {"OVM ASCII", "solid cube", "t.ovm:1: not an OpenVolumeMesh file: it does not begin with 'OVM ASCII'"},
       {"0 1 0\n", "0 1 zero\n", "t.ovm:6: a coordinate: 'zero' is not a number that a double can hold"},
       {"0 1 0\n", "0 1 nan\n", "t.ovm:6: a coordinate: 'nan' is not finite"},
@@ -252,6 +255,30 @@ TEST(Ovm, RefusesWithFileAndLine) {
     SCOPED_TRACE(c.to);
     EXPECT_EQ(refusal([&] { parse_ovm("t.ovm", with(two_tetrahedra, c.from, c.to)); }), c.message);
   }
+}
+
+TEST(Ovm, IsReadWithoutItsEncoding) {
+  // As OpenVolumeMesh's own test files begin.
+  for (const char* first : {"OVM", "OVM \r", "ovm"}) {
+    const Mesh_file file = parse_ovm("t.ovm", with(two_tetrahedra, "OVM ASCII", first));
+    EXPECT_EQ(std::get<Cell_soup<3>>(file.mesh).cell_count(), 2u) << first;
+    EXPECT_EQ(file.report.format, "OpenVolumeMesh ASCII");
+  }
+  const Folder folder;
+  EXPECT_EQ(read_mesh(folder.write("no_extension", with(two_tetrahedra, "OVM ASCII", "OVM"))).report.cells,
+            2u);
+}
+
+TEST(Ovm, RefusesBinaryFilesWithAdvice) {
+  const Folder folder;
+  const std::string head("OVMB\n\r\n\xff\x01\x01\x00\x00", 12);
+  for (const char* name : {"t.ovmb", "t.ovm", "t"})
+    EXPECT_NE(
+        refusal([&] {
+          read_mesh(folder.write(name, head));
+        }).find(":1: only OVM ASCII is read: load the binary file with OpenVolumeMesh and write it as .ovm"),
+        std::string::npos)
+        << name;
 }
 
 TEST(Ovm, RefusesWhatIsCutShort) {

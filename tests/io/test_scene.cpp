@@ -215,7 +215,7 @@ TEST(Scene, NamesAFileThatCannotBeRead) {
         try {
           read_scene("/nowhere/s.json");
         } catch (const Error& e) {
-          EXPECT_STREQ(e.what(), "/nowhere/s.json: cannot be read; check the name and its permissions");
+          EXPECT_STREQ(e.what(), "/nowhere/s.json: cannot be opened: check that it exists and may be read");
           throw;
         }
       },

@@ -55,6 +55,9 @@ TEST(SceneChanges, AreRefusedWhereTheyMakeNoSense) {
       {"steps.of=1", "steps.of=1: what the key leads through is not an object"},
       {"bodies.count=1", "bodies.count=1: what the key leads through is not an object"},
       {"environment..cells=1", "environment..cells=1: a key is empty"},
+      {"environment.=1", "environment.=1: a key is empty"},
+      {"bodies[0].=1", "bodies[0].=1: a key is empty"},
+      {"bodies[0]count=1", "bodies[0]count=1: a dot is missing after ]"},
   };
   for (const auto& [change, message] : refusals) {
     try {

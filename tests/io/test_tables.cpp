@@ -40,6 +40,22 @@ TEST(Csv, IsRefusedWithFileAndLine) {
             "t.csv: has no column 'c': its header names a,b");
 }
 
+TEST(Csv, TablesOfManyColumnsAreReadAsFastAsOfFew) {
+  // A comparison of each name with those before it would take minutes.
+  constexpr std::size_t count = 300'000;
+  std::string text;
+  for (std::size_t c = 0; c < count; ++c) text += (c == 0 ? "c" : ",c") + std::to_string(c);
+  const Csv_table table = Csv_table::parse("t.csv", text + "\n");
+  EXPECT_EQ(table.columns().size(), count);
+  EXPECT_EQ(table.column("c299999"), count - 1);
+  EXPECT_EQ(refusal([&] { table.column("x"); }),
+            "t.csv: has no column 'x': its header names "
+            "c0,c1,c2,c3,c4,c5,c6,c7,c8,c9,c10,c11,c12,c13,c14,c15,c16,c17,"
+            "c18,c19 and 299980 more");
+  EXPECT_EQ(refusal([&] { Csv_table::parse("t.csv", text + ",c7\n"); }),
+            "t.csv:1: two columns are named 'c7'");
+}
+
 TEST(Csv, WrittenTablesReadBackTheSame) {
   const Folder folder;
   Csv_writer out(folder / "t.csv", {"row", "value", "text"});

@@ -236,6 +236,28 @@ TEST(VtkReader, BrokenFilesAreRefusedWithAReason) {
   }
 }
 
+TEST(VtkReader, CountsThatNoFileOfItsSizeHoldsAreRefused) {
+  const std::string xml = written<vtkXMLUnstructuredGridWriter>(
+      the_cells(), [](vtkXMLUnstructuredGridWriter& w) { w.SetDataModeToAscii(); });
+  const std::string packed = written<vtkXMLUnstructuredGridWriter>(the_cells());
+  struct Case {
+    std::string name, text, what;
+  };
+  const Case cases[] = {
+      {"t.vtu", with(xml, "NumberOfPoints=\"12\"", "NumberOfPoints=\"4000000000\""), "4000000000 points"},
+      {"t.vtu", with(packed, "NumberOfPoints=\"12\"", "NumberOfPoints=\"4000000000\""), "4000000000 points"},
+      {"t.vtu", with(xml, "NumberOfCells=\"", "NumberOfCells=\"99999999999999999999999"),
+       "18446744073709551615 cells"},
+      {"t.vtk", with(legacy(), "POINTS 12", "POINTS 4000000000"), "4000000000 points"},
+      {"t.vtk", with(legacy(), "CELLS 6", "CELLS 4000000000"), "4000000000 cells"},
+      {"t.vtk", with(legacy(), "CELL_TYPES 6", "cell_types\t4000000000"), "4000000000 cell_types"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    const std::string why = refusal([&] { read(c.name, c.text); });
+    EXPECT_NE(why.find(c.name + ": announces " + c.what + ", more than its "), std::string::npos) << why;
+  }
+}
+
 TEST(VtkReader, TruncatedFilesNeverCrash) {
   const auto count = [](const std::string& name, const std::string& text) {
     return refused_truncations(text, [&](const std::string& t) { read(name, t); });

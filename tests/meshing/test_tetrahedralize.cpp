@@ -137,8 +137,10 @@ TEST(Mesh3, ApproximatesTheSurfaceAndSaysHowWell) {
 }
 
 TEST(Mesh3, RefusesOptionsOutOfRange) {
-  for (auto set : {+[](Mesh3_options& o) { o.cell_size = -1; }, +[](Mesh3_options& o) { o.facet_angle = 45; },
-                   +[](Mesh3_options& o) { o.radius_edge = 1; }}) {
+  for (auto set :
+       {+[](Mesh3_options& o) { o.cell_size = -1; }, +[](Mesh3_options& o) { o.facet_angle = 45; },
+        +[](Mesh3_options& o) { o.radius_edge = 1; }, +[](Mesh3_options& o) { o.cell_size = 1e-4; },
+        +[](Mesh3_options& o) { o.facet_size = 1e-5; }, +[](Mesh3_options& o) { o.facet_distance = 1e-7; }}) {
     Mesh3_options options;
     set(options);
     EXPECT_EQ(refusal([&] { mesh3(octahedron(), {}, options); }).substr(0, 2), "2:");

@@ -3,6 +3,8 @@
 #ifndef CELLWALK_IO_ATOMIC_FILE_H
 #define CELLWALK_IO_ATOMIC_FILE_H
 
+#include <cellwalk/io/output.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -10,21 +12,27 @@
 
 namespace cellwalk::io {
 
-/// A file written beside its destination and renamed on commit(). Destroyed without commit() it leaves nothing behind,
-/// and an older file of that name as it was. A destination that is a device or pipe (/dev/stdout) is written directly.
-class Atomic_file {
+/// A file written beside its destination and put in its place on commit(). Destroyed without commit() it leaves nothing behind,
+/// and an older file of that name as it was. What replaces a file has its permissions; a link goes on pointing where it points.
+/// A destination that is a device, a pipe or a descriptor of the process (/dev/stdout, /dev/fd/3) is written directly, on
+/// prepare() or commit() and not before.
+class Atomic_file final : public Output {
  public:
-  /// \throw Error(other) if the directory does not exist or cannot be written
+  /// \throw Error(other) if the destination or its directory does not exist, or may not be written
   explicit Atomic_file(std::filesystem::path destination);
-  ~Atomic_file();
-  Atomic_file(const Atomic_file&) = delete;
-  Atomic_file& operator=(const Atomic_file&) = delete;
+  ~Atomic_file() override;
 
   /// Appends. \throw Error(other) where the device is full
   void write(std::string_view text);
 
-  /// Flushes and renames. \throw Error(other) if either fails; nothing is left behind then
+  /// All steps at once, for a file that appears alone. \throw Error(other) if one fails; nothing is left behind then
   void commit();
+
+  void prepare() override;
+  void put() override;
+  void take_back() noexcept override;
+  void settle() noexcept override;
+  bool can_be_taken_back() const override { return !is_direct_; }
 
   const std::filesystem::path& destination() const { return destination_; }
 
@@ -33,19 +41,17 @@ class Atomic_file {
   void discard() noexcept;
   [[noreturn]] void fail(const char* what);
 
-  std::filesystem::path destination_;
-  std::string temporary_;  ///< empty where the destination is written directly
+  std::filesystem::path destination_, target_;  ///< as given, and behind links
+  std::string temporary_;                       ///< empty where there is none
   std::string buffer_;
+  Unfinished unfinished_;
+  Replacement replacement_;
   int descriptor_ = -1;
-  int slot_ = -1;
+  bool is_direct_ = false;
 };
 
 /// Writes a whole file at once, atomically. \throw Error(other)
 void write_file(const std::filesystem::path& destination, std::string_view text);
-
-/// Removes the temporary files of every Atomic_file not yet committed. Safe to call from a signal handler, for programs
-/// that must leave nothing behind when they are interrupted.
-void discard_unfinished_files() noexcept;
 
 }  // namespace cellwalk::io
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,6 +57,8 @@ class Csv_writer {
  public:
   /// \throw Error(other) where the file cannot be written
   Csv_writer(std::filesystem::path path, std::vector<std::string> columns);
+  /// Into a file that the caller commits, and which outlives the writer.
+  Csv_writer(Atomic_file& file, std::vector<std::string> columns);
 
   /// One row, a value for each column: texts (quoted where needed), integers, and doubles in the shortest form that
   /// reads back the same; a double that is not finite is left empty. \throw Error(usage) for another number of values
@@ -66,10 +69,11 @@ class Csv_writer {
     end_row();
   }
 
-  /// \throw Error(other) where the file cannot be written
+  /// For a file of its own. \throw Error(other) where it cannot be written
   void commit();
 
  private:
+  void header(const std::vector<std::string>& columns);
   void begin_row(std::size_t count);
   void end_row();
   void add(double value);
@@ -82,7 +86,8 @@ class Csv_writer {
   }
   void add_bare(std::string_view text);
 
-  Atomic_file file_;
+  std::unique_ptr<Atomic_file> own_;
+  Atomic_file& file_;
   std::size_t column_count_;
   std::string row_;
   bool first_ = true;

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_IO_MOTION_RECORD_FILE_H
 #define CELLWALK_IO_MOTION_RECORD_FILE_H
 
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/records/motion_record.h>
 
 #include <filesystem>
@@ -14,6 +15,10 @@ namespace cellwalk::io {
 /// Coordinates are written so that they read back the same. \throw Error(other) where the file cannot be written
 template <int D>
 void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record);
+
+/// The same into a file that the caller commits.
+template <int D>
+void write_motion_record(Atomic_file& file, const Motion_record<D>& record);
 
 /// Nothing is guessed: unknown and missing keys, wrong types and indices out of range are refused.
 /// \throw Error(input) `FILE: key.path: what is wrong`

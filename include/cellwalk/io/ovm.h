@@ -7,6 +7,7 @@
 #ifndef CELLWALK_IO_OVM_H
 #define CELLWALK_IO_OVM_H
 
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/records/cell_soup.h>
 
@@ -31,8 +32,14 @@ Mesh_file parse_ovm(const std::string& name, std::string_view text);
 template <int D>
 void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup);
 
+/// The same into a file that the caller commits.
+template <int D>
+void write_ovm(Atomic_file& file, const Cell_soup<D>& soup);
+
 extern template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&);
 extern template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&);
+extern template void write_ovm<2>(Atomic_file&, const Cell_soup<2>&);
+extern template void write_ovm<3>(Atomic_file&, const Cell_soup<3>&);
 
 }  // namespace cellwalk::io
 

@@ -17,6 +17,9 @@ namespace cellwalk::io {
 /// \throw Error(input) `FILE: key.path[2].key: what is wrong`, or `FILE:LINE: ...` where the file is not JSON
 Any_scene read_scene(const std::filesystem::path& path);
 
+/// The bytes of a scene file, inflated where it is compressed with gzip. \throw Error(input) if it cannot be read
+std::string scene_text(const std::filesystem::path& path);
+
 /// The same from text in memory; `name` stands for the file in errors. Names of files are resolved against the folder; without
 /// one they stay as written.
 Any_scene parse_scene(const std::string& name, std::string_view text,

@@ -21,6 +21,8 @@ struct Mesher_options {
   double cell_size = 0;  ///< Mesh_3: units of the surface; 0: its default
   double distance = 0;   ///< Mesh_3: how far the boundary may leave the surface; 0: its default
   bool keep_obstacles = false;
+  std::vector<std::string>
+      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
 };
 
 /// Cells, and what was done to get them: lines for people, and JSON.

@@ -8,6 +8,7 @@
 #include <cellwalk/records/surface_soup.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -19,6 +20,8 @@ struct Mesh3_options {
   double facet_distance = 0;  ///< bound of their distance to the surface; default a fiftieth of facet_size
   double facet_angle = 25;    ///< degrees, at most 30
   double radius_edge = 2;     ///< bound of circumradius to shortest edge, at least 2
+  std::vector<std::string>
+      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
 };
 
 struct Mesh3_report {
@@ -31,7 +34,8 @@ struct Mesh3_report {
 };
 
 /// Fills the inside of a closed surface, less that of the obstacles, with tetrahedra.
-/// \throw Error(input) as tetrahedralize; Error(usage) for options out of range
+/// \throw Error(input) as tetrahedralize; Error(usage) for options out of range: sizes at which more than 10^8 cells or facets are
+///        needed whatever their shape, and distances below 2^-20 of the bounding box's diagonal
 /// \throw Error(not_certified) if no tetrahedron came out (sizes too large for the surface), or one that is flat
 /// Same input, same mesh. Cost: about 30 us a tetrahedron.
 Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},

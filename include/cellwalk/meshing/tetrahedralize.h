@@ -8,6 +8,7 @@
 #include <cellwalk/records/surface_soup.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -19,6 +20,8 @@ struct Tetrahedralize_options {
   double largest_volume = 0;                ///< of a tetrahedron; 0: any
   std::size_t most_added_points = 1000000;  ///< refinement stops there
   bool keep_obstacles = false;              ///< true: obstacles stay as solid cells; false: they are left out
+  std::vector<std::string>
+      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
 };
 
 struct Tetrahedralize_report {
