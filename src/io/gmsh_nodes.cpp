@@ -127,8 +127,9 @@ class Msh_nodes {
     const Number first = number(), second = number();
     dimension = is_4_1() ? first : second;
     const Number kind = number(), size = number();
-    left -= std::max<Number>(size, 0);
-    if (left < 0) in_.fail(fmt::format("the blocks hold more {} than the section announces", what));
+    const Number held = std::max<Number>(size, 0);
+    if (held > left) in_.fail(fmt::format("the blocks hold more {} than the section announces", what));
+    left -= held;
     return {kind, size};
   }
 

@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "fuzz/targets.h"
-#include "io/gmsh_text.h"
 #include "io/surface_parsers.h"
 
 namespace cellwalk::fuzz {
@@ -92,22 +91,6 @@ void poly(std::string_view bytes) {
 
 void wkt(std::string_view bytes) {
   reads([&] { demand_well_formed(io::parse_wkt("in", bytes)); });
-}
-
-void msh(std::string_view bytes) {
-  reads([&] {
-    const io::Msh_header header = io::read_msh_header("in", bytes);
-    io::announced_counts(bytes, header);
-    if (const auto text = io::renumbered_elements(bytes, header)) {
-      const io::Msh_counts before = io::announced_counts(bytes, header),
-                           after = io::announced_counts(*text, header);
-      demand((!before.nodes || before.nodes == after.nodes) &&
-                 (!before.elements || before.elements == after.elements),
-             "numbers anew change the counts");
-      demand(!io::renumbered_elements(*text, header), "numbers that repeat after they were made anew");
-    }
-  });
-  reads([&] { io::check_medit("in", bytes); });
 }
 
 }  // namespace cellwalk::fuzz

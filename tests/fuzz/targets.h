@@ -26,7 +26,10 @@ void stl(std::string_view bytes);
 void ply(std::string_view bytes);
 void poly(std::string_view bytes);
 void wkt(std::string_view bytes);
-void msh(std::string_view bytes);  ///< what is read before Gmsh sees the file
+
+// What is looked at before a library of others reads a file.
+void msh(std::string_view bytes);
+void vtk(std::string_view bytes);
 
 // Readers of everything else.
 void csv(std::string_view bytes);

@@ -22,7 +22,7 @@ struct Target {
   void (*run)(std::string_view bytes);
 };
 
-const std::array<Target, 16> targets{{{"ovm", ovm},
+const std::array<Target, 17> targets{{{"ovm", ovm},
                                       {"off", off},
                                       {"obj", obj},
                                       {"stl", stl},
@@ -30,6 +30,7 @@ const std::array<Target, 16> targets{{{"ovm", ovm},
                                       {"poly", poly},
                                       {"wkt", wkt},
                                       {"msh", msh},
+                                      {"vtk", vtk},
                                       {"csv", csv},
                                       {"scene", scene},
                                       {"record", record},
