@@ -5,9 +5,9 @@
 #   scripts/setup.sh [--for demo|test|ci|dev|package|peers|paper|docs] [--print]
 #
 #   demo  build and run the program            test   also Gmsh, VTK, Python, Node.js, Chromium, the test tools and clang-format (default)
-#   dev   also clang, clang-tidy and ccache    peers  demo, the libraries that experiments compare with, and gnuplot
+#   dev   ci and clang-tidy                    peers  demo, the libraries that experiments compare with, and gnuplot
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
-#   ci    test and ccache                      package  build the Debian packages, and a clean root to try them in
+#   ci    test, ccache and clang, for fuzzing  package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -18,7 +18,7 @@ io=(libgmsh-dev libvtk9-dev)
 python=(pybind11-dev python3-dev python3-numpy)
 tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
-tools=(clang clang-tidy ccache)
+fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own
 documentation=(doxygen graphviz)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
 latex=(texlive-latex-recommended texlive-fonts-recommended lmodern)
@@ -39,8 +39,8 @@ packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
-  ci) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" ccache) ;;
-  dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${tools[@]}") ;;
+  ci) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${fuzzing[@]}" ccache) ;;
+  dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache) ;;
   package) packages+=("${io[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;

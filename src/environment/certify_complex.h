@@ -77,6 +77,10 @@ using Plane_points = std::array<std::uint32_t, D>;
 /// Points of a facet that are not in one (D-2)-space. \pre the facet is sound (check_cell)
 template <int D>
 Plane_points<D> plane_of_facet(Predicate_counts& counts, const Cell_view<D>& cell, std::size_t facet);
+template <>
+Plane_points<2> plane_of_facet<2>(Predicate_counts& counts, const Cell_view<2>& cell, std::size_t facet);
+template <>
+Plane_points<3> plane_of_facet<3>(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet);
 
 /// The side of a point of a plane: +1 outside. The plane's own points need no sign.
 template <int D>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "json_node.h"
 
-#include <cellwalk/kernel/error.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "text.h"
 
 namespace cellwalk::io::detail {
 
@@ -18,7 +18,9 @@ std::unique_ptr<json> parse_json(const std::string& name, std::string_view text)
   // The library keeps the last of two equal keys without a word; a scene that says two things is refused.
   std::vector<std::set<std::string>> open;
   std::optional<std::string> repeated;
-  const auto watch = [&](int, json::parse_event_t event, json& value) {
+  const auto watch = [&](int depth, json::parse_event_t event, json& value) {
+    if (depth > deepest_nesting)
+      io::fail(name, fmt::format("more than {} lists and objects within each other", deepest_nesting));
     if (event == json::parse_event_t::object_start) open.emplace_back();
     if (event == json::parse_event_t::object_end) open.pop_back();
     if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second &&
@@ -29,8 +31,7 @@ std::unique_ptr<json> parse_json(const std::string& name, std::string_view text)
   try {
     constexpr bool throws = true, skips_comments = true;
     auto document = std::make_unique<json>(json::parse(text, watch, throws, skips_comments));
-    if (repeated)
-      throw Error(Error_code::input, fmt::format("{}: {}: key given twice in one object", name, *repeated));
+    if (repeated) io::fail(name, fmt::format("{}: key given twice in one object", shown(*repeated)));
     return document;
   } catch (const json::exception& e) {
     std::string what =
@@ -42,14 +43,14 @@ std::unique_ptr<json> parse_json(const std::string& name, std::string_view text)
       line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     }
     if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
-    throw Error(Error_code::input, line ? fmt::format("{}:{}: not valid JSON: {}", name, line, what)
-                                        : fmt::format("{}: not valid JSON: {}", name, what));
+    constexpr std::size_t longest = 200;  // bytes of a reason, which may quote a whole text
+    what = "not valid JSON: " + (what.size() > longest ? what.substr(0, longest) + "..." : what);
+    line ? io::fail(name, line, what) : io::fail(name, what);
   }
 }
 
 void Json_node::fail(const std::string& what) const {
-  throw Error(Error_code::input, path_.empty() ? fmt::format("{}: {}", *file_, what)
-                                               : fmt::format("{}: {}: {}", *file_, path_, what));
+  io::fail(*file_, path_.empty() ? what : path_ + ": " + what);
 }
 
 bool Json_node::is_string() const { return value_->is_string(); }
@@ -78,7 +79,7 @@ std::optional<Json_node> Json_node::find(std::string_view key) const {
   if (!is_object()) fail("expected an object {...}");
   const auto it = value_->find(std::string(key));
   if (it == value_->end()) return std::nullopt;
-  return Json_node(*it, *file_, path_.empty() ? std::string(key) : path_ + "." + std::string(key));
+  return Json_node(*it, *file_, path_.empty() ? shown(key) : path_ + "." + shown(key));
 }
 
 Json_node Json_node::at(std::string_view key) const {

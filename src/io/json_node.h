@@ -18,7 +18,11 @@
 
 namespace cellwalk::io::detail {
 
-/// Parses JSON; comments (// and /* */) are allowed. \throw Error(input) naming the line, also for keys that are given twice
+/// Lists and objects within each other: far more than anything that is read has. What writes JSON calls itself as often.
+inline constexpr int deepest_nesting = 64;
+
+/// Parses JSON; comments (// and /* */) are allowed.
+/// \throw Error(input) naming the line, also for keys that are given twice, and for what is nested too deeply
 std::unique_ptr<nlohmann::json> parse_json(const std::string& name, std::string_view text);
 
 /// A read-only view of a value. Does not own the document.

@@ -6,6 +6,7 @@
 #include <cellwalk/records/motion.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace cellwalk::io {
@@ -17,6 +18,10 @@ inline std::uint64_t motion_record_size(const Motion_scene& scene) {
   const auto axes = static_cast<std::uint64_t>(scene.dimension);
   return scene.moving_count() * (2 * axes + sizeof(std::uint32_t)) + scene.bodies.size();
 }
+
+/// Reads a motion out of its bytes, inflated; `name` stands for the file in errors.
+/// \throw Error(input) where they are no motion, or damaged
+Motion_scene parse_motion(const std::string& name, std::string_view bytes);
 
 }  // namespace cellwalk::io
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "binary.h"
@@ -40,22 +42,34 @@ class Motion_parser {
     fail(name_, "is damaged: " + what + "; run the scene again");
   }
 
+  /// A number of the head that counts something.
+  std::uint32_t counted(const nlohmann::json& value) const {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) damaged("its head cannot be read");
+    return value.get<std::uint32_t>();
+  }
+
   void read_head(const nlohmann::json& head) {
-    scene_.dimension = head.at("dimension");
+    scene_.dimension = static_cast<int>(std::min(counted(head.at("dimension")), 4u));
     scene_.time_step = head.at("time_step");
-    scene_.steps = head.at("steps");
-    scene_.every = head.at("every");
-    scene_.cells = head.at("cells");
-    scene_.particles = head.at("particles");
+    scene_.steps = counted(head.at("steps"));
+    scene_.every = counted(head.at("every"));
+    scene_.cells = counted(head.at("cells"));
+    scene_.particles = counted(head.at("particles"));
     scene_.lower = head.at("lower");
     scene_.upper = head.at("upper");
     for (const nlohmann::json& body : head.at("bodies"))
-      scene_.bodies.push_back(
-          {body.at("kind") == "catheter", body.at("vertices"), body.at("edges"), body.at("faces")});
+      scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
+                               counted(body.at("edges")), counted(body.at("faces"))});
     if ((scene_.dimension != 2 && scene_.dimension != 3) || scene_.every == 0 ||
-        head.at("records") != scene_.record_count())
+        counted(head.at("records")) != record_count())
       damaged("the counts of its head do not fit each other");
-    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] = head.at(count_names[i]);
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] = counted(head.at(count_names[i]));
+  }
+
+  /// As the scene has it, in 64 bits: a step after each of 2^32 - 1 makes one record more than that.
+  std::uint64_t record_count() const {
+    return 1 + std::uint64_t{scene_.steps} / scene_.every + (scene_.steps % scene_.every != 0);
   }
 
   std::uint64_t count(std::string_view name) const {
@@ -73,7 +87,9 @@ class Motion_parser {
         sizeof(Point<3>) * count("points") +
         sizeof(std::uint32_t) * (count("walls") + count("wall_corners") + count("floor") +
                                  count("floor_corners") + 2 * count("lines") + 2 * edges + 3 * faces);
-    const std::uint64_t expected = arrays + scene_.record_count() * motion_record_size(scene_);
+    const std::uint64_t record = motion_record_size(scene_), most = std::numeric_limits<std::uint64_t>::max();
+    const bool is_countable = record == 0 || record_count() <= (most - arrays) / record;
+    const std::uint64_t expected = is_countable ? arrays + record_count() * record : most;
     if (bytes_.size() != expected)
       damaged(
           fmt::format("after its head there are {} bytes, and {} were announced", bytes_.size(), expected));
@@ -133,14 +149,17 @@ class Motion_parser {
 
 }  // namespace
 
+Motion_scene parse_motion(const std::string& name, std::string_view bytes) {
+  return Motion_parser(name, bytes).parse();
+}
+
 Motion_file read_motion(const std::filesystem::path& path) {
   const std::string name = path.string();
   Motion_file result;
   result.packed = load_packed(path);
   if (!is_gzip(result.packed))
     fail(name, "is no motion: it is not compressed with gzip; run the scene again");
-  const std::string bytes = unpack(name, result.packed);
-  result.scene = Motion_parser(name, bytes).parse();
+  result.scene = parse_motion(name, unpack(name, result.packed));
   return result;
 }
 

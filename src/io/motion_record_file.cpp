@@ -93,9 +93,8 @@ template void write_motion_record(Atomic_file&, const Motion_record<3>&);
 template void write_motion_record(const std::filesystem::path&, const Motion_record<2>&);
 template void write_motion_record(const std::filesystem::path&, const Motion_record<3>&);
 
-Any_motion_record read_motion_record(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const auto document = detail::parse_json(name, load(path));
+Any_motion_record parse_motion_record(const std::string& name, std::string_view text) {
+  const auto document = detail::parse_json(name, text);
   const Json_node root(*document, name);
   root.expect_keys(
       {"format", "dimension", "note", "kernel", "strategy", "from", "to", "cell", "points", "cells"});
@@ -103,6 +102,10 @@ Any_motion_record read_motion_record(const std::filesystem::path& path) {
     root.at("format").fail(fmt::format("expected \"{}\"", record_format));
   if (root.at("dimension").integer_in(2, 3) == 2) return motion_record<2>(root);
   return motion_record<3>(root);
+}
+
+Any_motion_record read_motion_record(const std::filesystem::path& path) {
+  return parse_motion_record(path.string(), load(path));
 }
 
 }  // namespace cellwalk::io

@@ -71,7 +71,7 @@ class Ovm_reader {
     in_.need_line(fmt::format("the section '{}'", title));
     const std::string_view found = in_.word();
     if (!same_word(found, title))
-      in_.fail(fmt::format("'{}' where the section '{}' should begin", found, title));
+      in_.fail(fmt::format("'{}' where the section '{}' should begin", shown(found), title));
     if (in_.at_line_end()) in_.need_line(fmt::format("the number of {}", lower(title)));
     const std::uint64_t count = in_.count(fmt::format("the number of {}", lower(title)));
     in_.expect_line_end("the number");
@@ -128,7 +128,7 @@ class Ovm_reader {
   void property() {
     const std::string entity(in_.word()), type(in_.word());
     if (!is_property(entity))
-      in_.fail(fmt::format("'{}' where a property or the end of the file should be", entity));
+      in_.fail(fmt::format("'{}' where a property or the end of the file should be", shown(entity)));
     std::string_view name = in_.rest();
     const std::size_t open = name.find('"'), close = name.rfind('"');
     if (open == std::string_view::npos || open == close) in_.fail("a property without a name in quotes");
@@ -146,8 +146,8 @@ class Ovm_reader {
       in_.fail(fmt::format(
           "'{} {} \"{}\"' has a meaning only as 'FProp bool' (walls), 'CProp bool' (solid cells); in 2D "
           "'EProp bool' and 'FProp bool': rename or change it",
-          entity, type, name));
-    report_.notes.push_back(fmt::format("property {} \"{}\" ignored", entity, name));
+          shown(entity), shown(type), shown(name)));
+    report_.notes.push_back(fmt::format("property {} \"{}\" ignored", shown(entity), shown(name)));
     // Values of unknown types are not understood: skip to the next line that opens a property.
     while (in_.next_line())
       if (is_property(in_.word())) return in_.unread();
@@ -182,9 +182,19 @@ class Ovm_reader {
     return !values.empty() && values[i];
   }
 
+  /// A face that many cells name would be written out as often: a short file could ask for any amount of memory.
+  void check_sides() const {
+    std::uint64_t corners = 0;
+    for (const std::uint32_t halfface : raw_.cell_halffaces)
+      corners += raw_.face_begin[halfface / 2 + 1] - raw_.face_begin[halfface / 2];
+    if (corners > 2 * std::uint64_t{raw_.face_halfedges.size()})
+      fail(in_.file(), "has cells that name more halffaces than there are: some belong to several cells");
+  }
+
   Mesh_file spatial() {
     if (raw_.cell_count() == 0)
       fail(in_.file(), "holds no polyhedra, and is no environment of the plane (z is not zero throughout)");
+    check_sides();
     if (!raw_.edge_impassable.empty() || !raw_.face_solid.empty())
       report_.notes.push_back("'EProp impassable' and 'FProp solid' have no meaning in 3D: ignored");
     Cell_soup<3> soup;

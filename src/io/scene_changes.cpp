@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "json_node.h"
+#include "text.h"
 
 namespace cellwalk::io {
 namespace {
@@ -18,7 +19,17 @@ using nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& change, const std::string& why) {
   throw Error(Error_code::usage,
-              fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", change, why));
+              fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", shown(change), why));
+}
+
+/// JSON is UTF-8, and what is not cannot be written as JSON.
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(json(text).dump());
+    return true;
+  } catch (const json::type_error&) {
+    return false;
+  }
 }
 
 /// The value that a key such as `bodies[0].count` stands for.
@@ -59,9 +70,16 @@ std::string change_scene(const std::string& name, std::string_view text,
   for (const std::string& change : changes) {
     const std::size_t equals = change.find('=');
     if (equals == change.npos || equals == 0) refuse(change, "no key");
+    if (!is_utf8(change)) refuse("a change", "is not written in UTF-8");
     const std::string value = change.substr(equals + 1);
+    const auto watch = [&](int depth, json::parse_event_t, json&) {
+      if (depth > detail::deepest_nesting)
+        refuse(change,
+               fmt::format("more than {} lists and objects within each other", detail::deepest_nesting));
+      return true;
+    };
     constexpr bool throws = false;
-    json parsed = json::parse(value, nullptr, throws);
+    json parsed = json::parse(value, watch, throws);
     at_key(*document, std::string_view(change).substr(0, equals), change) =
         parsed.is_discarded() ? json(value) : std::move(parsed);
   }

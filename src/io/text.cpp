@@ -17,11 +17,19 @@ namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
 
+/// A message on one line, whatever bytes of a file it quotes.
+std::string one_line(std::string message) {
+  constexpr char first_printed = ' ', delete_character = 0x7f;
+  for (char& c : message)
+    if ((c >= 0 && c < first_printed) || c == delete_character) c = '?';
+  return message;
+}
+
 }  // namespace
 
 std::string shown(std::string_view word) {
   constexpr std::size_t most = 40;  // bytes
-  return word.size() <= most ? std::string(word) : std::string(word.substr(0, most)) + "...";
+  return one_line(word.size() <= most ? std::string(word) : std::string(word.substr(0, most)) + "...");
 }
 
 std::string unpack(const std::string& file, const std::string& packed) {
@@ -74,11 +82,11 @@ std::string load(const std::filesystem::path& path) {
 }
 
 void fail(const std::string& file, const std::string& what) {
-  throw Error(Error_code::input, fmt::format("{}: {}", file, what));
+  throw Error(Error_code::input, one_line(fmt::format("{}: {}", file, what)));
 }
 
 void fail(const std::string& file, std::size_t line, const std::string& what) {
-  throw Error(Error_code::input, fmt::format("{}:{}: {}", file, line, what));
+  throw Error(Error_code::input, one_line(fmt::format("{}:{}: {}", file, line, what)));
 }
 
 Line_reader::Line_reader(std::string file, std::string_view text, char comment)

@@ -26,9 +26,9 @@ bool is_gzip(std::string_view bytes);
 /// A word as error messages show it: the beginning of a long one.
 std::string shown(std::string_view word);
 
-/// \throw Error(input) "file: what" always
+/// \throw Error(input) "file: what" always, on one line
 [[noreturn]] void fail(const std::string& file, const std::string& what);
-/// \throw Error(input) "file:line: what" always
+/// \throw Error(input) "file:line: what" always, on one line
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what);
 
 /// Walks over the lines of a text that outlives it, and over the words of the current line.

@@ -33,7 +33,7 @@ void check_count(const std::string& name, std::string_view what, std::uint64_t c
                  std::size_t bytes) {
   if (static_cast<double>(count) > most)
     fail(name, fmt::format("announces {} {}, more than its {} bytes can hold: it is cut short or broken",
-                           count, lower(what), bytes));
+                           count, lower(shown(what)), bytes));
 }
 
 /// Attributes such as NumberOfPoints="8" of the tags that have some.
@@ -43,8 +43,9 @@ void check_xml(const std::string& name, std::string_view bytes) {
   const double most =
       static_cast<double>(bytes.size()) * (is_compressed ? per_byte_compressed : per_byte_plain);
   for (const std::string_view tag : {"<Piece", "<DataArray"})
-    for (std::size_t at = bytes.find(tag); at != std::string_view::npos; at = bytes.find(tag, at + 1)) {
+    for (std::size_t at = bytes.find(tag); at != std::string_view::npos; at = bytes.find(tag, at)) {
       std::string_view rest = bytes.substr(at, bytes.find('>', at) - at);
+      at += rest.size();  // a tag that is not closed is looked through once
       for (std::size_t found; (found = rest.find(attribute)) != std::string_view::npos;) {
         rest.remove_prefix(found + attribute.size());
         const std::size_t word = std::min(rest.find_first_of("= \t\r\n"), rest.size());

@@ -160,6 +160,7 @@ TEST(MotionFile, RefusesWhatIsDamaged) {
   expect(refused(gzip(bytes + "x")), "bytes, and");
   const std::size_t head = 12, points = head + value_at<std::uint32_t>(bytes, 8), corners = points + 72 + 8;
   expect(refused(gzip(std::string(bytes).replace(head, 1, "["))), "its head cannot be read");
+  expect(refused(gzip(with(bytes, "\"cells\":1000000", "\"cells\":1e00300"))), "its head cannot be read");
   expect(refused(gzip(std::string(bytes).replace(corners, 1, "\x09"))), "names point 9 of 3");
   expect(refused(gzip(std::string(bytes).replace(points + 72, 1, "\x09"))), "more corners than there are");
   const std::size_t every = bytes.find("\"every\":2");

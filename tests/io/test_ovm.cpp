@@ -208,6 +208,14 @@ TEST(Ovm, TellsThePlaneFromSpaceWithoutAPropertyToo) {
             "t.ovm: is said to be of dimension 2, yet has polyhedra or z that are not zero: correct either");
 }
 
+TEST(Ovm, RefusesFacesThatAreNamedTooOften) {
+  std::string text = std::string(two_tetrahedra).substr(0, std::string(two_tetrahedra).find("Polyhedra"));
+  text += "Polyhedra\n1000\n";
+  for (int i = 0; i < 1000; ++i) text += "4 0 2 4 6\n";
+  EXPECT_EQ(refusal([&] { parse_ovm("t.ovm", text); }),
+            "t.ovm: has cells that name more halffaces than there are: some belong to several cells");
+}
+
 TEST(Ovm, RefusesWithFileAndLine) {
   struct Case {
     const char *from, *to, *message;

@@ -39,9 +39,14 @@ TEST(SceneChanges, ReplaceValues) {
 }
 
 TEST(SceneChanges, AreRefusedWhereTheyMakeNoSense) {
+  const std::string nested = "list=" + std::string(100000, '[');
   const std::pair<const char*, const char*> refusals[] = {
       {"steps", "steps: no key"},
       {"=5", "=5: no key"},
+      {"title=\x80", "a change: is not written in UTF-8"},
+      {"a\nb", "a?b: no key"},
+      {nested.c_str(),
+       "list=[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[...: more than 64 lists and objects within each other"},
       {"bodies[2].count=1", "bodies[2].count=1: there is no element 2"},
       {"steps[0]=1", "steps[0]=1: there is no element 0"},
       {"bodies[1=1", "bodies[1=1: ] is missing"},

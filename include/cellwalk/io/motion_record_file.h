@@ -7,6 +7,8 @@
 #include <cellwalk/records/motion_record.h>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace cellwalk::io {
 
@@ -21,6 +23,9 @@ void write_motion_record(Atomic_file& file, const Motion_record<D>& record);
 /// Nothing is guessed: unknown and missing keys, wrong types and indices out of range are refused.
 /// \throw Error(input) `FILE: key.path: what is wrong`
 Any_motion_record read_motion_record(const std::filesystem::path& path);
+
+/// The same from text in memory; `name` stands for the file in errors.
+Any_motion_record parse_motion_record(const std::string& name, std::string_view text);
 
 }  // namespace cellwalk::io
 

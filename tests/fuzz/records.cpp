@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Readers of tables, scenes, recorded motions, traces, and of what is compressed.
+#include <cellwalk/io/csv.h>
+#include <cellwalk/io/gzip.h>
+#include <cellwalk/io/motion_record_file.h>
+#include <cellwalk/io/query_file.h>
+#include <cellwalk/io/scene.h>
+#include <cellwalk/io/trace_file.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fuzz/decoder.h"
+#include "fuzz/targets.h"
+#include "io/motion_format.h"
+#include "io/text.h"
+
+namespace cellwalk::fuzz {
+namespace {
+
+/// The parts of an input between these bytes.
+std::vector<std::string> parts(std::string_view bytes, char between) {
+  std::vector<std::string> result;
+  for (std::size_t at = 0; at != bytes.npos;) {
+    const std::size_t end = bytes.find(between, at);
+    result.emplace_back(bytes.substr(at, end - at));
+    at = end == bytes.npos ? end : end + 1;
+  }
+  return result;
+}
+
+/// Rows of a table as queries: finite, or with a reason.
+template <int D, std::size_t N>
+void query(const io::Csv_table& table, const std::array<std::string_view, N>& prefixes) {
+  reads([&] {
+    const auto rows = io::query_rows<D, N>(table, prefixes);
+    demand(rows.size() == table.row_count(), "rows are lost");
+    for (const auto& row : rows)
+      for (const auto& p : row.points)
+        demand(!row.invalid.empty() || is_finite(p), "a query that is not finite, without a reason");
+  });
+}
+
+}  // namespace
+
+void csv(std::string_view bytes) {
+  reads([&] {
+    const io::Csv_table table = io::Csv_table::parse("in", bytes);
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+      table.row_problem(row);
+      for (std::size_t column = 0; column < table.columns().size(); ++column) {
+        const io::Parsed_number number = table.number(row, column);
+        demand(!number || std::isfinite(number.value), "a number that is not finite");
+      }
+    }
+    query<2, 2>(table, {"a", "b"});
+    query<3, 2>(table, {"a", "b"});
+    query<2, 3>(table, {"p", "t", "q"});
+    query<3, 3>(table, {"p", "t", "q"});
+    query<3, 1>(table, {""});
+  });
+}
+
+/// A scene; what follows a byte 1 are changes, each after another one.
+void scene(std::string_view bytes) {
+  std::vector<std::string> changes = parts(bytes, '\1');
+  const std::string text = changes.front();
+  changes.erase(changes.begin());
+  reads([&] { io::parse_scene("in", text, "folder"); });
+  if (changes.empty() || !reads([&] { io::change_scene("in", text, {}); })) return;
+  reads(
+      [&] {
+        const std::string changed = io::change_scene("in", text, changes);
+        demand(reads([&] { io::change_scene("in", changed, {}); }), "a change makes no JSON: " + changed);
+      },
+      {Error_code::usage});
+}
+
+void record(std::string_view bytes) {
+  reads([&] {
+    std::visit(
+        [](const auto& motion) {
+          demand(motion.soup.cell_count() > 0 && is_finite(motion.from) && is_finite(motion.to),
+                 "an empty record");
+          for (const std::uint32_t v : motion.soup.vertices)
+            demand(v < motion.soup.points.size(), "an index is out of range");
+          demand(!motion.cell || *motion.cell < motion.soup.cell_count(), "a cell is out of range");
+        },
+        io::parse_motion_record("in", bytes));
+  });
+}
+
+void trace(std::string_view bytes) {
+  reads([&] {
+    const Trace trace = io::parse_trace("in", bytes);
+    demand(trace.start_positions.size() == std::size_t{trace.bodies} * trace_vertices &&
+               trace.targets.size() == trace.moves() && trace.answers.size() == trace.moves(),
+           "a trace's arrays do not fit its counts");
+    for (const auto* points : {&trace.start_positions, &trace.targets})
+      for (const Point<3>& p : *points) demand(is_finite(p), "a coordinate is not finite");
+    demand(std::is_sorted(trace.obstacles.begin(), trace.obstacles.end()) &&
+               (trace.obstacles.empty() || trace.obstacles.back() < trace.cells()),
+           "obstacles that are not in order, or not in the grid");
+    for (const std::uint8_t answer : trace.answers)
+      demand((answer & ~trace_all_bits) == 0, "an answer with an unknown bit");
+  });
+}
+
+void motion(std::string_view bytes) {
+  reads([&] {
+    const Motion_scene scene = io::parse_motion("in", bytes);
+    const std::uint64_t records =
+        1 + std::uint64_t{scene.steps} / scene.every + (scene.steps % scene.every != 0);
+    demand(records == scene.record_count() && bytes.size() >= records, "more records than bytes");
+    for (const auto* loops : {&scene.walls, &scene.floor})
+      for (const auto& loop : *loops)
+        for (const std::uint32_t v : loop) demand(v < scene.points.size(), "an index is out of range");
+  });
+}
+
+/// The first byte says how the others are packed before they are read: not at all; or compressed, with one byte changed or the
+/// end cut off, as the next two say. Checksums keep random bytes from getting far.
+void gzip(std::string_view bytes) {
+  Decoder in(bytes);
+  const std::uint8_t damage = in.byte();
+  if (damage % 3 == 0) {
+    const std::string packed(in.rest());
+    reads([&] { io::unpack("in", packed); });
+    return;
+  }
+  const std::size_t at = in.below(65536);
+  const std::string plain(in.rest());
+  std::string packed = io::gzip(plain);
+  demand(io::is_gzip(packed) && io::unpack("in", packed) == plain,
+         "gzip does not give back what it was given");
+  if (damage % 3 == 1)
+    packed[at % packed.size()] ^= static_cast<char>(1 + damage / 3);
+  else
+    packed.resize(at % packed.size());
+  reads([&] { io::unpack("in", packed); });
+}
+
+}  // namespace cellwalk::fuzz
