@@ -54,6 +54,7 @@ limits() {
 timeout=10
 
 export UBSAN_OPTIONS=print_stacktrace=1
+export ASAN_OPTIONS=quarantine_size_mb=64 # of freed memory, which counts as held
 findings=0
 for target in "${targets[@]}"; do
   folder=build/fuzz/$target
