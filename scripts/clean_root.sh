@@ -23,10 +23,12 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 
 root=$(realpath -m "${CELLWALK_ROOTS:-build/root}")/$release
+mkdir -p "$(dirname "$root")"
+exec 9>"$root.lock"
+flock --nonblock 9 || { echo "clean_root.sh: another run uses $root" >&2; exit 1; }
 if [ ! -e "$root" ]; then
   echo "clean root: making $root"
   rm -rf "$root.part"
-  mkdir -p "$(dirname "$root")"
   make_debian_root "$release" "$root.part"
   mv "$root.part" "$root"
 fi
