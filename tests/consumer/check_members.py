@@ -4,7 +4,7 @@
 
 usage: check_members.py FOLDER_OF_HEADERS SOURCE
 
-Constructors, destructors and operators are not looked for.
+Constructors, destructors and operators are not looked for, nor what is in a folder "detail".
 """
 
 import re
@@ -52,6 +52,8 @@ def main():
     headers, source = Path(sys.argv[1]), Path(sys.argv[2]).read_text(encoding="utf-8")
     looked_for, problems = set(), set()
     for header in sorted(headers.rglob("*.h")):
+        if header.parent.name == "detail":
+            continue
         text = re.sub(r"//[^\n]*", "", header.read_text(encoding="utf-8"))
         for kind, declared in DECLARED.findall(text):
             if kind:
