@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Every third-party package is found here, once, with its licence and what it turns on.
+if(POLICY CMP0167)  # Boost is found by its own configuration, by CGAL's too
+  cmake_policy(SET CMP0167 NEW)
+  set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
+endif()
 find_package(Threads REQUIRED)
 find_package(CGAL 5.5 REQUIRED)             # LGPL part: Linear_cell_complex, kernels
 find_package(Boost 1.74 REQUIRED)           # BSL: R-tree, exact integers

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Installs Debian packages of Cellwalk into a clean Debian 12 of their own, made by debootstrap, and uses them there: the program, the
+# Installs Debian packages of Cellwalk into a clean Debian of their own, made by debootstrap, and uses them there: the program, the
 # Python module, the examples compiled with CMake, two with pkg-config; first those of the core, then those that read files. Needs root
 # and a mirror.
 #
 #   scripts/check_packages.sh FOLDER
 #
-# CELLWALK_DEBIAN_MIRROR=URL is the mirror; CELLWALK_DEBIAN_ROOT=FOLDER is a clean Debian made before, of which a copy is taken.
+# It is the release that the packages were built on: this one. CELLWALK_DEBIAN_MIRROR=URL is the mirror, otherwise apt's;
+# CELLWALK_DEBIAN_ROOT=FOLDER is a clean Debian made before, of which a copy is taken.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. scripts/debian_root.sh
 packages=${1:-out/packages}
 ls "$packages"/*.deb >/dev/null
 
@@ -23,16 +25,15 @@ clean() {
   rm -rf --one-file-system "$root" "$log"
 }
 trap clean EXIT
-mirror=${CELLWALK_DEBIAN_MIRROR:-http://deb.debian.org/debian}
-echo "packages: making a clean Debian in $root"
+release=$(debian_release)
+echo "packages: making a clean Debian ($release) in $root"
 if [ -n "${CELLWALK_DEBIAN_ROOT:-}" ]; then
   cp -a "$CELLWALK_DEBIAN_ROOT/." "$root"
 else
-  debootstrap --variant=minbase bookworm "$root" "$mirror" >"$log" 2>&1 || { tail -20 "$log" >&2; exit 1; }
+  make_debian_root "$release" "$root"
 fi
+connect_debian_root "$root"
 mount -t proc proc "$root/proc"  # Java, on which libvtk9-dev depends, is not configured without it
-cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
-echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/thrown-away"  # what is removed in the end need not reach the disk
 mkdir "$root/packages" "$root/examples"
 cp "$packages"/*.deb "$root/packages/"
 cp -r examples data "$root/examples/"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A triangular face comes down on an obstacle, its edges swept completely: how deep does what meets no edge come in?
-// Paper: figure 6 and the inverted pyramid.
+// Paper: figure 6. The bound by an inverted pyramid is ours (README.md).
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -16,7 +17,7 @@ namespace cellwalk::cli {
 /// Run once the whole command line is understood. Failure is an exception; Error's code is the exit code.
 using Action = std::function<void()>;
 
-// One file each. A new command is a line here and one in main.cpp.
+// Each begins in the file of its name. A new command is a line here and one in main.cpp.
 void add_import(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_generate(CLI::App& app, Action& chosen);
@@ -33,6 +34,17 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
   std::string text = "Examples:\n";
   for (const char* line : lines) text += "  " + std::string(line) + "\n";
   command.footer(text + "\n" + command.get_footer());
+}
+
+/// A check of an option that takes a whole number.
+inline auto whole_number(std::int64_t least, std::int64_t most) {
+  return [least, most](const std::string& text) {
+    std::int64_t value = 0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return fits ? std::string{}
+                : "takes a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+                      ", not " + text;
+  };
 }
 
 /// Adds --version, which prints the version and which optional parts this build has, and --json, which makes JSON of that.

@@ -287,7 +287,7 @@ void add_query(CLI::App& app, Action& chosen) {
   add_choice(*command, "--touch", options->sweep.touch, {{"pass", Touch::pass}, {"stop", Touch::stop}},
              "Whether a motion may touch a wall that it does not cross, or stops there");
   command->add_option("--threads", options->threads, "Threads; 0: all. The answers do not depend on it")
-      ->check(CLI::Range(0, 1024))
+      ->check(whole_number(0, 1024))
       ->type_name("N");
   command
       ->add_option("--picture", options->picture,

@@ -182,11 +182,11 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->add_option("--repeat", options->rounds,
                    "Rounds that are timed, each from the start; the median counts")
       ->type_name("N")
-      ->check(CLI::Range(1, most_rounds))
+      ->check(whole_number(1, most_rounds))
       ->capture_default_str();
   command->add_option("--warmup", options->warmup, "Rounds before them that are not timed")
       ->type_name("N")
-      ->check(CLI::Range(0, most_rounds))
+      ->check(whole_number(0, most_rounds))
       ->capture_default_str();
   command->add_flag("--shear", options->sheared,
                     "Shear the grid and all motion: cells are no cubes then, and cost the same");

@@ -298,10 +298,10 @@ void add_run(CLI::App& app, Action& chosen) {
       ->allow_extra_args(false);
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
-      ->check(CLI::Range(1u, 100000000u));
+      ->check(whole_number(1, 100000000));
   command->add_option("--threads", options->threads, "Use at most so many threads; the results are the same")
       ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
+      ->check(whole_number(1, 1024));
   const CLI::Option* sweep = add_choice(
       *command, "--sweep", options->body.sweep.sweep,
       {{sweep_names[0], Sweep::three_segments},

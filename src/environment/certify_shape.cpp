@@ -27,27 +27,21 @@ std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
-bool has_repeated_vertex(std::span<const std::uint16_t> loop) {
-  std::vector<std::uint16_t> sorted(loop.begin(), loop.end());
-  std::sort(sorted.begin(), sorted.end());
-  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-}
-
 }  // namespace
 
 template <>
 Cell_check check_shape<3>(const Cell_shape& shape) {
   const std::size_t facets = shape.facet_count();
   std::vector<Edge_use> uses;
-  std::vector<bool> is_used(shape.vertex_count, false);
+  std::vector<std::size_t> latest_facet(shape.vertex_count, facets);  // to use each vertex; none yet
   for (std::size_t f = 0; f < facets; ++f) {
     const auto loop = shape.loop(f);
     if (loop.size() < 3) return {Cell_defect::degenerate_facet, f};
-    if (has_repeated_vertex(loop)) return {Cell_defect::facet_not_convex, f};
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint16_t u = loop[i], v = loop[(i + 1) % loop.size()];
+      if (latest_facet[u] == f) return {Cell_defect::facet_not_convex, f};
+      latest_facet[u] = f;
       uses.push_back({std::min(u, v), std::max(u, v), u < v, static_cast<std::uint16_t>(f)});
-      is_used[u] = true;
     }
   }
   std::sort(uses.begin(), uses.end());
@@ -67,7 +61,8 @@ Cell_check check_shape<3>(const Cell_shape& shape) {
     parent[a] = b;
   }
   // A connected closed surface of characteristic 2 is a sphere, without vertices where it touches itself.
-  const auto vertices = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true));
+  const std::size_t vertices = latest_facet.size() - static_cast<std::size_t>(std::count(
+                                                         latest_facet.begin(), latest_facet.end(), facets));
   const bool is_sphere = components == 1 && vertices + facets == uses.size() / 2 + 2;
   if (!is_sphere || vertices != shape.vertex_count) return {Cell_defect::not_closed, 0};
   return {};

@@ -3,17 +3,23 @@
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/meshing/mesh3.h>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
+#include <CGAL/version.h>
 #include <fmt/format.h>
+
+#if CGAL_VERSION_MAJOR >= 6
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +39,14 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 using Triangle_3 = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle_3>;
-using Triangle_tree = CGAL::AABB_tree<
-    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+#if CGAL_VERSION_MAJOR >= 6
+using Triangle_traits =
+    CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
+#else
+using Triangle_traits =
+    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
+#endif
+using Triangle_tree = CGAL::AABB_tree<Triangle_traits>;
 
 /// More cells or facets than this are not begun: they take an hour, and some tens of gigabytes.
 constexpr double most_elements = 1e8;

@@ -108,23 +108,8 @@ const Rod<D>* World<D>::catheter() const {
   return scene_.catheter ? bodies_.back().template as<Rod<D>>() : nullptr;
 }
 
-template const Rod<2>* World<2>::catheter() const;
-template const Rod<3>* World<3>::catheter() const;
-template void World<2>::check_epoch() const;
-template void World<2>::step();
-template void World<2>::step_free();
-template void World<2>::step_bodies();
-template Body_counts World<2>::body_counts() const;
-template Body_counts World<2>::body_counts(std::size_t) const;
-template void World<2>::report(std::size_t);
-template void World<2>::validate();
-template void World<3>::check_epoch() const;
-template void World<3>::step();
-template void World<3>::step_free();
-template void World<3>::step_bodies();
-template Body_counts World<3>::body_counts() const;
-template Body_counts World<3>::body_counts(std::size_t) const;
-template void World<3>::report(std::size_t);
-template void World<3>::validate();
+// What the header defines too, for programs that do not inline it.
+template class World<2>;
+template class World<3>;
 
 }  // namespace cellwalk

@@ -20,6 +20,9 @@ LAYERS["cli"] = set(LAYERS)
 UMBRELLA = Path("include/cellwalk/cellwalk.h")
 LAYERS["umbrella"] = set(_STACK)
 
+# Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names these and what includes them.
+CGAL_HEADERS = {Path("include/cellwalk/environment/map.h"), Path("include/cellwalk/kernel/exact_value.h")}
+
 # Gmsh is GPL too: io is LGPL only when it is built without it.
 GPL_LAYERS = {"meshing"}
 GPL_EXCEPTIONS = {"io": {"gmsh.h"}}
@@ -85,6 +88,8 @@ def check_file(path, root, cgal):
             yield f"{where}: layer {layer} must not include {header} (layer {target})"
         if layer not in GPL_LAYERS and header not in GPL_EXCEPTIONS.get(layer, ()) and is_gpl(header, cgal):
             yield f"{where}: {header} is GPL: only meshing may include it"
+        elif header.startswith("CGAL/") and name.parts[0] == "include" and name not in CGAL_HEADERS:
+            yield f"{where}: {header} in a public header: include it in sources, or declare the header in check_layers.py"
     if layer != "kernel":
         code = without_comments_and_strings(text)
         for match in PREDICATE.finditer(code):

@@ -57,6 +57,11 @@ class Planted(unittest.TestCase):
         self.source("kernel/sign.cpp", "#include <cellwalk/body/body.h>\n")
         self.assert_caught("layer kernel must not include", "layer body")
 
+    def test_cgal_in_a_public_header(self):
+        self.header("environment/map.h", "#include <CGAL/Linear_cell_complex.h>\n")
+        self.header("walk/locate.h", "#include <CGAL/Bbox_3.h>\n")
+        self.assert_caught("include/cellwalk/walk/locate.h:4", "CGAL/Bbox_3.h in a public header")
+
     def test_the_umbrella_may_include_the_core_and_nothing_else(self):
         self.header("cellwalk.h", "#include <cellwalk/walk/walk.h>\n")
         self.assertEqual(self.check(), [])

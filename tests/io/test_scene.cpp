@@ -94,10 +94,6 @@ struct Refusal {
 
 /// What goes wrong when a member of a good scene is replaced; the path of the key leads.
 const Refusal scene_refusals[] = {
-    {"",
-     "s.json:1: not valid JSON: syntax error while parsing value - unexpected end of input; expected '[', "
-     "'{', or a "
-     "literal"},
     {"[]", "s.json: expected an object {...}"},
     {"{\n\"steps\": 1,\n\"steps\": 2}", "s.json: steps: key given twice in one object"},
     {R"({"dimension": 4})", "s.json: dimension: expected an integer from 2 to 3, not 4"},
@@ -204,6 +200,8 @@ TEST(Scene, NamesTheLineOfASyntaxError) {
     }
     return "accepted";
   };
+  // What follows are words of nlohmann's, which differ by its version.
+  EXPECT_EQ(message("").rfind("s.json:1: not valid JSON: ", 0), 0u);
   EXPECT_EQ(message("{\n  \"steps\": 1,\n  oops\n}").rfind("s.json:3: not valid JSON: ", 0), 0u);
   EXPECT_EQ(message("{\"steps\": 1e999}").rfind("s.json: not valid JSON: ", 0), 0u);
   EXPECT_NE(message("{\"steps\": 1e999}").find("1e999"), std::string::npos);

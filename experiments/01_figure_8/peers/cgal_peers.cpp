@@ -5,10 +5,17 @@
 //   cgal_triangle   do_intersect of the tree for each triangle (from, target, q): bits 4 to 6, moved as recorded
 //   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are compared first with
 //                   that of the body, then with that of the segment, exactly
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version.h>
+
+#if CGAL_VERSION_MAJOR >= 6
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#endif
 
 #include <cstdint>
 #include <memory>
@@ -28,8 +35,14 @@ using Point_3 = Kernel::Point_3;
 using Segment_3 = Kernel::Segment_3;
 using Triangle_3 = Kernel::Triangle_3;
 using Triangles = std::vector<Triangle_3>;
-using Tree = CGAL::AABB_tree<
-    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+#if CGAL_VERSION_MAJOR >= 6
+using Triangle_traits =
+    CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
+#else
+using Triangle_traits =
+    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
+#endif
+using Tree = CGAL::AABB_tree<Triangle_traits>;
 
 Point_3 cgal_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Embree 3: occlusion rays from a to b, one at a time and in packets of four, with its robust mode and without. Its
+// Embree 3 or 4: occlusion rays from a to b, one at a time and in packets of four, with its robust mode and without. Its
 // points are floats. Its answers follow the instruction set that it finds.
+#if CELLWALK_WITH_EMBREE == 3
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 
 #include <cstring>
 #include <memory>
@@ -57,6 +61,22 @@ class Embree {
   RTCScene scene_ = nullptr;
 };
 
+/// Is anything hit? Rays that hit get a negative tfar.
+class Occlusion {
+ public:
+#if CELLWALK_WITH_EMBREE == 3
+  Occlusion() { rtcInitIntersectContext(&context_); }
+  void ask(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &context_, &ray); }
+  void ask(RTCScene scene, const int* valid, RTCRay4& rays) { rtcOccluded4(valid, scene, &context_, &rays); }
+
+ private:
+  RTCIntersectContext context_;
+#else
+  void ask(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray); }
+  void ask(RTCScene scene, const int* valid, RTCRay4& rays) { rtcOccluded4(valid, scene, &rays); }
+#endif
+};
+
 struct Embree_check : Stateless {
   static constexpr bool follows_processor = true;
   std::shared_ptr<Embree> embree;
@@ -66,8 +86,7 @@ struct Single_ray : Embree_check {
   template <class Counter>
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Occlusion occlusion;
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       RTCRay ray{};
       ray.org_x = static_cast<float>(a[0]);
@@ -79,7 +98,7 @@ struct Single_ray : Embree_check {
       ray.tfar = 1;
       ray.mask = ~0u;
       counter.queries();
-      rtcOccluded1(embree->scene(), &context, &ray);
+      occlusion.ask(embree->scene(), ray);
       return ray.tfar < 0;
     });
   }
@@ -91,15 +110,14 @@ struct Packet : Embree_check {
   template <class Counter>
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    const unsigned guess = cast(context, v, positions, target, counter);
-    return guess & 1 ? 1u | (cast(context, v, positions, positions[v], counter) & 0xeu) : guess;
+    Occlusion occlusion;
+    const unsigned guess = cast(occlusion, v, positions, target, counter);
+    return guess & 1 ? 1u | (cast(occlusion, v, positions, positions[v], counter) & 0xeu) : guess;
   }
 
  private:
   template <class Counter>
-  unsigned cast(RTCIntersectContext& context, std::size_t v, const Point<3>* positions, const Point<3>& p,
+  unsigned cast(Occlusion& occlusion, std::size_t v, const Point<3>* positions, const Point<3>& p,
                 Counter& counter) {
     alignas(16) RTCRay4 rays{};
     alignas(16) int valid[4] = {-1, -1, -1, -1};
@@ -117,7 +135,7 @@ struct Packet : Embree_check {
     if (&p == &positions[v]) valid[0] = 0;
     for (std::size_t k = 0; k < trace_edges; ++k) set(k + 1, p, positions[trace_neighbour(v, k)]);
     counter.queries(valid[0] ? 4 : 3);
-    rtcOccluded4(valid, embree->scene(), &context, &rays);
+    occlusion.ask(embree->scene(), valid, rays);
     unsigned answer = 0;
     for (unsigned i = 0; i < 4; ++i) answer |= static_cast<unsigned>(rays.tfar[i] < 0) << i;
     return answer;

@@ -6,7 +6,11 @@
 
 #include <stdexcept>
 #ifdef CELLWALK_WITH_EMBREE
+#if CELLWALK_WITH_EMBREE == 3
 #include <embree3/rtcore_config.h>
+#else
+#include <embree4/rtcore_config.h>
+#endif
 #endif
 #ifdef CELLWALK_WITH_FCL
 #include <fcl/config.h>

@@ -21,32 +21,32 @@ std::vector<std::uint32_t> numbers_apart(std::uint32_t n, std::uint64_t count, R
   return chosen;
 }
 
-/// Spreads `count` cells over random parts apart along the last of `axes` axes, and so on downwards. A part
+/// Spreads `count` cells over random parts apart along the last of `Axes` axes, and so on downwards. A part
 /// (a layer, a row) starts at cell `first`.
-template <int D>
-void spread(const std::array<std::uint32_t, D>& cells, int axes, std::uint64_t count, std::uint64_t first,
+template <int D, int Axes>
+void spread(const std::array<std::uint32_t, D>& cells, std::uint64_t count, std::uint64_t first,
             Random& random, std::vector<std::uint32_t>& chosen) {
   if (count == 0) return;
-  const std::uint32_t n = cells[axes - 1];
-  if (axes == 1) {
+  const std::uint32_t n = cells[Axes - 1];
+  if constexpr (Axes == 1) {
     for (std::uint32_t i : numbers_apart(n, count, random))
       chosen.push_back(static_cast<std::uint32_t>(first + i));
-    return;
+  } else {
+    std::uint64_t stride = 1, capacity = 1;  // of one part
+    for (int a = 0; a + 1 < Axes; ++a) {
+      stride *= cells[a];
+      capacity *= most_apart(cells[a]);
+    }
+    // Between the fewest parts that hold them and the most that fit: leaves freedom along every axis.
+    const std::uint64_t fewest = (count + capacity - 1) / capacity;
+    const std::uint64_t parts = std::min((fewest + most_apart(n) + 1) / 2, count);
+    std::vector<std::uint64_t> share(parts, count / parts);
+    for (std::uint64_t i = 0; i < count % parts; ++i) ++share[i];
+    random.shuffle(share);
+    const auto places = numbers_apart(n, parts, random);
+    for (std::uint64_t i = 0; i < parts; ++i)
+      spread<D, Axes - 1>(cells, share[i], first + places[i] * stride, random, chosen);
   }
-  std::uint64_t stride = 1, capacity = 1;  // of one part
-  for (int a = 0; a + 1 < axes; ++a) {
-    stride *= cells[a];
-    capacity *= most_apart(cells[a]);
-  }
-  // Between the fewest parts that hold them and the most that fit: leaves freedom along every axis.
-  const std::uint64_t fewest = (count + capacity - 1) / capacity;
-  const std::uint64_t parts = std::min((fewest + most_apart(n) + 1) / 2, count);
-  std::vector<std::uint64_t> share(parts, count / parts);
-  for (std::uint64_t i = 0; i < count % parts; ++i) ++share[i];
-  random.shuffle(share);
-  const auto places = numbers_apart(n, parts, random);
-  for (std::uint64_t i = 0; i < parts; ++i)
-    spread<D>(cells, axes - 1, share[i], first + places[i] * stride, random, chosen);
 }
 
 /// Draws cells one by one among those that touch none drawn before; fewer than `count` if it gets stuck.
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> cells_apart(const std::array<std::uint32_t, D>& cells
   std::vector<std::uint32_t> chosen = draw<D>(cells, count, random);
   if (chosen.size() < count) {
     chosen.clear();
-    spread<D>(cells, D, count, 0, random, chosen);
+    spread<D, D>(cells, count, 0, random, chosen);
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Every public member of the classes and every function that headers declare `extern template`, so that a program which inlines
+// nothing links. check_members.py sees that none is missing. Nothing is run.
+#include <cellwalk/cellwalk.h>
+#include <cellwalk/environment/map.h>
+#include <cellwalk/io/body_file.h>
+#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/query_file.h>
+#include <cellwalk/io/vtu.h>
+#include <cellwalk/records/make_body.h>
+#include <cellwalk/simulation/world.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace {
+
+using namespace cellwalk;
+
+volatile const void* kept_address;
+int kept_count = 0;
+
+/// The linker has to find what is kept.
+template <class... Members>
+void keep(Members... members) {
+  ((kept_address = &members, ++kept_count), ...);
+}
+
+/// A member for what changes and for what does not.
+template <class T, class Result>
+void keep_both(Result& (T::*change)(), const Result& (T::*read)() const) {
+  keep(change, read);
+}
+
+template <class T>
+T moved(T& from) {
+  T other(std::move(from));
+  from = std::move(other);
+  return std::move(from);
+}
+
+template <int D>
+void keep_environments() {
+  keep(
+      +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
+      &Locator<D>::particle_at);
+
+  keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
+       &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::soup,
+       &Environment<D>::set_impassable, &Environment<D>::move_vertex, &Environment<D>::insert_point,
+       &Environment<D>::certify);
+
+  keep(
+      +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
+
+  keep(
+      +[] { return Snapshot<D>(); }, &moved<Snapshot<D>>, &Snapshot<D>::compile, &Snapshot<D>::cell_count,
+      &Snapshot<D>::cell, &Snapshot<D>::index, &Snapshot<D>::is_solid, &Snapshot<D>::view,
+      &Snapshot<D>::facet_count, &Snapshot<D>::half_facet_slots, &Snapshot<D>::half_facet,
+      &Snapshot<D>::cell_of, &Snapshot<D>::facet_of, &Snapshot<D>::is_impassable,
+      &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair, &Snapshot<D>::neighbor,
+      &Snapshot<D>::convex_passage, &Snapshot<D>::opposite, &Snapshot<D>::loop, &Snapshot<D>::points,
+      &Snapshot<D>::point, &Snapshot<D>::frame, &Snapshot<D>::blocks, &Snapshot<D>::links,
+      &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks, &Snapshot<D>::prefetch_neighbors,
+      &Snapshot<D>::uncertified_planes, &Snapshot<D>::set_impassable, &Snapshot<D>::move_point,
+      &Snapshot<D>::add_point, &Snapshot<D>::update_geometry, &Snapshot<D>::replace_cells,
+      &Snapshot<D>::bytes);
+}
+
+template <int D>
+void keep_bodies() {
+  keep(
+      +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
+      &moved<Body<D>>, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges, &Body<D>::faces,
+      &Body<D>::neighbours, &Body<D>::step, &Body<D>::step_or_stay, &Body<D>::move_vertex, &Body<D>::catch_up,
+      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
+
+  keep(&transformed<D>, &make_body<D>,
+       static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
+       static_cast<Body_soup<D> (*)(const Polyline_shape<D>&)>(&generate_body));
+}
+
+template <int D>
+void keep_simulation() {
+  keep(
+      +[](Body<D> b, const Shape_material& m) { return Deformable<D>(std::move(b), m, Vector<D>{}); },
+      &moved<Deformable<D>>, &Deformable<D>::step, &Deformable<D>::targets, &Deformable<D>::velocity,
+      &Deformable<D>::velocities, &Deformable<D>::has_arrived, &Deformable<D>::kinetic_energy,
+      &Deformable<D>::energy);
+  keep_both(&Deformable<D>::body, &Deformable<D>::body);
+
+  keep(
+      +[](const Shape_material& m) { return Shape_matching<D>({}, m); }, &moved<Shape_matching<D>>,
+      &Shape_matching<D>::material, &Shape_matching<D>::goals, &nearest_rotation<D>);
+
+  keep(
+      +[](Body<D> b) { return Flight<D>(std::move(b), Vector<D>{}, Spin<D>{}); },
+      +[](Body<D> b, Guided_motion<D> g) { return Flight<D>(std::move(b), std::move(g)); }, &moved<Flight<D>>,
+      &Flight<D>::step, &Flight<D>::targets, &Flight<D>::velocity, &Flight<D>::has_arrived);
+  keep_both(&Flight<D>::body, &Flight<D>::body);
+
+  keep(
+      +[](const Snapshot<D>& s, Body<D> b, const Catheter<D>& c) { return Rod<D>(s, std::move(b), c, {}); },
+      &moved<Rod<D>>, &Rod<D>::at_entry, &Rod<D>::step, &Rod<D>::targets, &Rod<D>::tip,
+      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::way, &Rod<D>::next_way_point, &Rod<D>::steps_waited,
+      &Rod<D>::velocity, &Rod<D>::has_arrived);
+  keep_both(&Rod<D>::body, &Rod<D>::body);
+
+  keep(
+      +[](const Snapshot<D>& s, const Scene<D>& c) { return new World<D>(s, c); }, &World<D>::most_tries,
+      &World<D>::step, &World<D>::steps_done, &World<D>::particles, &World<D>::velocities, &World<D>::bodies,
+      &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
+      static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
+      static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate);
+}
+
+template <int D>
+void keep_readers() {
+  keep(&io::query_rows<D, 1>, &io::read_moves<D>, &io::read_sweeps<D>, &io::read_body<D>, &io::write_ovm<D>,
+       &io::vtu_of_cells<D>, &io::vtu_of_walls<D>);
+}
+
+}  // namespace
+
+int main() {
+  keep_environments<2>(), keep_bodies<2>(), keep_simulation<2>(), keep_readers<2>();
+  keep_environments<3>(), keep_bodies<3>(), keep_simulation<3>(), keep_readers<3>();
+  std::printf("%d members and functions\n", kept_count);
+}
