@@ -28,8 +28,7 @@ void write_environment(Cell_soup<D> soup, const Generate_options& options) {
   Build_report report;
   {
     const Progress progress("certifying and writing " + options.environment);
-    const auto environment =
-        Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
+    const auto environment = Environment<D>::build(std::move(soup), build_of_generated, &report);
     io::write_ovm(options.environment, environment.soup());
   }
   write_json(options.json,

@@ -42,8 +42,8 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
   }
   ASSERT_EQ(location.status, Location_status::free);
   ASSERT_EQ(snapshot.index(location.cell), place.free_cells.front());
-  ASSERT_EQ(location.dimension, place.dimension);
-  ASSERT_EQ(particle.dimension, place.dimension);
+  ASSERT_EQ(location.dimension, place.dimensions.front());
+  ASSERT_EQ(particle.dimension, place.dimensions.front());
   ASSERT_EQ(location.sides, place.sides);
   ++(place.sides == 1 ? tally.one_side : place.sides == 2 ? tally.two_sides : tally.more_sides);
   ++tally.by_dimension[place.dimension];
