@@ -13,6 +13,21 @@
 namespace cellwalk::detail {
 namespace {
 
+/// An order of cells by the places of their vertices: the same however they are numbered. Sides come in it, so that the one that is
+/// chosen where several will do is a function of the geometry.
+template <int D>
+struct Placed_before {
+  const Snapshot<D>& snapshot;
+
+  std::vector<Point<D>> vertices(Cell c) const {
+    std::vector<Point<D>> points;
+    for (const std::uint32_t v : snapshot.view(c).vertices) points.push_back(snapshot.point(v));
+    std::sort(points.begin(), points.end());
+    return points;
+  }
+  bool operator()(Cell c, Cell d) const { return vertices(c) < vertices(d); }
+};
+
 template <int D>
 class Registration {
  public:
@@ -51,8 +66,10 @@ class Registration {
           fmt::format(
               "vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
               location.status == Location_status::solid ? "in a solid cell" : "outside the environment"));
+    std::vector<Cell> cells = location.cells;
+    if (location.sides > 1) std::sort(cells.begin(), cells.end(), Placed_before<D>{snapshot_});
     Sides result;
-    for (const Cell cell : location.cells) {
+    for (const Cell cell : cells) {
       const Particle<D> here{soup_.points[v], cell, location.dimension, 0};
       // Cells are linked at a point if a segment of no length has a chain from one to the other.
       const auto is_linked = [&](const Particle<D>& other) {
