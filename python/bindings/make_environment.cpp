@@ -109,8 +109,7 @@ Shared_world generate_environment(const std::string& kind, const py::kwargs& giv
                                              ? value.cast<std::vector<double>>()
                                              : std::vector<double>{value.cast<double>()};
   Any_soup soup = generate(kind, values);
-  return std::visit([](auto& cells) { return build(std::move(cells), {.split = false, .keep_map = false}); },
-                    soup);
+  return std::visit([](auto& cells) { return build(std::move(cells), build_of_generated); }, soup);
 }
 
 }  // namespace

@@ -26,6 +26,17 @@ Body_counts& Body_counts::operator+=(const Body_counts& other) {
   return *this;
 }
 
+namespace {
+
+/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
+template <int D>
+bool meets_before(const Contact<D>& a, const Contact<D>& b) {
+  if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
+  return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
+}
+
+}  // namespace
+
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
     : Body(snapshot, locator, soup, {}) {}
@@ -116,7 +127,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     const Corner& corner = corners_[i];
     Sweep_result<D> swept = sweep_edge_along(*snapshot_, way, particles_[corner.other], seen_from(corner),
                                              options.sweep, counts.edges);
-    if (swept.contact && (!first || is_before(*swept.contact, first->contact))) {
+    if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
       const bool is_edge = swept.contact->body == Body_feature::edge;
       first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
       if (any) return first;

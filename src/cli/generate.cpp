@@ -34,8 +34,7 @@ void write_environment(Cell_soup<D> soup, const Generate_options& options, Outpu
   Build_report report;
   {
     const Progress progress("certifying and writing " + options.environment);
-    const auto environment =
-        Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
+    const auto environment = Environment<D>::build(std::move(soup), build_of_generated, &report);
     io::write_ovm(*files.environment, environment.soup());
   }
   write_json(files.json,

@@ -75,7 +75,7 @@ Prepared_environment prepare(const Environment_source& source, const std::string
   Build_report report;
   const auto build = [&](auto soup) -> Any_environment {
     constexpr int D = std::tuple_size_v<typename decltype(soup.points)::value_type>;
-    return Environment<D>::build(std::move(soup), {.split = false, .keep_map = false}, &report);
+    return Environment<D>::build(std::move(soup), build_of_generated, &report);
   };
   try {
     auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },

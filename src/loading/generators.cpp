@@ -72,6 +72,7 @@ Any_soup lattice(const Generator_values& values) {
   auto options = mixed_lattice_world<D>(seed(values));
   options.cells = counts<D>(values, "cells");
   options.map = placement<D>(values);
+  options.slit_share = number(values, "slits");
   return lattice_world(options);
 }
 
@@ -127,6 +128,10 @@ std::vector<Generator_option> lattice_options(int dimension, double cells,
 
 std::vector<Generator> make_table() {
   const Generator_option solid{"solid", "Share of cells that are solid and touch each other nowhere", {0}};
+  const Generator_option slits{
+      "slits",
+      "Share of squares at which a slit begins, two walls in one place; read it with --duplicates keep",
+      {0}};
   const Generator_option jitter{"jitter", "Points move by up to this much along each axis, in cells", {0}};
   const Generator_option cell_size{"cell_size", "Size of the lattice it is cut from, in trunk radii", {0.3}};
   const Generator_option radius{"radius", "Of the trunk: scales everything", {1}};
@@ -151,7 +156,7 @@ std::vector<Generator> make_table() {
         cell_size,
         radius},
        tube},
-      {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {}),
+      {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {slits}),
        lattice<3>},
       {"room2d",
        "2D: rooms with doors and polygonal obstacles",
@@ -166,8 +171,8 @@ std::vector<Generator> make_table() {
       {"squares", "2D: a grid of squares, some of them solid", lattice_options(2, 10, {solid}), grid<2>},
       {"triangles", "2D: a grid of squares cut into triangles", lattice_options(2, 10, {jitter}),
        simplex_grid<2>},
-      {"lattice2d", "2D: cells of many shapes, membranes, solid and missing cells", lattice_options(2, 4, {}),
-       lattice<2>},
+      {"lattice2d", "2D: cells of many shapes, membranes, solid and missing cells",
+       lattice_options(2, 4, {slits}), lattice<2>},
   };
 }
 

@@ -63,6 +63,14 @@ TEST_F(Generate, LatticesCanBePlacedAndScaled) {
   }
 }
 
+TEST_F(Generate, SlitsNeedTheirVerticesKept) {
+  for (const char* kind : {"lattice", "lattice2d"}) {
+    const std::string said = succeed({"generate", kind, "--cells", "5", "--slits", "0.1", "-o", "env.ovm"});
+    EXPECT_EQ(succeed({"check", "env.ovm", "--duplicates", "keep"}), said);
+    expect_failure(4, {"check", "env.ovm"}, {"in the same place", "keep"});
+  }
+}
+
 TEST_F(Generate, RefusesWhatCannotBeMade) {
   const auto refuse = [this](std::vector<std::string> kind, const std::vector<std::string>& texts) {
     expect_failure(2, with_output(std::move(kind), "env.ovm"), texts);

@@ -258,6 +258,47 @@ bool Chain_oracle<D>::is_end(const Edge_motion<D>& motion, const Outcomes& outco
   return state && outcomes.ends.contains(*state);
 }
 
+template <int D>
+bool Chain_oracle<D>::are_equal(const Point<D>& p, const Point<D>& q, const Placed_chain& x,
+                                const Placed_chain& y) const {
+  const Moving_segment<D> segment(complex_, p, p, q);
+  const Linked_cut cut(segment.cut({0, 1}));
+  const auto one = class_of(complex_, segment, cut, x.facets, x.p_cell, x.q_cell),
+             two = class_of(complex_, segment, cut, y.facets, y.p_cell, y.q_cell);
+  const auto are_linked = [&](const std::vector<int>& classes, std::uint32_t c, std::uint32_t d) {
+    const int i = segment.number_of(c), j = segment.number_of(d);
+    if (i < 0 || j < 0) return false;
+    const int of_c = classes[static_cast<std::size_t>(i)];
+    return of_c >= 0 && of_c == classes[static_cast<std::size_t>(j)];
+  };
+  return one && two && *one == *two && are_linked(cut.at.front(), x.p_cell, y.p_cell) &&
+         are_linked(cut.at.back(), x.q_cell, y.q_cell);
+}
+
+template <int D>
+bool Chain_oracle<D>::has_chain(const Point<D>& p, const Point<D>& q, std::uint32_t p_cell,
+                                std::uint32_t q_cell) const {
+  const Moving_segment<D> segment(complex_, p, p, q);
+  const Linked_cut cut(segment.cut({0, 1}));
+  const auto number = [&](std::uint32_t c) { return static_cast<std::size_t>(segment.number_of(c)); };
+  std::set<std::size_t> reached{number(p_cell)};
+  // From each point the cells linked there with one reached, and of these those that hold the next piece.
+  const auto link = [&](const std::vector<int>& at) {
+    std::set<std::size_t> linked;
+    for (std::size_t c = 0; c < at.size(); ++c)
+      if (at[c] >= 0 &&
+          std::any_of(reached.begin(), reached.end(), [&](std::size_t r) { return at[r] == at[c]; }))
+        linked.insert(c);
+    reached = std::move(linked);
+  };
+  for (std::size_t piece = 0; piece < cut.pieces(); ++piece) {
+    link(cut.at[piece]);
+    std::erase_if(reached, [&](std::size_t c) { return cut.along[piece][c] < 0; });
+  }
+  link(cut.at.back());
+  return reached.contains(number(q_cell));
+}
+
 template class Chain_oracle<2>;
 template class Chain_oracle<3>;
 

@@ -43,6 +43,12 @@ struct Outcomes {
   bool may_be_blocked_at(double time) const;
 };
 
+/// A chain with the cells that it leads from and to.
+struct Placed_chain {
+  std::uint32_t p_cell = 0, q_cell = 0;
+  std::vector<std::uint32_t> facets;  ///< half-facets, each seen from the side of p
+};
+
 template <int D>
 class Chain_oracle {
  public:
@@ -58,6 +64,12 @@ class Chain_oracle {
   /// that it may have there.
   bool is_end(const Edge_motion<D>& motion, const Outcomes& outcomes,
               std::span<const std::uint32_t> chain) const;
+
+  /// True if both are chains of the segment pq, and equal: at each point of it, both ends included, their cells are linked.
+  bool are_equal(const Point<D>& p, const Point<D>& q, const Placed_chain& x, const Placed_chain& y) const;
+
+  /// True if the segment pq has a chain from the one cell to the other. \pre they hold p and q
+  bool has_chain(const Point<D>& p, const Point<D>& q, std::uint32_t p_cell, std::uint32_t q_cell) const;
 
  private:
   Integer_complex<D> complex_;

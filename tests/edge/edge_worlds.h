@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -23,9 +24,15 @@ class Edge_world {
  public:
   Edge_world(std::uint64_t number, bool generic)
       : Edge_world(oracle::make_world<D>(number), number, generic) {}
-  Edge_world(oracle::World<D> w, std::uint64_t seed, bool generic)
+  /// `tamper`, if given, changes the snapshot that is swept.
+  Edge_world(oracle::World<D> w, std::uint64_t seed, bool generic,
+             const std::function<void(Snapshot<D>&)>& tamper = {})
       : world(std::move(w)),
-        snapshot(Snapshot<D>::compile(world.soup, glue(world.soup))),
+        snapshot([&] {
+          auto compiled = Snapshot<D>::compile(world.soup, glue(world.soup));
+          if (tamper) tamper(compiled);
+          return compiled;
+        }()),
         locator(snapshot),
         walls(snapshot),
         generic_(generic),

@@ -12,6 +12,7 @@
 #include "edge/edge_worlds.h"
 #include "edge/sweep_judge.h"
 #include "edge/thin_worlds.h"
+#include "edge/wrong_convex_pairs.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk::test {
@@ -33,6 +34,8 @@ struct Chains_seen {
   int long_chains = 0;                            ///< of 8 facets or more
   Faults faults{}, faults_of_third_side{};
   Edge_counts counts;
+  bool is_broken = false;  ///< on purpose: faults are counted only
+  int crossed_free = 0;    ///< by a single wall, and not blocked: what the oracle of walls sees of that
 };
 
 int count(const Faults& faults) { return std::accumulate(faults.begin() + 1, faults.end(), 0); }
@@ -47,7 +50,11 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   const auto fault = fault_of(oracle, motion, outcomes, w.snapshot, result);
   ++seen.judged;
   ++seen.faults[static_cast<std::size_t>(fault)];
-  EXPECT_EQ(fault, Sweep_fault::none) << w.world.name << ": " << fault_names[static_cast<std::size_t>(fault)];
+  if (seen.is_broken)
+    seen.crossed_free += !result.contact && !way.blocked && w.walls.is_crossed(motion.a, motion.b, motion.q);
+  else
+    EXPECT_EQ(fault, Sweep_fault::none)
+        << w.world.name << ": " << fault_names[static_cast<std::size_t>(fault)];
   seen.p_blocked += way.blocked;
   seen.in_line += are_collinear(motion.a, motion.b, motion.q);
   seen.must_block += !outcomes.may_be_free();
@@ -185,6 +192,56 @@ void test_sliding() {
 
 TEST(TriangleChains, AreRightWhereEdgesSlide2) { test_sliding<2>(); }
 TEST(TriangleChains, AreRightWhereEdgesSlide3) { test_sliding<3>(); }
+
+/// Edges about slits, which cells on both sides share windows beside: what lies behind a slit is not known through it.
+template <int D>
+void test_slits() {
+  const std::size_t worlds = oracle::scaled_count(24);
+  for (const bool slides : {false, true}) {
+    Chains_seen seen;
+    int beside = 0;
+    for (std::uint64_t number = 0; number < worlds; ++number) {
+      Edge_world<D> w(slit_world<D>(number), number, number % 4 == 3);
+      w.slides = slides;
+      beside += slits_beside_ways(w.snapshot);
+      sweep(w, 40, seen);
+    }
+    report(std::to_string(D) + (slides ? "D, sliding along slits" : "D, slits"), seen);
+    if (worlds < 24) continue;
+    EXPECT_GT(beside, D == 2 ? 20 : 50);
+    EXPECT_GT(seen.judged, 1'000);
+    EXPECT_GT(seen.touching, 100);
+    if (slides) continue;
+    EXPECT_GT(seen.must_block, 100);
+    EXPECT_GT(misses(seen.faults_of_third_side), 10);
+  }
+}
+
+TEST(TriangleChains, AreRightBesideSlits2) { test_slits<2>(); }
+TEST(TriangleChains, AreRightBesideSlits3) { test_slits<3>(); }
+
+/// Cells that share a facet and are parted by a slit beside it, taken for convex pairs: edges then pass through slits.
+template <int D>
+void test_forgotten_slits() {
+  Chains_seen seen;
+  seen.is_broken = true;
+  int wrong = 0;
+  for (std::uint64_t number = 0; number < 48; ++number) {
+    Edge_world<D> w(windows<D>(number), number, number % 4 == 3,
+                    [&](Snapshot<D>& snapshot) { wrong += forget_slits(snapshot); });
+    try {
+      sweep(w, 40, seen);
+    } catch (const std::invalid_argument&) {  // an edge that passed a wall has no chain to start with
+    }
+  }
+  report(std::to_string(D) + "D, slits forgotten", seen);
+  EXPECT_GT(wrong, 10);
+  EXPECT_GT(misses(seen.faults), 0) << "by the oracle of chains";
+  EXPECT_GT(seen.crossed_free, 0) << "by the oracle of walls";
+}
+
+TEST(TriangleChains, ForgottenSlitsAreCaught2) { test_forgotten_slits<2>(); }
+TEST(TriangleChains, ForgottenSlitsAreCaught3) { test_forgotten_slits<3>(); }
 
 /// The oracle takes for granted that nothing changes between its critical times: two times of each interval must agree.
 template <int D>

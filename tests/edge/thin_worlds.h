@@ -4,7 +4,10 @@
 #define CELLWALK_TESTS_EDGE_THIN_WORLDS_H
 
 #include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/environment/generate/slits.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/predicates.h>
 
 #include <algorithm>
 #include <array>
@@ -108,6 +111,58 @@ oracle::World<D> sheets(std::uint64_t seed) {
   return world;
 }
 
+/// Makes slits of the membranes and of other walls between cells of a world.
+template <int D>
+void part_at_walls(oracle::World<D>& world) {
+  Cell_soup<D>& soup = world.soup;
+  const oracle::Facet_table table = oracle::make_facet_table(soup);
+  std::vector<std::uint8_t> is_slit(soup.facet_count());
+  for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
+    if (table.opposite[f] < 0 || !soup.impassable[f]) continue;
+    is_slit[f] = 1;
+    soup.impassable[f] = 0;
+  }
+  open_slits<D>(soup, is_slit);
+  world.name = "slit " + world.name;
+}
+
+/// Two layers of wide boxes, which share windows and are parted by slits beside them.
+template <int D>
+oracle::World<D> windows(std::uint64_t seed) {
+  Random random(seed);
+  Lattice_world_options<D> options;
+  options.cells.fill(4);
+  options.cells[1] = 2;
+  if (seed % 4 >= 2) options.map = rotated<D>();
+  oracle::World<D> world;
+  world.name = "windows, world " + std::to_string(seed);
+  world.soup = lattice_world(options);
+  const oracle::Facet_table table = oracle::make_facet_table(world.soup);
+  std::vector<std::uint32_t> group_of;
+  const std::uint32_t width = random.below(3) == 0 ? 4 : 2;
+  for (std::uint32_t c = 0; c < world.soup.cell_count(); ++c) {
+    const std::uint32_t x = c % 4, y = c / 4 % 2, z = c / 8;
+    group_of.push_back(x - x % width + 4 * (y + 2 * (z - z % 2)));
+  }
+  for (std::uint32_t f = 0; f < world.soup.facet_count(); ++f) {
+    const auto g = table.opposite[f];
+    if (g < f || table.cell[f] / 4 % 2 == table.cell[static_cast<std::size_t>(g)] / 4 % 2) continue;
+    if (random.below(2) == 0) world.soup.impassable[f] = 1;
+  }
+  world.soup = merged(world.soup, group_of);
+  part_at_walls(world);
+  return world;
+}
+
+/// Windows among slits, or sheets whose membranes are slits.
+template <int D>
+oracle::World<D> slit_world(std::uint64_t seed) {
+  if (seed % 3 != 0) return windows<D>(seed);
+  oracle::World<D> world = sheets<D>(seed / 3);
+  part_at_walls(world);
+  return world;
+}
+
 /// Facets that are walls between cells that share a passable one too.
 template <int D>
 int walls_beside_ways(const Snapshot<D>& snapshot) {
@@ -121,6 +176,41 @@ int walls_beside_ways(const Snapshot<D>& snapshot) {
   int walls = 0;
   for (const auto& [cells, facets] : shared) walls += facets[0] > 0 ? facets[1] : 0;
   return walls / 2;
+}
+
+/// Passable facets in whose plane both of their cells have boundary facets.
+template <int D>
+int slits_beside_ways(const Snapshot<D>& snapshot) {
+  const auto has_wall_in_plane = [&](Half_facet way) {
+    const Cell c = snapshot.cell_of(way);
+    const auto plane = snapshot.loop(way);
+    const auto in_plane = [&](std::uint32_t v) {
+      Predicate_counts counts;
+      const auto x = [&](std::size_t i) { return snapshot.point(plane[i]); };
+      if constexpr (D == 2) return Exact::orientation(counts, x(0), x(1), snapshot.point(v)) == 0;
+      if constexpr (D == 3) {
+        std::size_t third = 2;
+        while (are_collinear(x(0), x(1), x(third))) ++third;
+        return Exact::orientation(counts, x(0), x(1), x(third), snapshot.point(v)) == 0;
+      }
+    };
+    for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
+      const Half_facet wall = Snapshot<D>::half_facet(c, f);
+      if (snapshot.neighbor(wall) != Cell::none) continue;
+      const auto loop = snapshot.loop(wall);
+      if (std::all_of(loop.begin(), loop.end(), in_plane)) return true;
+    }
+    return false;
+  };
+  int ways = 0;
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
+    for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
+      const Half_facet way = Snapshot<D>::half_facet(snapshot.cell(i), f);
+      if (snapshot.is_impassable(way)) continue;
+      const Half_facet other = snapshot.opposite(way);
+      ways += way < other && has_wall_in_plane(way) && has_wall_in_plane(other);
+    }
+  return ways;
 }
 
 }  // namespace cellwalk::test

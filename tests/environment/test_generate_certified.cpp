@@ -15,8 +15,10 @@ namespace {
 
 /// Builds an environment and checks that nothing had to be changed for it.
 template <int D>
-Certificate certificate_of(const Cell_soup<D>& soup) {
+Certificate certificate_of(const Cell_soup<D>& soup,
+                           Duplicate_vertices duplicates = Duplicate_vertices::refuse) {
   Build_options options;
+  options.duplicates = duplicates;
   options.split = false;
   Build_report report;
   const auto environment = Environment<D>::build(soup, options, &report);
@@ -71,6 +73,22 @@ TEST(GeneratedEnvironment, LatticeWorldsAreCertified) {
   EXPECT_GT(pinched, 5u);
   EXPECT_GT(components, 24u);
 }
+
+template <int D>
+void expect_slits_are_certified() {
+  std::size_t walls = 0, walls_of_whole = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    auto options = mixed_lattice_world<D>(seed);
+    options.map = seed % 3 == 0 ? rotated<D>() : seed % 3 == 1 ? scaled<D>(1e-6) : sheared<D>(1e6);
+    walls_of_whole += certificate_of(lattice_world(options)).walls;
+    options.slit_share = 0.02 * static_cast<double>(1 + seed % 5);
+    walls += certificate_of(lattice_world(options), Duplicate_vertices::keep).walls;
+  }
+  EXPECT_GT(walls, walls_of_whole + 80);
+}
+
+TEST(GeneratedEnvironment, SlitsAreCertified2) { expect_slits_are_certified<2>(); }
+TEST(GeneratedEnvironment, SlitsAreCertified3) { expect_slits_are_certified<3>(); }
 
 TEST(GeneratedEnvironment, VesselsAreCertified) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/environment/generate/slits.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
@@ -149,6 +150,89 @@ TEST(LatticeWorld, RemovedCellsPinchVertices) {
     }
   }
   EXPECT_TRUE(found);
+}
+
+/// What a world has of slits: facets of the boundary that another one lies on, by pairs of half-facets of which some open part is
+/// the same.
+template <int D>
+struct Slits {
+  std::size_t duplicates = 0;       // vertices
+  std::size_t cut = 0;              // slits of one facet, cut about a point inside
+  std::size_t beside_passages = 0;  // cells on both sides of a slit that share a passable facet in its plane
+};
+
+template <int D>
+Slits<D> slits_of(const Cell_soup<D>& whole, const Cell_soup<D>& soup) {
+  Slits<D> slits;
+  std::map<Point<D>, int> vertices, vertices_of_whole;
+  for (const Point<D>& p : whole.points) ++vertices_of_whole[p];
+  for (const Point<D>& p : soup.points) ++vertices[p];
+  for (const auto& [p, n] : vertices)
+    if (vertices_of_whole.contains(p))
+      slits.duplicates += n > 1;
+    else
+      ++slits.cut;
+  // Pairs of cells that were joined by a facet and are not any more, and still are by another one in the same plane.
+  const Gluing before = glue(whole), after = glue(soup);
+  const auto cells = [](const Cell_soup<D>& s) {
+    std::vector<std::uint32_t> cell_of;
+    for (std::uint32_t c = 0; c < s.cell_count(); ++c)
+      cell_of.insert(cell_of.end(), s.cell_begin[c + 1] - s.cell_begin[c], c);
+    return cell_of;
+  };
+  const auto before_cells = cells(whole), after_cells = cells(soup);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> shared;
+  for (std::uint32_t f = 0; f < whole.facet_count(); ++f)
+    if (before.opposite[f] != no_facet) ++shared[{before_cells[f], before_cells[before.opposite[f]]}][0];
+  for (std::uint32_t f = 0; f < soup.facet_count(); ++f)
+    if (after.opposite[f] != no_facet && !soup.impassable[f])
+      ++shared[{after_cells[f], after_cells[after.opposite[f]]}][1];
+  for (const auto& [pair, n] : shared) slits.beside_passages += n[1] > 0 && n[1] < n[0];
+  return slits;
+}
+
+template <int D>
+void expect_slits() {
+  Slits<D> sum;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto options = mixed_lattice_world<D>(seed);
+    if (D == 2) options.cells = Grid_options<D>::filled(7);
+    if (seed % 3 == 0) options.map = rotated<D>();
+    const auto whole = lattice_world(options);
+    options.slit_share = D == 2 ? 0.2 : 0.08;
+    const auto soup = lattice_world(options);
+    test::expect_sound(soup);
+    EXPECT_EQ(soup.cell_count(), whole.cell_count());
+    EXPECT_EQ(test::volume(soup), test::volume(whole)) << "cells are what they were";
+    EXPECT_GT(test::count_facets(soup).boundary, test::count_facets(whole).boundary);
+    const auto slits = slits_of(whole, soup);
+    sum.duplicates += slits.duplicates, sum.cut += slits.cut, sum.beside_passages += slits.beside_passages;
+  }
+  EXPECT_GT(sum.duplicates, 200u);
+  EXPECT_GT(sum.cut, D == 2 ? 10u : 100u);
+  EXPECT_GT(sum.beside_passages, 20u) << "a slit in the plane of a passable facet of the same cells";
+}
+
+TEST(LatticeWorld, SlitsPartCells2) { expect_slits<2>(); }
+TEST(LatticeWorld, SlitsPartCells3) { expect_slits<3>(); }
+
+/// Two rows of squares, parted along the first two of three edges between them.
+TEST(LatticeWorld, ASlitDuplicatesTheVerticesInsideIt) {
+  Lattice_world_options<2> options;
+  options.cells = {3, 2};
+  Cell_soup<2> soup = lattice_world(options);
+  std::vector<std::uint8_t> is_slit(soup.facet_count());
+  const auto mark = [&](std::size_t cell) { is_slit[soup.cell_begin[cell] + 2] = 1; };  // its upper side
+  mark(1);
+  Cell_soup<2> inner = soup;
+  open_slits<2>(inner, is_slit);
+  EXPECT_EQ(inner.points.size() - soup.points.size(), 1u) << "both ends lie in free space: one side is cut";
+  EXPECT_EQ(inner.facet_count(), soup.facet_count() + 1);
+  EXPECT_EQ(inner.points.back(), (Point<2>{1.5, 1}));
+  mark(0);
+  open_slits<2>(soup, is_slit);
+  EXPECT_EQ(soup.points.size(), 12u + 2u) << "the one inside, and the one on the boundary";
+  EXPECT_EQ(test::count_facets(soup).boundary, 10u + 4u);
 }
 
 TEST(LatticeWorld, IsReproducible) {

@@ -92,6 +92,7 @@ Place Oracle<D>::place(const Point<D>& p) const {
     const Visit& visit = here.visits[v];
     (visit.solid ? place.solid_cells : place.free_cells).push_back(visit.cell);
     if (!visit.solid) sides.insert(classes[v]);
+    if (!visit.solid) place.dimensions.push_back(visit.dimension_at_last);
     place.dimension = std::min(place.dimension, visit.dimension_at_last);
   }
   place.sides = static_cast<int>(sides.size());

@@ -17,6 +17,8 @@ struct Place {
   std::vector<std::uint32_t> free_cells, solid_cells;  ///< whose closures hold the point, ascending
   int sides = 0;                                       ///< classes of the free cells, linked at the point
   int dimension = 0;                                   ///< of the lowest cell of the complex that holds it
+  std::vector<int>
+      dimensions;  ///< of each free cell: of the lowest cell in its closure. They differ at slits only
 };
 
 template <int D>

@@ -82,8 +82,9 @@ class Trial {
       const Place place = oracle_.place(p);
       if (place.free_cells.empty()) continue;
       particle_.position = last_ = p;
-      particle_.cell = snapshot_.cell(place.free_cells[source_.random().below(place.free_cells.size())]);
-      particle_.dimension = static_cast<std::uint16_t>(place.dimension);
+      const std::size_t choice = source_.random().below(place.free_cells.size());
+      particle_.cell = snapshot_.cell(place.free_cells[choice]);
+      particle_.dimension = static_cast<std::uint16_t>(place.dimensions[choice]);
       has_particle_ = true;
       return;
     }

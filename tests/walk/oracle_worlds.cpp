@@ -2,14 +2,30 @@
 #include "walk/oracle_worlds.h"
 
 #include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/environment/generate/slits.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "oracle/exact_world.h"
 
 namespace cellwalk::oracle {
 namespace {
+
+/// Parts some of the facets about a few vertices.
+template <int D>
+void shatter(Cell_soup<D>& soup, Random& random) {
+  std::vector<std::uint8_t> is_slit(soup.facet_count());
+  for (int k = 0; k < 4; ++k) {
+    const auto v = static_cast<std::uint32_t>(random.below(soup.points.size()));
+    const bool whole = random.below(2) == 0;
+    for (std::size_t f = 0; f < soup.facet_count(); ++f)
+      if (std::ranges::find(soup.facet(f), v) != soup.facet(f).end() && (whole || random.below(2) == 0))
+        is_slit[f] = 1;
+  }
+  open_slits<D>(soup, is_slit);
+}
 
 /// Membranes and solid cells for generators that make none.
 template <int D>
@@ -82,6 +98,7 @@ World<D> make_world(std::uint64_t i) {
     case 9: {
       grid.map = cellwalk::scaled<D>(large ? 1e-6 : 1e6);
       Cell_soup<D> soup = simplices(grid);
+      if (large) shatter(soup, random);
       add_walls(soup, random);
       return finish("simplices of size 1e-6 or 1e6", std::move(soup), false);
     }
@@ -89,14 +106,34 @@ World<D> make_world(std::uint64_t i) {
       grid.map = cellwalk::scaled<D>(0.1);
       grid.jitter = 0.15;
       Cell_soup<D> soup = simplices(grid);
+      if (large) shatter(soup, random);
       add_walls(soup, random);
       return finish("simplices in general position", std::move(soup), false);
     }
-    default:
+    case 11:
       mixed.cells.fill(2);
       mixed.membrane_share = 0.3;
       mixed.solid_share = mixed.removed_share = 0;
       return finish("small world of membranes", lattice_world(mixed), true);
+    case 12: {
+      const std::array maps{cellwalk::scaled<D>(1), rotated<D>(),      cellwalk::scaled<D>(0.125),
+                            sheared<D>(),           rotated<D>(0.125), cellwalk::scaled<D>(0x1p-20)};
+      mixed.map = maps[i / world_kinds % maps.size()];
+      mixed.slit_share = D == 2 ? 0.12 : 0.06;
+      return finish("lattice with slits", lattice_world(mixed), true);
+    }
+    case 13:
+      mixed.box_share = 0.7;
+      mixed.simplex_share = mixed.prism_share = 0;
+      mixed.merge_share = D == 2 ? 0 : 0.1;
+      mixed.slit_share = D == 2 ? 0.2 : 0.1;
+      if (large) mixed.map = rotated<D>();
+      return finish("boxes with slits", lattice_world(mixed), true);
+    default:
+      mixed.cells.fill(D == 2 ? 3 : 2);
+      mixed.slit_share = 0.25;
+      mixed.solid_share = mixed.removed_share = 0;
+      return finish("small world of slits and membranes", lattice_world(mixed), true);
   }
 }
 

@@ -23,9 +23,11 @@ struct World {
       true;  ///< small combinations of its points are exact, so that degenerate motions really are
 };
 
-inline constexpr int world_kinds = 12;
+inline constexpr int world_kinds = 15;
 
-/// World number i: its kind is i % world_kinds, its seed i. Walls, solid and missing cells in all of them.
+/// World number i: its kind is i % world_kinds, its seed i. Walls, solid and missing cells in most of them; slits (walls in one place
+/// that are not glued) in those of the last three
+/// kinds, and about some vertices of every second world of simplices.
 template <int D>
 World<D> make_world(std::uint64_t i);
 

@@ -51,8 +51,10 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
   const std::vector<Particle<D>> particles = locator.particles_at(p);
   ASSERT_EQ(particles.size(), static_cast<std::size_t>(place.sides));
   ASSERT_EQ(particles.front().cell, particle.cell);
-  ASSERT_EQ(location.dimension, place.dimension);
-  ASSERT_EQ(particle.dimension, place.dimension);
+  const auto number = std::find(place.free_cells.begin(), place.free_cells.end(), first) - place.free_cells.begin();
+  const int dimension = place.dimensions[static_cast<std::size_t>(number)];
+  ASSERT_EQ(location.dimension, dimension);
+  ASSERT_EQ(particle.dimension, dimension);
   ASSERT_EQ(location.sides, place.sides);
   ++(place.sides == 1 ? tally.one_side : place.sides == 2 ? tally.two_sides : tally.more_sides);
   ++tally.by_dimension[place.dimension];

@@ -21,6 +21,9 @@ struct Features {
   int collinear_vertices = 0;   ///< facets with three vertices on one line
   int facets_shared_twice = 0;  ///< pairs of cells that share several facets
   int of_which_one_a_wall = 0;  ///< pairs of which one facet is a wall and another is not
+  int duplicates = 0;           ///< points where another one lies
+  int slits_beside_ways =
+      0;  ///< pairs of cells with a slit between them in the plane of a facet that they share
 };
 
 template <int D>
@@ -95,6 +98,43 @@ void count_in_cell(const Cell_soup<D>& soup, std::size_t c, Features& features) 
   features.solid_cells += soup.solid[c];
 }
 
+/// True if the middle of one facet lies in the box of the other, and they lie in one plane. For rectangles.
+template <int D>
+bool lie_on_each_other(const Cell_soup<D>& soup, std::size_t f, std::size_t g) {
+  const auto holds_middle = [&](std::size_t box, std::size_t facet) {
+    const auto loop = soup.facet(facet), rim = soup.facet(box);
+    Point<D> middle{};
+    for (const std::uint32_t v : loop)
+      middle = middle + (1.0 / static_cast<double>(loop.size())) * soup.points[v];
+    for (std::size_t i = 0; i < D; ++i) {
+      const auto [low, high] = std::minmax_element(
+          rim.begin(), rim.end(), [&](auto u, auto v) { return soup.points[u][i] < soup.points[v][i]; });
+      if (middle[i] < soup.points[*low][i] || middle[i] > soup.points[*high][i]) return false;
+    }
+    return true;
+  };
+  const auto in_plane = [&](std::uint32_t v) {
+    return dot(normal_of(soup, f), soup.points[v] - soup.points[soup.facet(f)[0]]) == 0;
+  };
+  return std::all_of(soup.facet(g).begin(), soup.facet(g).end(), in_plane) &&
+         (holds_middle(f, g) || holds_middle(g, f));
+}
+
+/// The cells of a passable facet have one-sided walls in its plane that lie on each other.
+template <int D>
+bool is_beside_slit(const Cell_soup<D>& soup, const Facet_table& table, std::size_t facet) {
+  const std::uint32_t c = table.cell[facet], d = table.cell[static_cast<std::size_t>(table.opposite[facet])];
+  const Vector<D> normal = normal_of(soup, facet);
+  for (std::size_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) {
+    if (table.opposite[f] >= 0 ||
+        dot(normal, soup.points[soup.facet(f)[0]] - soup.points[soup.facet(facet)[0]]) != 0)
+      continue;
+    for (std::size_t g = soup.cell_begin[d]; g < soup.cell_begin[d + 1]; ++g)
+      if (table.opposite[g] < 0 && lie_on_each_other(soup, f, g)) return true;
+  }
+  return false;
+}
+
 template <int D>
 void count_in_world(const Cell_soup<D>& soup, Features& features) {
   const Facet_table table = make_facet_table(soup);
@@ -111,8 +151,11 @@ void count_in_world(const Cell_soup<D>& soup, Features& features) {
     const std::uint32_t c = table.cell[f], d = table.cell[table.opposite[f]];
     if (c > d) continue;
     ++shared[{c, d}][table.passable[f]];
+    features.slits_beside_ways += table.passable[f] && is_beside_slit(soup, table, f);
     features.membranes += !table.passable[f] && !soup.solid[c] && !soup.solid[d];
   }
+  features.duplicates += static_cast<int>(soup.points.size() -
+                                          std::set<Point<D>>(soup.points.begin(), soup.points.end()).size());
   for (const auto& [cells, facets] : shared) {
     features.facets_shared_twice += facets[0] + facets[1] > 1;
     features.of_which_one_a_wall += facets[0] > 0 && facets[1] > 0;
@@ -142,6 +185,13 @@ void expect_every_degeneracy() {
   EXPECT_GT(boxes.facets_shared_twice, 10);
   EXPECT_GT(boxes.of_which_one_a_wall, 5);
   EXPECT_GT(pinched.pinched_vertices, 10);
+  EXPECT_EQ(integer.duplicates + boxes.duplicates + boxes.slits_beside_ways, 0);
+  for (const int kind : {12, 13, 14}) {
+    const Features slits = count<D>(kind);
+    EXPECT_GT(slits.duplicates, 20) << kind;
+    EXPECT_GT(slits.slits_beside_ways, kind == 13 ? 5 : 0) << kind;
+    EXPECT_GT(slits.membranes, 5) << kind;
+  }
   if constexpr (D == 3) {
     EXPECT_GT(boxes.collinear_vertices, 10);
     EXPECT_GT(pinched.pinched_edges, 10);

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_LOADING_GENERATORS_H
 #define CELLWALK_LOADING_GENERATORS_H
 
+#include <cellwalk/environment/environment.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstddef>
@@ -40,6 +41,10 @@ const std::vector<Generator>& generators();
 /// \throw Error(usage) for an unknown generator or option, a wrong count of numbers, one that is not finite, or not an
 ///        integer where one is needed, and as the generator itself does
 Any_soup generate(const std::string& generator, const Generator_values& values);
+
+/// How to build what they make: nothing needs to be split, and equal vertices are slits.
+inline constexpr Build_options build_of_generated{
+    .duplicates = Duplicate_vertices::keep, .split = false, .keep_map = false};
 
 }  // namespace cellwalk
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "lattice_partition.h"
 
+#include <cellwalk/environment/generate/slits.h>
+
+#include <algorithm>
+
 namespace cellwalk::detail {
 namespace {
 
@@ -91,6 +95,59 @@ Lattice_builder<D>::Lattice_builder(const Lattice_world_options<D>& options)
   std::size_t names = 1;
   for (std::uint32_t n : options.cells) names *= 2 * n + 1;
   index_of_.assign(names, no_index);
+  if (options.slit_share > 0) draw_slits();
+}
+
+/// Rectangles of squares (2D: rows of edges) that begin at random ones.
+template <int D>
+void Lattice_builder<D>::draw_slits() {
+  Random random(scramble(options_.seed + 1));
+  std::size_t total = 1;
+  for (const std::uint32_t n : options_.cells) total *= n;
+  for (int axis = 0; axis < D; ++axis) {
+    slit_squares_[axis].assign(total, 0);
+    for (std::size_t i = 0; i < total; ++i) {
+      if (!random.chance(options_.slit_share)) continue;
+      Name low, high;  // the cubes above the squares
+      std::size_t rest = i;
+      for (int a = 0; a < D; ++a) {
+        low[a] = static_cast<std::uint32_t>(rest % options_.cells[a]);
+        rest /= options_.cells[a];
+        const auto size = a == axis ? 1 : 1 + static_cast<std::uint32_t>(random.below(3));
+        high[a] = std::min(low[a] + size, options_.cells[a]);
+      }
+      for (Name at = low;;) {
+        std::size_t cube = 0;
+        for (int a = D - 1; a >= 0; --a) cube = cube * options_.cells[a] + at[a];
+        slit_squares_[axis][cube] = 1;
+        int a = 0;
+        for (; a < D && ++at[a] == high[a]; ++a) at[a] = low[a];
+        if (a == D) break;
+      }
+    }
+  }
+}
+
+template <int D>
+bool Lattice_builder<D>::is_in_slit(const std::vector<Name>& loop, std::uint64_t facet_hash) const {
+  Name low = loop[0], high = loop[0];
+  for (const Name& name : loop)
+    for (int a = 0; a < D; ++a) {
+      low[a] = std::min(low[a], name[a]);
+      high[a] = std::max(high[a], name[a]);
+    }
+  for (int axis = 0; axis < D; ++axis) {
+    if (low[axis] != high[axis] || low[axis] % 2 != 0) continue;
+    std::size_t cube = 0;  // above the square in the middle of the facet
+    for (int a = D - 1; a >= 0; --a) {
+      const std::uint32_t middle = (low[a] + high[a]) / 4;
+      if (middle >= options_.cells[a]) return false;  // on the high side of the world
+      cube = cube * options_.cells[a] + middle;
+    }
+    return slit_squares_[axis][cube];
+  }
+  const std::uint64_t hash = scramble(facet_hash + 1);
+  return static_cast<double>(hash >> 11) * 0x1p-53 < options_.slit_share / 2;
 }
 
 template <int D>
@@ -117,6 +174,13 @@ void Lattice_builder<D>::add_facet(const std::vector<Name>& loop) {
   }
   const bool membrane = static_cast<double>(scramble(facet_hash) >> 11) * 0x1p-53 < options_.membrane_share;
   soup_.add_facet(loop_, solid_ || membrane);
+  if (options_.slit_share > 0) is_slit_.push_back(is_in_slit(loop, facet_hash));
+}
+
+template <int D>
+Cell_soup<D> Lattice_builder<D>::take() {
+  if (options_.slit_share > 0) open_slits<D>(soup_, is_slit_);
+  return std::move(soup_);
 }
 
 template <int D>

@@ -52,15 +52,22 @@ class Lattice_builder {
   void add_facet(const std::vector<Name>& loop);
   void end_cell();
 
-  Cell_soup<D> take() { return std::move(soup_); }
+  /// The world; slits are opened.
+  Cell_soup<D> take();
 
  private:
+  void draw_slits();
+  bool is_in_slit(const std::vector<Name>& loop, std::uint64_t facet_hash) const;
+
   const Lattice_world_options<D>& options_;
   Cell_soup<D> soup_;
   std::vector<std::uint32_t> index_of_;  ///< per name, or no_index
   std::vector<std::uint32_t> loop_;
   Random random_;
   bool solid_ = false;
+  /// Per axis and cube: the square on the low side of the cube lies in a slit.
+  std::array<std::vector<std::uint8_t>, D> slit_squares_;
+  std::vector<std::uint8_t> is_slit_;  ///< per half-facet of the soup
 };
 
 }  // namespace cellwalk::detail

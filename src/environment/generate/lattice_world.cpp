@@ -256,9 +256,9 @@ Cell_soup<2> build(const Lattice_world_options<2>& options) {
 
 template <int D>
 void check(const Lattice_world_options<D>& options) {
-  for (double share :
-       {options.box_share, options.simplex_share, options.prism_share, options.star_share,
-        options.merge_share, options.membrane_share, options.solid_share, options.removed_share})
+  for (double share : {options.box_share, options.simplex_share, options.prism_share, options.star_share,
+                       options.merge_share, options.membrane_share, options.solid_share,
+                       options.removed_share, options.slit_share})
     if (!(share >= 0 && share <= 1))
       throw Error(Error_code::usage, "lattice world: every share must lie in [0,1]");
   // Shares written in decimal may sum up to a little more than 1.

@@ -34,16 +34,20 @@ struct Lattice_world_options {
   double membrane_share = 0;  ///< facets that are impassable
   double solid_share = 0;     ///< cells that are solid
   double removed_share = 0;   ///< cells that are left out: pinched vertices and edges
+  /// Squares (2D: edges) of the lattice at which a slit of 1 to 3 of them along each axis begins, and half that many of the other facets.
+  /// See open_slits(): vertices are duplicated. Where slits meet they make corners, crosses and T's; they end in
+  /// free space or at a wall.
+  double slit_share = 0;
 
   Lattice_map<D> map{};  ///< scaled, rotated or sheared worlds
 };
 
-/// A world with something of everything.
+/// A world with something of everything but slits, so that no two of its points lie in one place.
 template <int D>
 Lattice_world_options<D> mixed_lattice_world(std::uint64_t seed);
 
 /// Builds a lattice world. Cells follow the lattice's order; points are those in use. Coordinates are
-/// multiples of 1/2 before the map (integers unless star_share > 0). Boundary facets are not marked
+/// multiples of 1/2 before the map (integers unless star_share > 0; of 1/8 inside slits). Boundary facets are not marked
 /// impassable: they are so anyway. \throw Error(usage) for a share outside [0,1], shares of shapes that sum
 /// to more than 1, or a map that rounds Cost: about 1 us a cell.
 template <int D>

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a body was asked before must not show in what it answers now: sweeps, policies, regions free of walls, registering and checking in
+// any order against the same moves without regions, registered after each, and against a body made anew where it stands.
+#include <cellwalk/body/body.h>
+#include <cellwalk/environment/gluing.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "walk/oracle_trial.h"
+
+namespace cellwalk::test {
+namespace {
+
+struct Interleaved_seen {
+  int bodies = 0, calls = 0, threw = 0, made_anew = 0, different = 0, invalid = 0;
+  int by_segments = 0, by_faces = 0, by_rule = 0, single = 0;
+  std::size_t contacts = 0, blocked = 0;
+  std::string first;
+  Body_counts counts, plain_counts;
+
+  void note(const std::string& what) {
+    ++different;
+    if (first.empty()) first = what;
+  }
+};
+
+/// What a call answered.
+template <int D>
+struct Answer {
+  std::vector<Body_contact<D>> contacts;
+  std::vector<Blocked_move<D>> blocked;
+  std::optional<Error_code> error;
+};
+
+template <int D>
+std::string difference(const Answer<D>& a, const Answer<D>& b) {
+  if (a.error != b.error) return "an error";
+  if (a.contacts.size() != b.contacts.size()) return "the number of contacts";
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    const Contact<D>&x = a.contacts[i].contact, &y = b.contacts[i].contact;
+    if (a.contacts[i].vertex != b.contacts[i].vertex) return "the vertex of a contact";
+    if (x.impact != y.impact) return "the time of a contact";
+    if (x.body != y.body || x.kind != y.kind || a.contacts[i].feature != b.contacts[i].feature)
+      return "the feature of a contact";
+  }
+  const auto equal = [](const Blocked_move<D>& x, const Blocked_move<D>& y) {
+    return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked && x.edges == y.edges &&
+           x.swept_edges == y.swept_edges;
+  };
+  if (!std::equal(a.blocked.begin(), a.blocked.end(), b.blocked.begin(), b.blocked.end(), equal))
+    return "what blocks";
+  return {};
+}
+
+template <int D>
+class Interleaving {
+ public:
+  Interleaving(std::uint64_t number, bool generic, Interleaved_seen& seen)
+      : world_(oracle::make_world<D>(number)),
+        snapshot_(Snapshot<D>::compile(world_.soup, glue(world_.soup))),
+        locator_(snapshot_),
+        source_(world_, number),
+        generic_(generic),
+        has_slits_(has_slits(number % oracle::world_kinds)),
+        seen_(seen) {}
+
+  void run(int bodies, int calls) {
+    for (int k = 0; k < bodies; ++k) {
+      const Body_soup<D> soup = make_body();
+      std::optional<Body<D>> body;
+      try {
+        body.emplace(snapshot_, locator_, soup);
+      } catch (const Error&) {  // no room there
+        continue;
+      }
+      ++seen_.bodies;
+      follow(*body, calls);
+    }
+  }
+
+ private:
+  static bool has_slits(std::uint64_t kind) { return kind == 9 || kind == 10 || kind >= 12; }
+  Random& random() { return source_.random(); }
+  double eighths(int most) { return (static_cast<double>(random().below(2 * most + 1)) - most) / 8; }
+
+  oracle::Motion_kind kind() {
+    using oracle::Motion_kind;
+    for (;;) {
+      const Motion_kind kind = source_.kind(generic_);
+      if (kind != Motion_kind::in_wall_plane && kind != Motion_kind::along_edge) return kind;
+    }
+  }
+
+  /// A simplex: small, or with corners anywhere.
+  Body_soup<D> make_body() {
+    Body_soup<D> soup;
+    const oracle::Motion_kind of_start = kind();
+    const Point<D> first = source_.start(of_start);
+    const bool small = random().below(2) == 0;
+    const double size = cell_size() / 4;
+    for (std::uint32_t v = 0; v <= D; ++v) {
+      Point<D> x = v == 0 ? first : source_.target(of_start, first, first);
+      if (small && v > 0)
+        for (std::size_t i = 0; i < D; ++i)
+          x[i] = first[i] + size * (generic_ ? random().real(-1, 1) : eighths(8));
+      soup.points.push_back(x);
+      for (std::uint32_t u = 0; u < v; ++u) soup.edges.push_back({u, v});
+    }
+    if (D == 3) soup.faces = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+    return soup;
+  }
+
+  double cell_size() const {
+    const auto loop = world_.soup.facet(0);
+    return length(world_.soup.points[loop[1]] - world_.soup.points[loop[0]]);
+  }
+
+  /// All corners a little the same way, or some of them anywhere.
+  std::vector<Point<D>> targets(const Body<D>& body) {
+    std::vector<Point<D>> result(body.positions().begin(), body.positions().end());
+    if (random().below(3) > 0) {
+      if (random().below(4) == 0)
+        for (double& x : drift_) x = cell_size() * (generic_ ? random().real(-0.2, 0.2) : eighths(2));
+      for (Point<D>& x : result) x = x + drift_;
+      return result;
+    }
+    for (Point<D>& x : result)
+      if (random().below(2) == 0) x = source_.target(kind(), x, x);
+    return result;
+  }
+
+  Body_options options() {
+    Body_options options;
+    const auto sweep = random().below(3);
+    options.sweep.sweep = sweep == 0                 ? Sweep::three_segments
+                          : sweep == 1 || has_slits_ ? Sweep::triangle
+                                                     : Sweep::faces;
+    options.hold = random().below(3) == 0;
+    options.most_contacts = 1 + static_cast<int>(random().below(4));
+    return options;
+  }
+
+  enum class Call { step, step_or_stay, move_vertex };
+
+  Answer<D> call(Body<D>& body, Call call, std::span<const Point<D>> targets, std::uint32_t vertex,
+                 const Body_options& options, Body_counts& counts) {
+    Answer<D> answer;
+    try {
+      if (call == Call::step) body.step(targets, options, answer.contacts, counts);
+      if (call == Call::step_or_stay) body.step_or_stay(targets, options, answer.blocked, counts);
+      if (call == Call::move_vertex)
+        if (auto contact = body.move_vertex(vertex, targets[vertex], options, counts))
+          answer.contacts.push_back(*contact);
+    } catch (const Error& error) {
+      answer.error = error.code();
+    }
+    return answer;
+  }
+
+  void follow(Body<D>& body, int calls) {
+    Body<D> plain = body;
+    for (int k = 0; k < calls; ++k) {
+      const auto to = targets(body);
+      const auto vertex = static_cast<std::uint32_t>(random().below(to.size()));
+      const auto which = random().below(4);
+      const Call kind = which < 2 ? Call::step : which == 2 ? Call::step_or_stay : Call::move_vertex;
+      Body_options some = options();
+      const Body_options with_region = some;
+      some.clearance = false;
+      Body_options here = with_region;
+      here.clearance = random().below(4) > 0;
+      ++seen_.calls;
+      seen_.by_segments += some.sweep.sweep == Sweep::three_segments;
+      seen_.by_faces += D == 3 && some.sweep.sweep == Sweep::faces;
+      seen_.by_rule += kind == Call::step_or_stay;
+      seen_.single += kind == Call::move_vertex;
+      std::optional<Body<D>> anew = made_anew(body);
+      const Answer<D> answer = call(body, kind, to, vertex, here, seen_.counts);
+      const Answer<D> expected = call(plain, kind, to, vertex, some, seen_.plain_counts);
+      seen_.contacts += expected.contacts.size();
+      seen_.blocked += expected.blocked.size();
+      seen_.threw += expected.error.has_value();
+      const std::string name = world_.name + ", call " + std::to_string(k) + ": ";
+      std::string what = difference(answer, expected);
+      if (what.empty() && !std::ranges::equal(body.positions(), plain.positions())) what = "where it stands";
+      if (!what.empty()) return seen_.note(name + what);
+      if (anew && some.sweep.sweep != Sweep::faces) {
+        ++seen_.made_anew;
+        what = difference(call(*anew, kind, to, vertex, here, seen_.counts), expected);
+        if (what.empty() && !std::ranges::equal(anew->positions(), plain.positions()))
+          what = "where it stands";
+        if (!what.empty()) return seen_.note(name + what + ", made anew");
+      }
+      if (expected.error) return;
+      if (!disturb(body, name) || !check(plain, name)) return;
+    }
+  }
+
+  /// What must change nothing.
+  bool disturb(Body<D>& body, const std::string& name) {
+    switch (random().below(6)) {
+      case 0:
+        body.catch_up(seen_.counts);
+        break;
+      case 1:
+        body.leave_region(seen_.counts);
+        break;
+      case 2:
+        return check(body, name);
+      case 3: {
+        const Body<D> copy = body;
+        body = copy;
+        break;
+      }
+      default:
+        break;
+    }
+    return true;
+  }
+
+  bool check(Body<D>& body, const std::string& name) {
+    body.catch_up(seen_.counts);
+    try {
+      body.validate();
+    } catch (const Error& error) {
+      ++seen_.invalid;
+      seen_.note(name + error.what());
+      return false;
+    }
+    return true;
+  }
+
+  /// A body without faces that is registered where this one stands; in general position only, where there is one way to do it.
+  std::optional<Body<D>> made_anew(const Body<D>& body) {
+    if (!generic_ || random().below(3) > 0) return {};
+    Body_soup<D> soup;
+    soup.points.assign(body.positions().begin(), body.positions().end());
+    soup.edges.assign(body.edges().begin(), body.edges().end());
+    for (const Point<D>& x : soup.points)
+      if (locator_.locate(x).dimension != D) return {};  // it stopped at a wall
+    return Body<D>(snapshot_, locator_, soup);
+  }
+
+  const oracle::World<D> world_;
+  const Snapshot<D> snapshot_;
+  const Locator<D> locator_;
+  oracle::Motion_source<D> source_;
+  const bool generic_;
+  const bool has_slits_;  ///< among which no faces are swept
+  Interleaved_seen& seen_;
+  Vector<D> drift_{};
+};
+
+/// Worlds that no other test has.
+constexpr std::uint64_t first_interleaved_world = 3'000'000 * oracle::world_kinds;
+
+template <int D>
+void test_interleaved() {
+  const std::size_t worlds = oracle::scaled_count(4 * oracle::world_kinds);
+  for (const bool generic : {true, false}) {
+    Interleaved_seen seen;
+    for (std::uint64_t number = 0; number < worlds; ++number)
+      Interleaving<D>(first_interleaved_world + number, generic, seen).run(12, 16);
+    std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.bodies << " bodies, "
+              << seen.calls << " calls (" << seen.by_segments << " by three segments, " << seen.by_faces
+              << " by faces, " << seen.by_rule << " to step or stay, " << seen.single << " of one vertex), "
+              << seen.contacts << " contacts, " << seen.blocked << " blocked; in regions "
+              << seen.counts.in_region << " of " << seen.counts.moves << " moves, caught up "
+              << seen.counts.catch_ups << "; made anew " << seen.made_anew << ", refused " << seen.threw
+              << "; different " << seen.different << ", invalid " << seen.invalid << "\n";
+    EXPECT_EQ(seen.different, 0) << seen.first;
+    if (worlds < 4 * oracle::world_kinds) continue;  // too few to meet everything
+    EXPECT_GT(seen.bodies, 100);
+    EXPECT_GT(seen.contacts, 1'000u);
+    EXPECT_GT(seen.blocked, 300u);
+    EXPECT_GT(seen.counts.in_region, 200u);
+    EXPECT_GT(seen.counts.catch_ups, 100u);
+    if (generic) {
+      EXPECT_GT(seen.made_anew, 100);
+    }
+  }
+}
+
+TEST(BodyInterleaved, NothingAskedBeforeShows2) { test_interleaved<2>(); }
+TEST(BodyInterleaved, NothingAskedBeforeShows3) { test_interleaved<3>(); }
+
+}  // namespace
+}  // namespace cellwalk::test
