@@ -52,9 +52,9 @@ class Registration {
     if (result.empty())
       throw Error(
           Error_code::outside,
-          fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
-                      location().status == Location_status::solid ? "in a solid cell"
-                                                                  : "outside the environment"));
+          fmt::format(
+              "vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
+              location().status == Location_status::solid ? "in a solid cell" : "outside the environment"));
     if (result.size() == 1 || first == Cell::none) return result;
     const Location<D> here = location();
     const auto kept = std::find(here.cells.begin(), here.cells.end(), first);

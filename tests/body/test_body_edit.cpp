@@ -162,7 +162,7 @@ TEST(BodyEdit, SweepsOfParticlesInACellThatIsGoneAreRefused) {
   stale.position = middle;
   stale.cell = gone;
   environment.insert_point(gone, middle);
-  const Particle<3> fresh = Locator<3>(snapshot).particle_at(middle + Vector<3>{0x1p-6, 0, 0});
+  const Particle<3> fresh = Locator<3>(snapshot).particle_at(middle + Vector<3>{0x1p-6, 0, 0}).value();
   Edge_counts counts;
   const Point<3> target = middle + Vector<3>{0, 0x1p-6, 0};
   for (const auto& [p, q] :

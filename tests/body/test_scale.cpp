@@ -207,7 +207,7 @@ void expect_flights_scale() {
     for (int k = 0; k < 40; ++k) {
       const oracle::Motion_kind kind = source.kind(k % 2 == 0);
       const Point<D> from = source.start(kind);
-      if (copies[0]->locator.particle_at(from).cell == Cell::none) continue;
+      if (!copies[0]->locator.particle_at(from)) continue;
       const Vector<D> velocity = source.target(kind, from, from) - from;
       Wall_response response;
       if (k % 4 == 1) response.restitution = 0.5;
@@ -216,7 +216,7 @@ void expect_flights_scale() {
       Point<D> end{};
       Vector<D> speed{};
       for (const auto& copy : copies) {
-        Particle<D> particle = copy->locator.particle_at(scaled(from, copy->exponent));
+        Particle<D> particle = copy->locator.particle_at(scaled(from, copy->exponent)).value();
         ASSERT_NE(particle.cell, Cell::none);
         std::vector<Met_contact<D>> met;
         Walk_counts counts;
@@ -272,7 +272,8 @@ void expect_lifts_at_the_origin() {
       }
       ASSERT_FALSE(unit.contacts.empty());
       expect_scaled(unit, copy, "from a corner at the origin, or to it");
-      Particle<D> slid = unit.locator.particle_at(from), there = copy.locator.particle_at(scaled(from, k));
+      Particle<D> slid = unit.locator.particle_at(from).value(),
+                  there = copy.locator.particle_at(scaled(from, k)).value();
       std::vector<Met_contact<D>> met;
       Walk_counts counts;
       advance(unit.snapshot, slid, to - from, {}, met, counts);

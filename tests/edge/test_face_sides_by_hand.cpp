@@ -47,8 +47,8 @@ Triangle face_at(double z) {
 
 bool put(Face_body& body, const Snapshot<3>& snapshot, const Triangle& corners) {
   const Locator<3> locator(snapshot);
-  return body.place(
-      {locator.particle_at(corners[0]), locator.particle_at(corners[1]), locator.particle_at(corners[2])});
+  return body.place({locator.particle_at(corners[0]).value(), locator.particle_at(corners[1]).value(),
+                     locator.particle_at(corners[2]).value()});
 }
 
 /// The cells on which the face rests.

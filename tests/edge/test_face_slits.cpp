@@ -74,7 +74,7 @@ Point<3> spot(Random& random) {
 bool choose_sides(const Locator<3>& locator, Random& random, const Triangle& places,
                   std::array<Particle<3>, 3>& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = locator.particle_at(places[k]);
+    corners[k] = locator.particle_at(places[k]).value();
     if (corners[k].cell == Cell::none) return false;
     const auto cells = locator.locate(places[k]).cells;
     corners[k].cell = cells[random.below(cells.size())];

@@ -243,7 +243,7 @@ struct Room_2 {
   }
   Sweep_result<2> sweep(const Point<2>& from, const Point<2>& to, const Point<2>& q,
                         const Sweep_options& options, Edge_counts& counts) const {
-    const Particle<2> p = locator.particle_at(from), end = locator.particle_at(q);
+    const Particle<2> p = locator.particle_at(from).value(), end = locator.particle_at(q).value();
     const auto before = find_chain(snapshot, p, end, counts.walk);
     EXPECT_FALSE(before.contact);
     return sweep_edge(snapshot, p, to, end, before.chain, options, counts);
@@ -320,8 +320,8 @@ TEST(Sweep, NormalsAtParallelEdgesAreAgainstTheMotion) {
       const auto at = [&](double x, double y, double z) {
         return is_mirrored ? Point<3>{y, x, z} : Point<3>{x, y, z};
       };
-      const Particle<3> q = locator.particle_at(at(2 - d, 2 + d, 1.125));
-      const Particle<3> p = locator.particle_at(at(1.625 + 2 * d, 2.625, 2.625));
+      const Particle<3> q = locator.particle_at(at(2 - d, 2 + d, 1.125)).value();
+      const Particle<3> p = locator.particle_at(at(1.625 + 2 * d, 2.625, 2.625)).value();
       const Point<3> target = at(2.375 + 2 * d, 1.375, 2.625);
       const auto before = find_any_chain(snapshot, p, q, counts.walk);
       ASSERT_FALSE(before.contact);

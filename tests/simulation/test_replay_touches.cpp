@@ -36,7 +36,7 @@ Touched touched_in(const Trace& trace, const Environment<3>& environment) {
     touched.free += answer == 0;
     // Where the start is off all walls it has one side, and what it can reach is known without more.
     if (answer == 0 || walls.meet_segment(from, from)) return;
-    Particle<3> p = locator.particle_at(from);
+    Particle<3> p = locator.particle_at(from).value();
     if ((answer & trace_segment_bit) != 0) {
       const bool is_blocked = move(snapshot, p, target, counts.walk).contact.has_value();
       ++(is_blocked ? touched.crossings : touched.ways);
@@ -44,7 +44,7 @@ Touched touched_in(const Trace& trace, const Environment<3>& environment) {
     }
     for (std::size_t k = 0; k < trace_edges; ++k) {
       if ((answer >> (4 + k) & 1) == 0 || walls.meet_segment(q[k], q[k])) continue;
-      const Particle<3> end = locator.particle_at(q[k]);
+      const Particle<3> end = locator.particle_at(q[k]).value();
       const auto before = find_any_chain(snapshot, p, end, counts.walk);
       if (before.contact) continue;
       const bool is_blocked =

@@ -51,7 +51,8 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
   const std::vector<Particle<D>> particles = locator.particles_at(p);
   ASSERT_EQ(particles.size(), static_cast<std::size_t>(place.sides));
   ASSERT_EQ(particles.front().cell, particle.cell);
-  const auto number = std::find(place.free_cells.begin(), place.free_cells.end(), first) - place.free_cells.begin();
+  const auto number =
+      std::find(place.free_cells.begin(), place.free_cells.end(), first) - place.free_cells.begin();
   const int dimension = place.dimensions[static_cast<std::size_t>(number)];
   ASSERT_EQ(location.dimension, dimension);
   ASSERT_EQ(particle.dimension, dimension);

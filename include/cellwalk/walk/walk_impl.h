@@ -110,10 +110,9 @@ class Walker {
         return false;
       case Exit::facet:
         return pass(exit.number);
-      default: {
+      default:
         result_.aimed = exit.number;
         return pass_star(exit);
-      }
     }
   }
 

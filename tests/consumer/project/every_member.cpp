@@ -43,7 +43,7 @@ template <int D>
 void keep_environments() {
   keep(
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
-      &Locator<D>::particle_at);
+      &Locator<D>::particle_at, &Locator<D>::particles_at);
 
   keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
        &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::soup,
@@ -64,16 +64,18 @@ void keep_environments() {
       &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks, &Snapshot<D>::prefetch_neighbors,
       &Snapshot<D>::uncertified_planes, &Snapshot<D>::set_impassable, &Snapshot<D>::move_point,
       &Snapshot<D>::add_point, &Snapshot<D>::update_geometry, &Snapshot<D>::replace_cells,
-      &Snapshot<D>::bytes);
+      &Snapshot<D>::bytes, &Snapshot<D>::cell_slots, &Snapshot<D>::check_epoch,
+      &Snapshot<D>::check_geometry_epoch, &Snapshot<D>::epoch, &Snapshot<D>::geometry_epoch,
+      &Snapshot<D>::is_cell);
 }
 
 template <int D>
 void keep_bodies() {
   keep(
       +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
-      &moved<Body<D>>, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges, &Body<D>::faces,
-      &Body<D>::neighbours, &Body<D>::step, &Body<D>::step_or_stay, &Body<D>::move_vertex, &Body<D>::catch_up,
-      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
+      &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
+      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::step_or_stay, &Body<D>::move_vertex,
+      &Body<D>::catch_up, &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
 
   keep(&transformed<D>, &make_body<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),

@@ -87,11 +87,12 @@ class Turn {
     const Point<3>&u = first_corner(x), &v = first_corner(y);
     const int u_side = cellwalk::displaced_side(a_, b_, u), v_side = cellwalk::displaced_side(a_, b_, v);
     // Where the plane of the line and a corner has the displaced point on its right, the corner comes within half a turn.
-    return u_side != v_side ? u_side < v_side : orientation(u, v) > 0;
+    return u_side != v_side ? u_side < v_side : turn(u, v) > 0;
   }
 
  private:
-  int orientation(const Point<3>& u, const Point<3>& v) const {
+  /// > 0 if one turns from u to v counterclockwise.
+  int turn(const Point<3>& u, const Point<3>& v) const {
     ++counts_.along_tests;
     return Kernel::orientation(counts_.predicates, a_, b_, u, v);
   }
@@ -101,12 +102,11 @@ class Turn {
     std::size_t first = cell.vertex_count();
     for (std::size_t k = 0; k < cell.vertex_count(); ++k) {
       if (are_collinear(a_, b_, cell.point(k))) continue;
-      if (first == cell.vertex_count() || orientation(cell.point(first), cell.point(k)) < 0) first = k;
+      if (first == cell.vertex_count() || turn(cell.point(first), cell.point(k)) < 0) first = k;
     }
     // Half a turn on from the first corner signs are 0: corners in between have told which is first, unless they came later.
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
-      if (first != k && !are_collinear(a_, b_, cell.point(k)) &&
-          orientation(cell.point(first), cell.point(k)) < 0)
+      if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
         first = k;
     return cell.point(first);
   }
