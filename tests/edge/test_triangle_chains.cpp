@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <iostream>
 #include <numeric>
+#include <sstream>
 
 #include "edge/edge_worlds.h"
 #include "edge/sweep_judge.h"
@@ -41,6 +42,21 @@ struct Chains_seen {
 int count(const Faults& faults) { return std::accumulate(faults.begin() + 1, faults.end(), 0); }
 int misses(const Faults& faults) { return faults[static_cast<std::size_t>(Sweep_fault::false_free)]; }
 
+/// All that is needed to repeat a motion: points, and cells and half-facets of the soup.
+template <int D>
+std::string describe(const oracle::Edge_motion<D>& motion) {
+  std::ostringstream text;
+  const auto add = [&](const char* name, const auto& values) {
+    text << ", " << name;
+    for (const auto& x : values) text << ' ' << x;
+  };
+  text << std::hexfloat;
+  add("p from", motion.a), add("to", motion.b), add("q", motion.q);
+  add("cells of p", motion.way), add("chain", motion.chain);
+  text << ", cell of q " << motion.q_cell << (motion.blocked ? ", p blocked" : "");
+  return text.str();
+}
+
 /// A sweep, and what is said of it.
 template <int D>
 void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const Way<D>& way,
@@ -54,7 +70,7 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
     seen.crossed_free += !result.contact && !way.blocked && w.walls.is_crossed(motion.a, motion.b, motion.q);
   else
     EXPECT_EQ(fault, Sweep_fault::none)
-        << w.world.name << ": " << fault_names[static_cast<std::size_t>(fault)];
+        << w.world.name << ": " << fault_names[static_cast<std::size_t>(fault)] << describe(motion);
   seen.p_blocked += way.blocked;
   seen.in_line += are_collinear(motion.a, motion.b, motion.q);
   seen.must_block += !outcomes.may_be_free();
