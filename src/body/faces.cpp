@@ -85,6 +85,7 @@ const Chain* Body<D>::moved_chain(std::uint32_t vertex, std::uint32_t edge) cons
 template <int D>
 void Body<D>::sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                           Body_counts& counts) {
+  if (faces_.empty()) return;
   if constexpr (D == 3) {
     for (std::uint32_t i = face_corner_begin_[vertex]; i < face_corner_begin_[vertex + 1]; ++i) {
       const auto [f, k] = face_corners_[i];

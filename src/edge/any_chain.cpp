@@ -14,7 +14,8 @@ struct Any_way {
   const Point<D>&p, &q;
   Walk_counts& counts;
 
-  bool is_wrong(const Chain&) const { return false; }
+  bool is_wrong(const Chain&, const Fraction&) const { return false; }
+  Fraction limit_of(const Cell_view<D>&, std::size_t, int) const { return 0; }
   bool is_accepted(const Chain&) const { return true; }
   bool comes_before(const Cell_view<D>& x, const Cell_view<D>& y) const {
     if constexpr (D == 2)

@@ -19,8 +19,9 @@ namespace cellwalk::detail {
 /// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on, it has several
 /// sides to go on along: first comes the one on which it lies once it is displaced, then the others as the rule orders them.
 ///
-/// Rule: is_wrong(chain) gives a beginning up, is_accepted(chain) takes a whole chain, comes_before(cell, cell) orders the cells of
-/// sides that are not preferred.
+/// Rule: is_wrong(chain, end) gives a beginning up, which leads to a place; limit_of(cell, facet, border) says what `end` stands for it, where
+/// the segment passes that border; is_accepted(chain) takes a whole chain; comes_before(cell, cell) orders the cells of sides that are
+/// not preferred.
 template <int D, class Rule>
 class Ordered_ways {
  public:
@@ -36,7 +37,7 @@ class Ordered_ways {
 
   /// True if there is one from a cell of the start to that of q, or one linked with it there.
   /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they begin and end.
-  bool find(Cell start) { return from(start, 0); }
+  bool find(Cell start) { return from(start, 0, 0); }
 
   const Chain& chain() const { return chain_; }
 
@@ -48,11 +49,13 @@ class Ordered_ways {
     Half_facet facet;  ///< of the parent
     bool holds_more = true, is_displaced = true;
     Fraction end{1};  ///< up to there the cell meets the segment in the same facets
+    std::size_t end_facet = 0;
+    int end_border = -1;  ///< of that facet, where it ends; none if it does at q
   };
 
   /// Goes on from a cell in which the segment is at t. Ways to the same place are as good as each other.
-  bool from(Cell c, const Fraction& t) {
-    if (rule_.is_wrong(chain_) || !seen_.emplace(c, t).second) return false;
+  bool from(Cell c, const Fraction& t, const Fraction& limit) {
+    if (rule_.is_wrong(chain_, limit) || !seen_.emplace(c, t).second) return false;
     std::vector<Place> places = linked(c, t);
     const bool is_end = t == Fraction(1);
     std::vector<std::size_t> order;
@@ -67,10 +70,17 @@ class Ordered_ways {
     for (const std::size_t k : order) {
       const std::size_t before = chain_.size();
       append_way(places, k);
-      if (is_end ? rule_.is_accepted(chain_) : from(places[k].cell, places[k].end)) return true;
+      if (is_end ? rule_.is_accepted(chain_) : goes_on(places[k])) return true;
       chain_.resize(before);
     }
     return false;
+  }
+
+  bool goes_on(const Place& place) {
+    const Fraction limit =
+        place.end_border < 0 ? Fraction(1)
+                             : rule_.limit_of(snapshot_.view(place.cell), place.end_facet, place.end_border);
+    return from(place.cell, place.end, limit);
   }
 
   std::vector<Place> linked(Cell c, const Fraction& t) {
@@ -81,8 +91,13 @@ class Ordered_ways {
         if (is_apart(cell, i)) continue;
         const std::optional<Span> met = segment_.in_facet(cell, i);
         if (!met) continue;
-        for (const Fraction& end : {met->low, met->high})
-          if (t < end && end < places[head].end) places[head].end = end;
+        for (const auto& [end, border] :
+             {std::pair(met->low, met->low_border), {met->high, met->high_border}}) {
+          if (!(t < end && end < places[head].end)) continue;
+          places[head].end = end;
+          places[head].end_facet = i;
+          places[head].end_border = border;
+        }
         if (t < met->low || met->high < t) continue;
         const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
         places[head].holds_more &= side_of_q <= 0;

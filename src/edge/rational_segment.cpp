@@ -42,25 +42,35 @@ Exact_point<D> Rational_segment<D>::at(const Fraction& t) const {
 
 /// Keeps the part of a span in a half-space. False if none is left.
 template <int D>
-bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h) const {
+bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) const {
+  const auto begin_at = [&](const Fraction& t) {
+    if (t <= span.low) return;
+    span.low = t;
+    span.low_border = border;
+  };
+  const auto end_at = [&](const Fraction& t) {
+    if (span.high <= t) return;
+    span.high = t;
+    span.high_border = border;
+  };
   const Ring at_p = h.at(p_), at_q = p_.weight * h.at(q_);
   const int sign_p = CGAL::sign(at_p), sign_q = CGAL::sign(at_q);
   if (sign_p >= 0 && sign_q >= 0) return true;
   if (sign_p <= 0 && sign_q <= 0) {
     // At most one end is left.
     if (sign_p == 0)
-      span.high = std::min<Fraction>(span.high, 0);
+      end_at(0);
     else if (sign_q == 0)
-      span.low = std::max<Fraction>(span.low, 1);
+      begin_at(1);
     else
       return false;
     return span.low <= span.high;
   }
   const Fraction root(at_p, at_p - at_q);
   if (sign_p < 0)
-    span.low = std::max<Fraction>(span.low, root);
+    begin_at(root);
   else
-    span.high = std::min<Fraction>(span.high, root);
+    end_at(root);
   return span.low <= span.high;
 }
 
@@ -68,11 +78,21 @@ template <int D>
 std::optional<Span> Rational_segment<D>::in_facet(const Cell_view<D>& cell, std::size_t i) const {
   const Half_space<D> plane = plane_of(cell, i);
   Span span{0, 1};
-  if (!clip(span, plane) || !clip(span, {plane.point, negative(plane.normal)})) return {};
+  if (!clip(span, plane, 0) || !clip(span, {plane.point, negative(plane.normal)}, 1)) return {};
   const std::size_t sides = cell.loop(i).size();
   for (std::size_t k = 0; k < sides; ++k)
-    if (!clip(span, side_space(cell, i, k, plane))) return {};
+    if (!clip(span, side_space(cell, i, k, plane), 2 + static_cast<int>(k))) return {};
   return span;
+}
+
+template <int D>
+Fraction Rational_segment<D>::at_border(const Cell_view<D>& cell, std::size_t i, int border) const {
+  const Half_space<D> plane = plane_of(cell, i);
+  const Half_space<D> h =
+      border < 2 ? plane : side_space(cell, i, static_cast<std::size_t>(border - 2), plane);
+  const Ring at_p = h.at(p_), at_q = p_.weight * h.at(q_);
+  if (CGAL::is_zero(at_q)) return 1;
+  return {at_p, at_p - at_q};
 }
 
 template <int D>

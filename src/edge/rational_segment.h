@@ -16,6 +16,9 @@ namespace cellwalk::detail {
 /// Closed interval of parameters.
 struct Span {
   Fraction low, high;
+  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders it begins and ends; none where it does at
+  /// an end of the segment.
+  int low_border = -1, high_border = -1;
 };
 
 /// The segment from p (parameter 0) to q (parameter 1).
@@ -30,11 +33,13 @@ class Rational_segment {
   Exact_point<D> at(const Fraction& t) const;
   /// Parameters of the points in closed facet i of a cell.
   std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
+  /// Where it passes the border of a half-space of facet i, see Span; 1 if all of it, or its end, lies there.
+  Fraction at_border(const Cell_view<D>& cell, std::size_t i, int border) const;
   /// The parameter of the point in the plane of facet i. \pre there is one
   Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
 
  private:
-  bool clip(Span& span, const Half_space<D>& h) const;
+  bool clip(Span& span, const Half_space<D>& h, int border) const;
 
   Exact_point<D> p_;
   Ring_vector<D> q_;

@@ -42,11 +42,14 @@ class Relinking {
     return Relinked<D>{ways.chain(), end};
   }
 
-  /// True if a way is not equal to the chain up to where its last cell begins.
-  bool is_wrong(const Chain& way) const {
-    auto pieces = pieces_of<D>(snapshot_, now_, start_, {way.data(), way.size()}, 1);
-    pieces.pop_back();
-    return !pieces.empty() && parting_of(snapshot_, now_, pieces_, pieces);
+  /// True if a way is not equal to the chain up to a place.
+  bool is_wrong(const Chain& way, const Fraction& end) const {
+    const auto pieces = pieces_of<D>(snapshot_, now_, start_, {way.data(), way.size()}, end);
+    return parting_of(snapshot_, now_, pieces_, pieces).has_value();
+  }
+  /// Where the place at which the edge passes a border just after this time ends up at this time.
+  Fraction limit_of(const Cell_view<D>& cell, std::size_t i, int border) const {
+    return now_.at_border(cell, i, border);
   }
   bool is_accepted(const Chain& way) const {
     Half_facet wall = Half_facet::none;

@@ -121,7 +121,7 @@ std::vector<Side_rank<D>> ordered_sides(const Snapshot<D>& s, const std::vector<
   std::vector<Side_rank<D>> ranks;
   for (const Found<D>& x : found) {
     auto rank = std::find_if(ranks.begin(), ranks.end(), [&](const auto& r) { return r.side == x.side; });
-    if (rank == ranks.end()) rank = ranks.insert(ranks.end(), {x.side});
+    if (rank == ranks.end()) rank = ranks.insert(ranks.end(), {x.side, false, {}});
     const Cell_view<D> cell = s.view(x.cell);
     rank->is_displaced |= std::all_of(x.facets.begin(), x.facets.end(),
                                       [&](std::size_t f) { return detail::displaced_side(cell, f) < 0; });

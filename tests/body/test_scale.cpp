@@ -263,12 +263,14 @@ void expect_lifts_at_the_origin() {
   along[1] = -0.25;
   out.fill(-0.25);
   out[0] = -0.125;
+  Body_options options_without_clearance;
+  options_without_clearance.clearance = false;
   for (const int k : exponents) {
     Copy<D> unit(soup, 0), copy(soup, k);
     for (const auto& [from, to] : {std::pair{Point<D>{}, along}, std::pair{inside, out}}) {
       for (Copy<D>* c : {&unit, &copy}) {
         c->place({{from}, {}, {}});
-        c->step(std::vector<Point<D>>{to}, {.clearance = false});
+        c->step(std::vector<Point<D>>{to}, options_without_clearance);
       }
       ASSERT_FALSE(unit.contacts.empty());
       expect_scaled(unit, copy, "from a corner at the origin, or to it");
@@ -281,7 +283,7 @@ void expect_lifts_at_the_origin() {
       EXPECT_EQ(scaled(slid.position, k), there.position);
     }
     unit.place({{Point<D>{}}, {}, {}});
-    unit.step(std::vector<Point<D>>{along}, {.clearance = false});
+    unit.step(std::vector<Point<D>>{along}, options_without_clearance);
     EXPECT_EQ(unit.body->positions()[0][1], 16 * 0x1p-53) << "16 units in the last place of 1/2";
   }
 }

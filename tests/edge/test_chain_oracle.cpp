@@ -88,7 +88,7 @@ class Scene {
 
  private:
   Particle<D> particle(const Point<D>& x, std::uint32_t cell) const {
-    Particle<D> p = locator_.particle_at(x).value();
+    Particle<D> p = locator_.particle_at(x).value_or(Particle<D>{x});
     p.position = x;
     p.cell = snapshot.cell(cell);
     return p;

@@ -13,7 +13,7 @@
 namespace cellwalk::test {
 namespace {
 
-std::size_t worlds(bool generic) { return oracle::scaled_count((generic ? 1 : 2) * oracle::world_kinds); }
+std::size_t worlds(bool generic) { return oracle::scaled_count((generic ? 1 : 3) * oracle::world_kinds); }
 
 Face_seen sweep(bool generic) {
   Face_seen seen;
@@ -94,7 +94,7 @@ TEST(Face, NeverMissesAWallInDegeneratePositions) {
   const Face_seen seen = sweep(false);
   report("degenerate", seen);
   expect_no_fault(seen);
-  if (worlds(false) < 2 * oracle::world_kinds) return;
+  if (worlds(false) < 3 * oracle::world_kinds) return;
   EXPECT_GT(seen.sweeps, 500);
   EXPECT_GT(seen.hits, 150);
   EXPECT_GT(seen.through_vertex, 40);

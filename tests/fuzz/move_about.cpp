@@ -57,15 +57,24 @@ class Mover {
       const oracle::Place place = walks_->place(x);
       std::vector<std::uint32_t> cells;
       for (const Cell c : here.cells) cells.push_back(snapshot_.index(c));
-      demand(cells == place.free_cells && here.sides == place.sides &&
-                 (cells.empty() || here.dimension == place.dimension),
+      const auto is_right_dimension = [&](std::uint32_t cell) {
+        const auto number = std::find(place.free_cells.begin(), place.free_cells.end(), cell);
+        return number != place.free_cells.end() &&
+               here.dimension ==
+                   place.dimensions[static_cast<std::size_t>(number - place.free_cells.begin())];
+      };
+      const bool is_well_placed = cells.empty() || is_right_dimension(cells.front());
+      std::sort(cells.begin(), cells.end());
+      demand(cells == place.free_cells && here.sides == place.sides && is_well_placed,
              "a point is located wrongly");
       ++totals.places;
     }
     if (here.status != Location_status::free) return std::nullopt;
-    const Cell cell = here.cells[in.below(here.cells.size())];
+    const std::size_t number = in.below(here.cells.size());
+    const Cell cell = here.cells[number];
     demand(in_closure(snapshot_, cell, x), "a located point is not in its cell");
-    return Particle<D>{x, cell, here.dimension,
+    const auto side = static_cast<std::size_t>(here.side_of_cell[number]);
+    return Particle<D>{x, cell, locator_.particles_at(x)[side].dimension,
                        static_cast<std::uint16_t>(in.below(snapshot_.facet_count(cell)))};
   }
 

@@ -19,7 +19,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Difference::count)> n
     "none", "status", "time", "kind", "feature", "normal", "side", "dimension"};
 
 struct Compared {
-  std::size_t motions = 0, answers = 0, contacts = 0, choices = 0, starts_on_sides = 0;
+  std::size_t motions = 0, answers = 0, contacts = 0, choices = 0, starts_on_sides = 0, other_cells = 0;
   std::array<std::size_t, static_cast<std::size_t>(Difference::count)> differences{};
   std::string first;
 
@@ -66,19 +66,20 @@ class Orders {
             walk<Exact>(worlds_[k].snapshot, particles_[k], to, counts, {.strategy = strategy});
         if (strategy == Walk_strategy::certified) results[k] = result;
         if (k == 0 && strategy == Walk_strategy::certified) continue;
-        const Difference difference = compare(results[0], k, result, trace, truth);
-        ++seen_.answers;
-        ++seen_.differences[static_cast<std::size_t>(difference)];
-        if (difference == Difference::none) continue;
-        agree = false;
-        if (seen_.first.empty()) {
-          Case<D> motion;
-          motion.from = from, motion.to = to, motion.start = worlds_[0].original_cell(particles_[0].cell);
-          motion.trace = trace, motion.truth = truth;
-          seen_.first = std::string(names[static_cast<std::size_t>(difference)]) + " in " + world_.name +
-                        ", order " + std::to_string(k) + ": " + describe(motion);
-        }
+        agree &= is_alike(results[0], k, result, to, trace, truth);
       }
+    // Nor may the cell in which the particle is registered, of those linked where it starts.
+    const std::vector<int> linked = trace.classes_at(0);
+    const int start = trace.visit_of(worlds_[0].original_cell(particles_[0].cell));
+    for (std::size_t v = 0; v < linked.size(); ++v) {
+      if (static_cast<int>(v) == start || linked[v] != linked[static_cast<std::size_t>(start)]) continue;
+      Particle<D> particle = particles_[0];
+      particle.cell = worlds_[0].cell(trace.visits[v].cell);
+      Walk_counts counts;
+      ++seen_.other_cells;
+      agree &=
+          is_alike(results[0], 0, walk<Exact>(worlds_[0].snapshot, particle, to, counts), to, trace, truth);
+    }
     seen_.contacts += results[0].status == Walk_status::contact;
     has_particle_ = agree && results[0].status == Walk_status::arrived;
     if (!has_particle_) return;
@@ -88,6 +89,23 @@ class Orders {
       particles_[k].cell = results[k].cell;
       particles_[k].dimension = results[k].dimension;
     }
+  }
+
+  bool is_alike(const Walk_result<D>& first, std::size_t k, const Walk_result<D>& result, const Point<D>& to,
+                const Trace& trace, const Truth& truth) {
+    const Difference difference = compare(first, k, result, trace, truth);
+    ++seen_.answers;
+    ++seen_.differences[static_cast<std::size_t>(difference)];
+    if (difference == Difference::none) return true;
+    if (seen_.first.empty()) {
+      Case<D> motion;
+      motion.from = particles_[0].position, motion.to = to;
+      motion.start = worlds_[0].original_cell(particles_[0].cell);
+      motion.trace = trace, motion.truth = truth;
+      seen_.first = std::string(names[static_cast<std::size_t>(difference)]) + " in " + world_.name +
+                    ", order " + std::to_string(k) + ": " + describe(motion);
+    }
+    return false;
   }
 
   /// All in the same cell.
@@ -162,6 +180,7 @@ Compared compare_orders(bool generic) {
   if (!generic) {
     EXPECT_GT(seen.choices, seen.motions / 200);
     EXPECT_GT(seen.starts_on_sides, seen.motions / 100);
+    EXPECT_GT(seen.other_cells, seen.motions / 2);
   }
   return seen;
 }

@@ -118,8 +118,10 @@ void keep_simulation() {
 
 template <int D>
 void keep_readers() {
-  keep(&io::query_rows<D, 1>, &io::read_moves<D>, &io::read_sweeps<D>, &io::read_body<D>, &io::write_ovm<D>,
-       &io::vtu_of_cells<D>, &io::vtu_of_walls<D>);
+  keep(&io::query_rows<D, 1>, &io::read_moves<D>, &io::read_sweeps<D>, &io::read_body<D>,
+       static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&)>(&io::write_ovm<D>),
+       static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&)>(&io::write_ovm<D>), &io::vtu_of_cells<D>,
+       &io::vtu_of_walls<D>);
 }
 
 }  // namespace

@@ -239,11 +239,38 @@ class Star_search {
         const Cell next = snapshot_.neighbor(f);
         const auto other = std::find_if(candidates_.begin(), candidates_.end(),
                                         [&](const Candidate& y) { return cell(y) == next; });
-        if (other == candidates_.end() || detail::side<Kernel>(view, i, b_, counts_) != 0) continue;
+        if (other == candidates_.end() || !holds_more(view, i)) continue;
         const int from = other->side, to = x.side;
         for (Candidate& y : candidates_)
           if (y.side == from) y.side = to;
       }
+    }
+  }
+
+  /// True if facet i of a cell, which has the ridge or vertex, holds a further piece of the motion.
+  bool holds_more(const Cell_view<D>& cell, std::size_t i) const {
+    if (detail::side<Kernel>(cell, i, b_, counts_) != 0) return false;
+    const auto loop = cell.loop(i);
+    const auto at = [&](std::size_t k) { return loop[k % loop.size()]; };
+    if constexpr (D == 2) {
+      const Point<2>& other = cell.point(cell.point_index(loop[0]) == u_ ? loop[1] : loop[0]);
+      const Point<2>& here = snapshot_.point(u_);
+      return (a_ < b_) == (here < other);  // on one line
+    } else {
+      std::size_t off = 0;
+      while (off < cell.vertex_count() && detail::side<Kernel>(cell, i, cell.point(off), counts_) == 0) ++off;
+      if (off == cell.vertex_count()) return false;  // inexact policies only
+      // In the plane of the facet b lies on the inner side of its ridges there, or on them.
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::uint32_t p = cell.point_index(at(k)), q = cell.point_index(at(k + 1));
+        const bool is_there = u_ == v_ ? p == u_ || q == u_ : (p == u_ && q == v_) || (p == v_ && q == u_);
+        if (!is_there) continue;
+        ++counts_.along_tests;
+        if (Kernel::orientation(counts_.predicates, cell.point(at(k)), cell.point(at(k + 1)), cell.point(off),
+                                b_) < 0)
+          return false;
+      }
+      return true;
     }
   }
 
