@@ -251,13 +251,15 @@ Cell_soup<3> wall_and_window() {
 TEST(ChainOracle, AnEdgeLiesInAWallAndAWindowOfOneCell) {
   const Scene<3> scene(wall_and_window(), {});
   const Point<3> q{0.5, 1, 0.25}, in_window{0.25, 1, 1.25}, in_wall{0.25, 1, 0.5};
-  for (const std::uint32_t side : {0u, 1u}) {
-    expect_free(scene, {in_window, {0.75, 1, 1.5}, q, {side}});
-    expect_free(scene, {in_window, in_wall, q, {side}});
-    // p is on the other side of the window, which makes no difference before it comes to the wall.
-    expect_free(scene, {in_window, {0.75, 1, 1.5}, q, {1 - side, side}});
-    expect_blocked(scene, {in_window, in_wall, q, {1 - side, side}}, {1, 3});
-  }
+  for (const std::uint32_t side : {0u, 1u})
+    // On which side of the window p is makes no difference. On the wall it is above, where it lies once it is displaced.
+    for (const Cells& chain : {Cells{side}, Cells{1 - side, side}}) {
+      expect_free(scene, {in_window, {0.75, 1, 1.5}, q, chain});
+      if (side == 1)
+        expect_free(scene, {in_window, in_wall, q, chain});
+      else
+        expect_blocked(scene, {in_window, in_wall, q, chain}, {1, 3});
+    }
 }
 
 TEST(ChainOracle, AnEdgeWeavesThroughASheetOfWindows) {
