@@ -156,7 +156,7 @@ class Walker {
     contact.time =
         std::apply([&](const auto&... corner) { return crossing_time(corner..., a_, b_); }, corners);
     contact.point = point_on<D>(a_, b_, contact.time);
-    contact.normal = inner_normal(wall_view, snapshot_.facet_of(wall));
+    contact.normal = inner_normal(corners);
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
                    : exit.kind == Exit::vertex ? Contact_kind::vertex
                                                : Contact_kind::edge;

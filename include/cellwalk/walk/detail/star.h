@@ -23,22 +23,30 @@ inline std::array<Point<2>, 2> spanning_corners(const Cell_view<2>& cell, std::s
 inline std::array<Point<3>, 3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   const std::size_t n = loop.size();
+  const auto comes_before = [](const Point<3>& p, const Point<3>& q) {
+    return p[0] != q[0] ? p[0] < q[0] : p[1] != q[1] ? p[1] < q[1] : p[2] < q[2];
+  };
   std::size_t first = 0;
   for (std::size_t k = 1; k < n; ++k)
-    if (cell.point(loop[k]) < cell.point(loop[first])) first = k;
+    if (comes_before(cell.point(loop[k]), cell.point(loop[first]))) first = k;
   const auto at = [&](std::size_t k) -> const Point<3>& { return cell.point(loop[k % n]); };
   while (n > 3 && are_collinear(at(first), at(first + 1), at(first + 2))) ++first;
   return {at(first), at(first + 1), at(first + 2)};
 }
 
+/// The same as inner_normal(), by the spanning corners of the facet.
+inline Vector<2> inner_normal(const std::array<Point<2>, 2>& corners) {
+  return unit_normal(corners[0], corners[1]);
+}
+
+inline Vector<3> inner_normal(const std::array<Point<3>, 3>& corners) {
+  return unit_normal(corners[0], corners[2], corners[1]);
+}
+
 /// Unit normal of a half-facet towards its cell, rounded.
 template <int D>
 Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
-  const auto corners = spanning_corners(cell, i);
-  if constexpr (D == 2)
-    return unit_normal(corners[0], corners[1]);
-  else
-    return unit_normal(corners[0], corners[2], corners[1]);
+  return inner_normal(spanning_corners(cell, i));
 }
 
 /// An order of facets by the places of their corners: the same however they are numbered. Facets that coincide are equal.
