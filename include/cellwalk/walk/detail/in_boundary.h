@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Motions that run in the boundary of a cell: where walls may begin on their way. Rule: docs/walk.md, sides.
+// Motions that run in the boundary of a cell: where walls may begin on their way. Rule: docs/walk.md, choices.
 #ifndef CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 #define CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 
