@@ -11,21 +11,6 @@
 
 namespace cellwalk {
 
-Body_counts& Body_counts::operator+=(const Body_counts& other) {
-  moves += other.moves;
-  in_region += other.in_region;
-  regions += other.regions;
-  no_region += other.no_region;
-  region_cells += other.region_cells;
-  catch_ups += other.catch_ups;
-  contacts += other.contacts;
-  stop_tries += other.stop_tries;
-  held += other.held;
-  edges += other.edges;
-  faces += other.faces;
-  return *this;
-}
-
 namespace {
 
 /// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.

@@ -8,6 +8,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -25,12 +26,12 @@ struct Edge_counts {
       0;  ///< proved by their cells being neighbours with a convex union, no sign asked
   std::uint64_t same_chain = 0;     ///< proved by their chain being passed by the new edge
   std::uint64_t chain_facets = 0;   ///< facets looked at for that
-  std::uint64_t changed = 0;        ///< neither: the chain is another one, or there is none
+  std::uint64_t clear = 0;          ///< proved to meet no wall
   std::uint64_t event_sweeps = 0;   ///< swept triangles whose events were followed
+  std::uint64_t changed = 0;        ///< their chain is another one, or there is none
   std::uint64_t floods = 0;         ///< swept triangles flooded
   std::uint64_t flooded_cells = 0;  ///< cells met by them
-  std::uint64_t clear = 0;          ///< proved to meet no wall
-  std::uint64_t pierced = 0;        ///< proved to be pierced by one
+  std::uint64_t pierced = 0;        ///< proved to be pierced by a wall
   std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
   std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic ones
   std::uint64_t search_walks = 0;   ///< walks along the edge made by those that bisect its segment
@@ -39,8 +40,12 @@ struct Edge_counts {
   std::uint64_t search_misses = 0;
   Walk_counts walk;  ///< of all walks and signs
 
-  Edge_counts& operator+=(const Edge_counts& other);
+  static constexpr std::array<std::string_view, 16> names{
+      "checked",       "same_cell",    "convex_pair",  "same_chain",    "chain_facets", "clear",
+      "event_sweeps",  "changed",      "floods",       "flooded_cells", "pierced",      "searches",
+      "search_sweeps", "search_walks", "search_walls", "search_misses"};
 };
+static_assert(names_all_before<Edge_counts>(offsetof(Edge_counts, walk)));
 
 /// Which certificates a sweep tries before it follows events. Each is sound alone; leaving one out costs time only.
 struct Edge_certificates {

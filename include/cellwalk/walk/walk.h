@@ -9,6 +9,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -48,8 +49,11 @@ struct Walk_counts {
   std::uint64_t star_cells = 0;       ///< cells looked at by them
   Predicate_counts predicates;
 
-  Walk_counts& operator+=(const Walk_counts& other);
+  static constexpr std::array<std::string_view, 10> names{
+      "walks",      "stays",       "crossings", "plane_blocks",  "uncertain_lanes",
+      "side_tests", "along_tests", "turns",     "star_searches", "star_cells"};
 };
+static_assert(names_all_before<Walk_counts>(offsetof(Walk_counts, predicates)));
 
 enum class Walk_status {
   arrived,  ///< the target lies in the closure of `cell`
