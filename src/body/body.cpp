@@ -101,7 +101,8 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   const Way<D> way{from, to, visited_, crossed_, walked.contact.has_value()};
   std::optional<Body_contact<D>> first;
   if (walked.contact)
-    first = {vertex_contact(*snapshot_, way, *walked.contact, counts.edges.walk), vertex, vertex};
+    first = {vertex_contact(*snapshot_, from.position, target, *walked.contact, counts.edges.walk), vertex,
+             vertex};
   else if (options.sweep.touch == Touch::stop)
     if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
       first = {*touch, vertex, vertex};

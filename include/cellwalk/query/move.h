@@ -49,7 +49,8 @@ struct Move_options {
 
 /// Answers a motion from one point to another.
 /// A start on a wall with free space on several sides belongs to any of them: the side on which the motion gets furthest
-/// is taken, the cell of lowest index first.
+/// is taken, the cell of lowest index first. The time of a contact is exact with an exact kernel, and that of the walk, rounded,
+/// with another.
 /// \pre the locator is that of the snapshot; both points are finite; Touch::stop only with the exact kernel
 /// Cost: that of locating the start and of the walk, for each side. May be called from many threads, each with its counts.
 template <int D>
