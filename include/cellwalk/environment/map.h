@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The combinatorial map of an environment: the editable truth behind a snapshot. Includes CGAL; nothing that only
-// walks needs this header. Users of it link CGAL::CGAL.
+// The combinatorial map of an environment, which edits change and from which snapshots are compiled. Includes CGAL; users
+// link CGAL::CGAL. Walks do not need this header.
 //
 // A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first of them
-// names it. beta_D joins the two sides of a facet, walls included: passable or not is a mark, not a matter of gluing.
+// identifies it. beta_D joins the two sides of a facet, walls included: impassable facets are marked, not unglued.
 #ifndef CELLWALK_ENVIRONMENT_MAP_H
 #define CELLWALK_ENVIRONMENT_MAP_H
 
@@ -25,7 +25,7 @@
 
 namespace cellwalk {
 
-/// What a dart knows; 8 bytes, which CGAL would spend on padding anyway (679 bytes a tetrahedron all in).
+/// The information of a dart, in 8 bytes that CGAL would use for padding (679 bytes a tetrahedron in total).
 class Dart_info {
  public:
   static constexpr std::uint32_t max_half_facets = 1u << 29;
@@ -54,7 +54,7 @@ class Dart_info {
 };
 static_assert(sizeof(Dart_info) == 8);
 
-/// Darts carry a Dart_info; vertices a point and the index of the point in the soup and snapshot. A pinched vertex
+/// Darts have a Dart_info, vertices a point and the index of the point in the soup and snapshot. A pinched vertex
 /// (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with equal indices.
 struct Map_items {
   template <class Complex>
@@ -72,7 +72,7 @@ using Map =
     CGAL::Linear_cell_complex_for_combinatorial_map<D, D, CGAL::Linear_cell_complex_traits<D, Map_kernel>,
                                                     Map_items>;
 
-/// A point as the map holds it.
+/// A point of the map.
 inline Map<2>::Point to_map_point(const Point<2>& p) { return {p[0], p[1]}; }
 inline Map<3>::Point to_map_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -84,7 +84,7 @@ using Const_dart = decltype(std::declval<const Map<D>&>().darts().begin());
 template <int D>
 using Map_vertex = decltype(std::declval<Map<D>&>().create_vertex_attribute());
 
-/// The map with what leads into it. Not copied or moved: darts are addresses.
+/// The map with its indices. It cannot be copied or moved, since darts are addresses.
 template <int D>
 struct Map_storage {
   Map_storage() = default;
@@ -93,7 +93,7 @@ struct Map_storage {
 
   Map<D> map;
   std::size_t cell_count = 0;
-  /// First dart of each half-facet of the snapshot; Dart<D>{} for slots that are not used.
+  /// First dart of each half-facet of the snapshot; Dart<D>{} for unused slots.
   std::vector<Dart<D>> dart_of_half_facet;
   /// The vertex of each point: of its lowest cell, if the point is pinched.
   std::vector<Map_vertex<D>> vertex_of_point;
@@ -129,12 +129,13 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
 template <int D>
 std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing);
 
-/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i], of `slots` in all.
+/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i].
+/// \param slots the size of an array indexed by half-facets
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
                         std::span<const Half_facet> half_facets, std::size_t slots);
 
-/// What a map consists of.
+/// The counts of a map.
 struct Map_counts {
   std::size_t cells = 0, facets = 0, boundary_facets = 0, vertices = 0, darts = 0;
 

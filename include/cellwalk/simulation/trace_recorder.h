@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Makes traces: takes targets from whatever moves bodies, moves them by the rule of traces, and keeps the exact answers.
+// Records traces: moves bodies to given targets by the rule of traces, and stores the exact answers.
 #ifndef CELLWALK_SIMULATION_TRACE_RECORDER_H
 #define CELLWALK_SIMULATION_TRACE_RECORDER_H
 
@@ -12,20 +12,21 @@ namespace cellwalk {
 
 /// Records a trace step by step. Refers to the snapshot, which must outlive it.
 ///
-/// In a trace a touch counts as a hit, while here touching is free (see Touch). So that both mean the same, nothing that is
-/// recorded may touch a wall that it does not hit, and no edge may at the start: that is refused.
+/// In a trace a touch counts as a hit, while here touching is free (see Touch). To make both rules agree, motions that touch a wall
+/// without hitting it are refused, and so are edges that touch a wall at the start.
 class Trace_recorder {
  public:
-  /// `start` has its numbers of cells, its obstacles and, of each body, the start; steps, targets and answers are still
-  /// none. The snapshot is that of its environment.
+  /// \param snapshot the environment of the trace
+  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies; without steps
   /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one that touches a wall, or
   ///        has all its vertices in one place
   Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start);
 
-  /// Moves all vertices of all bodies, in order. \pre one finite target a vertex, [body][vertex]
-  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; nothing is recorded of its step then,
+  /// Moves all vertices of all bodies, in order.
+  /// \pre one finite target for each vertex, [body][vertex]
+  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; then its step is not recorded,
   ///        and the recorder must not be used any more
-  /// Cost: some ten times that of the replay, since touches are looked for.
+  /// Cost: some ten times that of the replay, since touches are detected.
   void step(std::span<const Point<3>> targets);
 
   const Trace& trace() const { return trace_; }
