@@ -46,9 +46,10 @@ struct Certificate {
   std::size_t solid_cells = 0;
   std::size_t walls = 0;  ///< impassable facets, the boundary included
   std::size_t boundary_facets = 0;
-  std::size_t membranes = 0;           ///< impassable facets with free cells on both sides
-  std::size_t components = 0;          ///< of free space, joined through passable facets
-  std::size_t pinched_vertices = 0;    ///< vertices whose cells are not connected through facets that contain them
+  std::size_t membranes = 0;   ///< impassable facets with free cells on both sides
+  std::size_t components = 0;  ///< of free space, joined through passable facets
+  std::size_t pinched_vertices =
+      0;  ///< vertices whose cells are not connected through facets that contain them
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
 };
 

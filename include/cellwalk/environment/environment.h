@@ -117,8 +117,7 @@ class Environment {
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
-  std::unique_ptr<detail::Boundary_index<D>>
-      boundary_;  ///< built when a vertex of the boundary first moves
+  std::unique_ptr<detail::Boundary_index<D>> boundary_;  ///< built when a vertex of the boundary first moves
   bool allow_duplicates_ = false;
 };
 

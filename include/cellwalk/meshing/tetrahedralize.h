@@ -19,7 +19,7 @@ struct Tetrahedralize_options {
   double quality = 0;
   double largest_volume = 0;                ///< of a tetrahedron; 0: any
   std::size_t most_added_points = 1000000;  ///< refinement stops there
-  bool keep_obstacles = false;              ///< true: obstacles are kept as solid cells; false: they are omitted
+  bool keep_obstacles = false;  ///< true: obstacles are kept as solid cells; false: they are omitted
   std::vector<std::string>
       obstacle_names{};  ///< names of the obstacles in messages; default: "obstacle 1", ...
 };

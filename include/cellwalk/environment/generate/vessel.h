@@ -39,7 +39,8 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options);
 /// A bent tube with a bulge on the outer side of the bend, like an aneurysm. Lengths in units of the tube's radius.
 struct Bulge_options {
   double length = 14;  ///< from end to end in a straight line
-  double bend = 0.4;  ///< height of the bend over the line between its ends, as a fraction of the length; 0 to 1
+  double bend =
+      0.4;  ///< height of the bend over the line between its ends, as a fraction of the length; 0 to 1
   double bulge_radius = 2;  ///< of the bulge; 0: none
   double bulge_offset = 2;  ///< of its centre from the centre line, outwards
   double cell_size = 0.3;
