@@ -62,10 +62,11 @@ struct Chain_result {
 /// Walks a temporary particle from p to q.
 /// \pre each particle lies in the closure of its cell
 /// Degenerate cases: where the segment may pass a wall on either side, one is taken by a fixed rule, see walk().
+/// \param locates_contact If false, a contact in the way is left to locate_contact().
 /// Cost: that of the walk.
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                           Walk_counts& counts);
+                           Walk_counts& counts, bool locates_contact = true);
 
 /// The same, but where the segment may pass a wall on either side, or lies in a plane of facets, through any of which it may
 /// change sides, all ways are tried until one leads to the side of q.

@@ -30,6 +30,8 @@ struct Walk_options {
   /// If set, the passable facets crossed are appended, each seen from the cell it was left by. Where the motion goes
   /// through a ridge or vertex, these are all facets on the way through its star.
   std::vector<Half_facet>* crossed = nullptr;
+  /// If false, a contact is left without its time, point and normal: they are 0 until locate_contact() computes them.
+  bool locates_contact = true;
 };
 
 /// What the walks did. All counts are machine-independent.
@@ -93,6 +95,12 @@ struct Walk_result {
 template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
+
+/// Computes the time, point and normal of a contact of the motion from a to b, if the walk left them out
+/// (Walk_options::locates_contact). Nothing changes if they are there. Cost: 0.2 us, more where the time needs rational arithmetic.
+template <int D>
+void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                    Wall_contact<D>& contact);
 
 namespace detail {
 

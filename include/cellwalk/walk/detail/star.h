@@ -14,33 +14,41 @@
 
 namespace cellwalk::detail {
 
+/// Corners that span a facet.
+template <int D>
+using Spanning_corners = std::array<const Point<D>*, static_cast<std::size_t>(D)>;
+
 /// Corners that span facet i, in its order: the same ones in whatever order cells and points are listed.
-inline std::array<Point<2>, 2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
+inline Spanning_corners<2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
-  return {cell.point(loop[0]), cell.point(loop[1])};
+  return {&cell.point(loop[0]), &cell.point(loop[1])};
 }
 
-inline std::array<Point<3>, 3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
+inline Spanning_corners<3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   const std::size_t n = loop.size();
-  const auto comes_before = [](const Point<3>& p, const Point<3>& q) {
-    return p[0] != q[0] ? p[0] < q[0] : p[1] != q[1] ? p[1] < q[1] : p[2] < q[2];
-  };
   std::size_t first = 0;
-  for (std::size_t k = 1; k < n; ++k)
-    if (comes_before(cell.point(loop[k]), cell.point(loop[first]))) first = k;
-  const auto at = [&](std::size_t k) -> const Point<3>& { return cell.point(loop[k % n]); };
-  while (n > 3 && are_collinear(at(first), at(first + 1), at(first + 2))) ++first;
-  return {at(first), at(first + 1), at(first + 2)};
+  const Point<3>* least = &cell.point(loop[0]);
+  for (std::size_t k = 1; k < n; ++k) {
+    const Point<3>& p = cell.point(loop[k]);
+    const Point<3>& q = *least;
+    if (p[0] > q[0]) continue;
+    if (p[0] == q[0] && (p[1] > q[1] || (p[1] == q[1] && p[2] > q[2]))) continue;
+    first = k;
+    least = &p;
+  }
+  // No line through its neighbours holds the least corner: the facet has an angle there.
+  return {least, &cell.point(loop[first + 1 < n ? first + 1 : 0]),
+          &cell.point(loop[first > 0 ? first - 1 : n - 1])};
 }
 
 /// The same as inner_normal(), by the spanning corners of the facet.
-inline Vector<2> inner_normal(const std::array<Point<2>, 2>& corners) {
-  return unit_normal(corners[0], corners[1]);
+inline Vector<2> inner_normal(const Spanning_corners<2>& corners) {
+  return unit_normal(*corners[0], *corners[1]);
 }
 
-inline Vector<3> inner_normal(const std::array<Point<3>, 3>& corners) {
-  return unit_normal(corners[0], corners[2], corners[1]);
+inline Vector<3> inner_normal(const Spanning_corners<3>& corners) {
+  return unit_normal(*corners[0], *corners[2], *corners[1]);
 }
 
 /// Unit normal of a half-facet towards its cell, rounded.
