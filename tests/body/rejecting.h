@@ -6,7 +6,6 @@
 #include <cellwalk/body/body.h>
 
 #include <span>
-#include <vector>
 
 namespace cellwalk::test {
 
@@ -15,16 +14,18 @@ inline Body_options rejecting(Sweep sweep, Touch touch, bool clearance) {
   options.sweep.sweep = sweep;
   options.sweep.touch = touch;
   options.clearance = clearance;
+  options.policy = Contact_policy::reject;
+  options.edges = Edge_rule::at_target;
+  options.reported = Reported::both;
   return options;
 }
 
-/// What blocks, vertex by vertex.
 template <int D>
-std::vector<Blocked_move<D>> reject(Body<D>& body, std::span<const Point<D>> targets,
-                                    const Body_options& options, Body_counts& counts) {
-  std::vector<Blocked_move<D>> blocked;
-  body.step_or_stay(targets, options, blocked, counts);
-  return blocked;
+Step_report<D> reject(Body<D>& body, std::span<const Point<D>> targets, const Body_options& options,
+                      Body_counts& counts) {
+  Step_report<D> report;
+  body.step(targets, options, report, counts);
+  return report;
 }
 
 }  // namespace cellwalk::test

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "body/closed_walls.h"
 #include "body/rejecting.h"
@@ -155,8 +158,28 @@ class Rejection {
     return answer;
   }
 
+  /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that time.
+  bool is_contact(const Body_contact<D>& met, const std::vector<Point<D>>& positions,
+                  const Point<D>& target) const {
+    const Contact<D>& c = met.contact;
+    const Point<D>& from = positions[met.vertex];
+    const Point<D> there = from + c.time * (target - from);
+    bool is_there = false;
+    if (c.body == Body_feature::vertex) {
+      is_there = length(c.point - there) < 1e-6;
+    } else if (c.body == Body_feature::edge) {
+      const auto& [u, v] = edges_[met.feature];
+      const Vector<D> along = positions[u == met.vertex ? v : u] - there;
+      const double share =
+          std::clamp(dot(c.point - there, along) / std::max(1e-300, dot(along, along)), 0.0, 1.0);
+      is_there = (u == met.vertex || v == met.vertex) && length(there + share * along - c.point) < 1e-6;
+    }
+    return is_there && snapshot_.is_impassable(c.facet) && std::abs(length(c.normal) - 1) < 1e-9;
+  }
+
   void follow(Body<D>& body, int steps) {
     std::vector<Point<D>> positions(body.positions().begin(), body.positions().end());
+    edges_.assign(body.edges().begin(), body.edges().end());
     const Sweep sweeps[]{Sweep::three_segments, Sweep::triangle, Sweep::faces};
     const std::uint64_t sweep_of_all = random_.below(4);
     for (int step = 0; step < steps; ++step) {
@@ -167,7 +190,8 @@ class Rejection {
       seen_.along_walls +=
           std::ranges::any_of(positions, [&](const auto& x) { return walls_.meet_segment(x, x); });
       Body<D> passing = body;
-      const auto blocked = reject<D>(body, to, rejecting(sweep, touch_, clearance), seen_.counts);
+      const auto [contacts, blocked] = reject<D>(body, to, rejecting(sweep, touch_, clearance), seen_.counts);
+      auto contact = contacts.begin();
       auto given = blocked.begin();
       for (std::uint32_t v = 0; v < to.size(); ++v) {
         ++seen_.moves;
@@ -179,8 +203,11 @@ class Rejection {
         ASSERT_EQ(given->edges, truth.edges) << step << ": " << v;
         ASSERT_EQ(given->swept_edges, truth.swept_edges) << step << ": " << v;
         ASSERT_EQ(given->contact.has_value(), truth.stays());
-        if (given->contact) {
+        if (truth.stays()) {
           ASSERT_TRUE(snapshot_.is_impassable(given->contact->facet));
+          ASSERT_TRUE(contact != contacts.end() && contact->vertex == v) << step << ": " << v;
+          ASSERT_TRUE(is_contact(*contact, positions, to[v])) << step << ": " << v;
+          ++contact;
         }
         seen_.by_vertex += truth.is_vertex_blocked;
         seen_.by_edges += truth.edges != 0;
@@ -188,11 +215,13 @@ class Rejection {
         ++given;
       }
       ASSERT_TRUE(given == blocked.end()) << step << ": " << given->vertex << " is blocked";
+      ASSERT_TRUE(contact == contacts.end()) << step << ": " << contact->vertex << " meets something";
       ASSERT_TRUE(std::ranges::equal(body.positions(), positions)) << step;
       if (touch_ == Touch::stop) {
         Body_counts counts;
         seen_.only_touch +=
-            reject<D>(passing, to, rejecting(sweep, Touch::pass, clearance), counts).size() != blocked.size();
+            reject<D>(passing, to, rejecting(sweep, Touch::pass, clearance), counts).blocked.size() !=
+            blocked.size();
       }
       if (!random_.chance(0.2)) continue;
       body.catch_up(seen_.counts);
@@ -207,6 +236,7 @@ class Rejection {
   const Snapshot<D> snapshot_;
   const Locator<D> locator_;
   const Closed_walls<D> walls_;
+  std::vector<std::array<std::uint32_t, 2>> edges_;  ///< of the body
   Rejected_seen& seen_;
 };
 

@@ -45,7 +45,7 @@ Told told(const Snapshot<2>& snapshot, const Body_soup<2>& soup, const Point<2>&
   for (const bool clearance : {false, true}) {
     Body<2> body(snapshot, Locator<2>(snapshot), soup);
     Body_counts counts;
-    const auto blocked = reject<2>(body, targets, rejecting(sweep, touch, clearance), counts);
+    const auto blocked = reject<2>(body, targets, rejecting(sweep, touch, clearance), counts).blocked;
     const auto first = std::ranges::find(blocked, 0u, &Blocked_move<2>::vertex);
     answers.push_back(
         first == blocked.end() ? nothing : Told{first->is_vertex_blocked, first->edges, first->swept_edges});
@@ -109,13 +109,17 @@ TEST(Body_reject, EdgesThatGoRoundAreToldAndMove) {
       EXPECT_EQ(told(snapshot, below, {2.5, 3.5}, sweep, touch), (Told{false, 1, swept}));
       Body<2> body(snapshot, Locator<2>(snapshot), below);
       Body_counts counts;
-      const auto blocked =
+      const auto [contacts, blocked] =
           reject<2>(body, std::vector<Point<2>>{{2.5, 3.5}, {4, 1.5}}, rejecting(sweep, touch, true), counts);
       ASSERT_EQ(blocked.size(), 1u);
       EXPECT_TRUE(blocked[0].stays());
       EXPECT_EQ(blocked[0].contact->point, (Point<2>{3.625, 2}))
           << "that is not where the edge would meet it";
       EXPECT_EQ(blocked[0].contact->time, 0.75);
+      // Half way, from (1.5, 2.5), the edge meets the end of the membrane.
+      ASSERT_EQ(contacts.size(), 1u);
+      EXPECT_EQ(contacts[0].contact.body, Body_feature::edge);
+      EXPECT_EQ(contacts[0].contact.point, (Point<2>{3, 2}));
     }
 }
 
@@ -132,13 +136,14 @@ TEST(Body_reject, VerticesMoveOneAfterTheOther) {
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
     Body<2> body(snapshot, Locator<2>(snapshot), soup);
     Body_counts counts;
-    const auto blocked = reject<2>(body, targets, rejecting(sweep, Touch::pass, true), counts);
+    const auto blocked = reject<2>(body, targets, rejecting(sweep, Touch::pass, true), counts).blocked;
     ASSERT_EQ(blocked.size(), 6u);
     for (std::uint32_t i = 0; i < 6; ++i) {
       EXPECT_EQ(blocked[i].vertex, 6 + i);
       EXPECT_TRUE(blocked[i].is_vertex_blocked);
     }
     EXPECT_EQ(counts.contacts, 6u);
+    EXPECT_EQ(counts.held, 6u);
     EXPECT_EQ(counts.moves, 12u);
   }
 }
@@ -153,7 +158,7 @@ TEST(Body_reject, FacesAreLeftAlone) {
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle, Sweep::faces}) {
     Body<3> body(snapshot, Locator<3>(snapshot), soup);
     Body_counts counts;
-    EXPECT_TRUE(reject<3>(body, targets, rejecting(sweep, Touch::pass, true), counts).empty());
+    EXPECT_TRUE(reject<3>(body, targets, rejecting(sweep, Touch::pass, true), counts).blocked.empty());
     EXPECT_TRUE(std::ranges::equal(body.positions(), targets));
     body.catch_up(counts);
     EXPECT_NO_THROW(body.validate());

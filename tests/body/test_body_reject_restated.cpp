@@ -171,7 +171,8 @@ class Restatement {
       const Sweep sweep = random().below(2) == 0 ? Sweep::three_segments : Sweep::triangle;
       // With a region, a vertex on a border between cells may be registered in another one: see Body_options.
       const bool clearance = generic_ && random().below(2) == 0;
-      const auto blocked = reject<D>(body, to, rejecting(sweep, Touch::pass, clearance), seen_.counts);
+      const auto blocked =
+          reject<D>(body, to, rejecting(sweep, Touch::pass, clearance), seen_.counts).blocked;
       auto given = blocked.begin();
       for (std::uint32_t v = 0; v < to.size(); ++v) {
         ++seen_.moves;

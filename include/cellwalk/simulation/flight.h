@@ -33,10 +33,9 @@ class Flight {
   /// A body whose origin stands at the first way point. It turns about its origin.
   Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. Thrown bodies turn back from the walls they meet. A body whose motion
+  /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least. Thrown bodies turn back from the walls they meet. A body whose motion
   /// is not finite stays where it is, and loses its velocity and spin.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts);
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

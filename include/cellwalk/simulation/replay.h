@@ -6,7 +6,6 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/trace.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +26,7 @@ struct Replay_counts {
   std::uint64_t edge_hits = 0;      ///< edges that hit at the target: bits 1 to 3
   std::uint64_t triangle_hits = 0;  ///< triangles of them that hit, if triangles are swept: bits 4 to 6
   std::uint64_t rounds = 0;  ///< edges that went round an obstacle: their triangle hits, and they do not
-  Body_counts body;          ///< contacts: moves after which the vertex stays where it was
+  Body_counts body;          ///< held: moves after which the vertex stays where it was
 };
 
 struct Replay_options {
@@ -69,10 +68,8 @@ class Replay {
   const Trace* trace_;
   Body_options options_;
   std::vector<Body<3>> bodies_;
-  /// Of each vertex, which of its three edges leads to its i-th neighbour.
-  std::array<std::array<std::uint8_t, trace_edges>, trace_vertices> edge_of_{};
-  std::vector<Blocked_move<3>> blocked_;  ///< in one step of one body
-  std::vector<std::uint8_t> answers_;     ///< of all moves, the coming ones with none
+  Step_report<3> report_;              ///< of one body in one step
+  std::vector<std::uint8_t> answers_;  ///< of all moves, the coming ones with none
   std::vector<Replay_contact> contacts_;
   std::uint32_t steps_done_ = 0;
   Replay_counts counts_;

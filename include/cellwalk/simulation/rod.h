@@ -42,8 +42,7 @@ class Rod {
 
   /// Pushes it by one step. Contacts are appended. Only what is checked of bodies is taken from the conditions.
   /// Cost: about 1 us a vertex, and that of Body::step.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts);
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

@@ -3,7 +3,8 @@
 #ifndef CELLWALK_SIMULATION_TRACE_RECORDER_H
 #define CELLWALK_SIMULATION_TRACE_RECORDER_H
 
-#include <cellwalk/simulation/trace_body.h>
+#include <cellwalk/simulation/trace_rule.h>
+#include <cellwalk/walk/locate.h>
 
 #include <span>
 #include <vector>
@@ -11,9 +12,6 @@
 namespace cellwalk {
 
 /// Records a trace step by step. Refers to the snapshot, which must outlive it.
-///
-/// In a trace a touch counts as a hit, while here touching is free (see Touch). So that both mean the same, nothing that is
-/// recorded may touch a wall that it does not hit, and no edge may at the start: that is refused.
 class Trace_recorder {
  public:
   /// `start` has its numbers of cells, its obstacles and, of each body, the start; steps, targets and answers are still
@@ -23,23 +21,18 @@ class Trace_recorder {
   Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start);
 
   /// Moves all vertices of all bodies, in order. \pre one finite target a vertex, [body][vertex]
-  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; nothing is recorded of its step then,
-  ///        and the recorder must not be used any more
-  /// Cost: some ten times that of the replay, since touches are looked for.
+  /// Cost: that of Body::step.
   void step(std::span<const Point<3>> targets);
 
   const Trace& trace() const { return trace_; }
-  std::span<const Trace_body> bodies() const { return bodies_; }
-  const Trace_counts& counts() const { return counts_; }
+  std::span<const Body<3>> bodies() const { return bodies_; }
+  const Body_counts& counts() const { return counts_; }
 
  private:
-  void check_start(std::size_t body) const;
-  bool touches(const Trace_body& body, std::size_t vertex, const Point<3>& target) const;
-
-  const Snapshot<3>* snapshot_;
   Trace trace_;
-  std::vector<Trace_body> bodies_;
-  Trace_counts counts_;
+  std::vector<Body<3>> bodies_;
+  Step_report<3> report_;  ///< of one body in one step
+  Body_counts counts_;
 };
 
 }  // namespace cellwalk

@@ -57,6 +57,8 @@ class World {
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
+  /// What the last step of one body reported. \pre there was one
+  const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
   /// What particles walked.
   const Walk_counts& counts() const { return counts_; }
   /// What the moves of bodies did.
@@ -77,7 +79,7 @@ class World {
   void place_copies(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator);
   void step_free();
   void step_bodies();
-  void report(std::size_t particle);
+  void record_contacts(std::size_t particle);
 
   void check_epoch() const;
 
@@ -93,8 +95,8 @@ class World {
   Flight_conditions<D> conditions_;
   std::vector<Contact_record<D>> contacts_;
   struct Body_step {
-    std::vector<Body_contact<D>> contacts;  ///< in the latest step
-    Body_counts counts;                     ///< of all steps
+    Step_report<D> report;  ///< of the latest step
+    Body_counts counts;     ///< of all steps
   };
   std::vector<Body_step> body_steps_;  ///< of each body: they move at the same time
   std::vector<Met_contact<D>> met_;
