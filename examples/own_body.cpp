@@ -70,10 +70,10 @@ int main() {
   Body_options options;
   options.sweep.sweep = Sweep::faces;  // vertices, edges and faces: nothing is missed
   Body_counts counts;
-  std::vector<Body_contact<3>> contacts;
+  Step_report<3> report;
   for (int step = 0; step < 1024; ++step) {
     const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
-    body.step(springs.targets(body), options, contacts, counts);
+    body.step(springs.targets(body), options, report, counts);
     springs.follow(before, body);
   }
   //! [loop]
@@ -84,9 +84,9 @@ int main() {
   for (const Point<3>& p : body.positions())
     for (int i = 0; i < 3; ++i) lowest[i] = p[i] < lowest[i] ? p[i] : lowest[i];
   std::printf("%llu moves of vertices, %zu contacts\n", static_cast<unsigned long long>(counts.moves),
-              contacts.size());
+              report.contacts.size());
   std::printf("lowest x %.3f, lowest z %.3f\n", lowest[0], lowest[2]);
-  const Contact<3>& first = contacts.front().contact;
+  const Contact<3>& first = report.contacts.front().contact;
   std::printf("first: normal (%g %g %g) at z = %g\n", first.normal[0], first.normal[1], first.normal[2],
               first.point[2]);
 }

@@ -4,7 +4,6 @@
 #include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/trace_body.h>
 #include <cellwalk/simulation/trace_environment.h>
 #include <cellwalk/simulation/trace_recorder.h>
 
@@ -110,7 +109,7 @@ Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_
     // Most places are refused, and cheaply so where a vertex is not in free space.
     if (std::ranges::any_of(positions, [&](const Point<3>& x) { return !locator.particle_at(x); })) continue;
     try {
-      const Trace_body body(snapshot, locator, positions);
+      const Body<3> body(snapshot, locator, trace_body_soup(positions));
       starts.insert(starts.end(), positions.begin(), positions.end());
       return flyer;
     } catch (const Error& error) {
@@ -148,7 +147,7 @@ Trace make_trace(const Trace_options& options) {
     targets.clear();
     for (std::uint32_t b = 0; b < options.bodies; ++b) {
       std::array<Point<3>, trace_vertices> positions;
-      std::ranges::transform(recorder.bodies()[b].particles(), positions.begin(), &Particle<3>::position);
+      std::ranges::copy(recorder.bodies()[b].positions(), positions.begin());
       const auto goals = flyers[b].targets(positions);
       targets.insert(targets.end(), goals.begin(), goals.end());
     }

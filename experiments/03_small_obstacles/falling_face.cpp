@@ -97,14 +97,14 @@ Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall&
   options.sweep.sweep = sweep;
   options.most_contacts = 1;  // stop there
   Body_counts counts;
-  std::vector<Body_contact<3>> contacts;
-  for (int step = 0; step < most_steps && contacts.empty(); ++step) {
+  Step_report<3> report;
+  for (int step = 0; step < most_steps && report.contacts.empty(); ++step) {
     std::array<Point<3>, 3> targets;
     for (std::size_t v = 0; v < 3; ++v) targets[v] = body.positions()[v] + fall.step;
-    body.step(targets, options, contacts, counts);
+    body.step(targets, options, report, counts);
   }
   Landing landing;
-  if (!contacts.empty()) landing.stopped_by = contacts.front().contact.body;
+  if (!report.contacts.empty()) landing.stopped_by = report.contacts.front().contact.body;
   std::copy(body.positions().begin(), body.positions().end(), landing.end.begin());
   return landing;
 }

@@ -60,11 +60,11 @@ void fly(benchmark::State& state, const Body_options& options) {
   Flight_conditions<3> conditions;
   conditions.time_step = step_length;
   conditions.body = options;
-  std::vector<Body_contact<3>> contacts;
+  Step_report<3> report;
   Body_counts counts;
   for (auto _ : state) {
-    for (Flight<3>& flight : flights) flight.step(conditions, contacts, counts);
-    contacts.clear();
+    for (Flight<3>& flight : flights) flight.step(conditions, report, counts);
+    report.clear();
   }
   const auto n = static_cast<double>(counts.moves), edges = static_cast<double>(counts.edges.edges);
   const auto share = [](std::uint64_t part, double whole) { return static_cast<double>(part) / whole; };

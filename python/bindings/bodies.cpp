@@ -85,35 +85,20 @@ class Any_body {
     return std::visit(
         [&]<int D>(Body<D>& body) -> py::array {
           const auto to = targets_of(body, targets);
-          std::vector<Body_contact_row<D>> rows;
+          if (options.edges == Edge_rule::at_target) need_few_edges(body);
+          Step_report<D> report;
+          std::vector<Body_contact_row<D>> contacts;
+          std::vector<Blocked_row<D>> blocked;
           {
             const py::gil_scoped_release released;
             const std::lock_guard guard(*moving_);
-            std::vector<Body_contact<D>> contacts;
-            body.step(to, options, contacts, counts_);
+            body.step(to, options, report, counts_);
             const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
-            for (const Body_contact<D>& contact : contacts) rows.push_back(to_row(snapshot, contact));
+            for (const Body_contact<D>& met : report.contacts) contacts.push_back(to_row(snapshot, met));
+            for (const Blocked_move<D>& move : report.blocked) blocked.push_back(to_row(snapshot, move));
           }
-          return to_array(std::move(rows));
-        },
-        body_);
-  }
-
-  py::array step_or_stay(const py::object& targets, const Body_options& options) {
-    return std::visit(
-        [&]<int D>(Body<D>& body) -> py::array {
-          const auto to = targets_of(body, targets);
-          need_few_edges(body);
-          std::vector<Blocked_row<D>> rows;
-          {
-            const py::gil_scoped_release released;
-            const std::lock_guard guard(*moving_);
-            std::vector<Blocked_move<D>> blocked;
-            body.step_or_stay(to, options, blocked, counts_);
-            const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
-            for (const Blocked_move<D>& move : blocked) rows.push_back(to_row(snapshot, move));
-          }
-          return to_array(std::move(rows));
+          return options.reported == Reported::blocked ? py::array(to_array(std::move(blocked)))
+                                                       : py::array(to_array(std::move(contacts)));
         },
         body_);
   }
@@ -198,7 +183,8 @@ class Any_body {
     for (std::uint32_t v = 0; v < body.vertex_count(); ++v)
       if (const std::size_t count = body.neighbours(v).size(); count > most)
         throw py::value_error(
-            fmt::format("vertex {} has {} edges: step_or_stay() takes at most {} a vertex, step() any number",
+            fmt::format("vertex {} has {} edges: edges=\"at_target\" takes at most {} a vertex, "
+                        "edges=\"swept\" any number",
                         v, count, most));
     has_few_edges_ = true;
   }
@@ -217,12 +203,21 @@ class Any_body {
   std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
 };
 
-Body_options to_options(const Sweep_words& words, bool clearance, int most_contacts, bool hold) {
+struct Step_words {
+  const std::string &policy, &edges, &report;
+};
+
+Body_options to_options(const Sweep_words& words, const Step_words& rule, bool clearance, int most_contacts) {
   Body_options options;
   options.sweep = to_sweep_options(words);
   options.clearance = clearance;
+  options.policy = choose<Contact_policy>(
+      rule.policy, "policy", {{"slide", Contact_policy::slide}, {"reject", Contact_policy::reject}});
+  options.edges = choose<Edge_rule>(rule.edges, "edges",
+                                    {{"swept", Edge_rule::swept}, {"at_target", Edge_rule::at_target}});
+  options.reported = choose<Reported>(rule.report, "report",
+                                      {{"contacts", Reported::contacts}, {"blocked", Reported::blocked}});
   options.most_contacts = most_contacts;
-  options.hold = hold;
   return options;
 }
 
@@ -263,58 +258,43 @@ void bind_bodies(py::module_& module) {
       .def(
           "step",
           [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
-             const std::string& search, double tolerance, bool clearance, int most_contacts, bool hold) {
-            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, clearance,
-                                                 most_contacts, hold));
+             const std::string& search, double tolerance, const std::string& policy, const std::string& edges,
+             const std::string& report, bool clearance, int most_contacts) {
+            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance},
+                                                 {policy, edges, report}, clearance, most_contacts));
           },
           py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
-          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("clearance") = true,
-          py::arg("most_contacts") = 4, py::arg("hold") = false,
-          "Moves the vertices one after the other to their targets, as far as walls allow; a vertex that "
-          "meets one slides "
-          "on along it. Returns the contacts as a structured array: vertex (that moved), feature (number of "
-          "the vertex, edge "
-          "or face that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
+          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("policy") = "slide",
+          py::arg("edges") = "swept", py::arg("report") = "contacts", py::arg("clearance") = true,
+          py::arg("most_contacts") = 4,
+          "Moves the vertices one after the other to their targets, as far as walls allow. Returns the "
+          "contacts as a structured array: vertex (that moved), feature (number of the vertex, edge or face "
+          "that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
           "sweep: \"triangle\": nothing that an edge sweeps is missed; \"faces\": nor a face; "
-          "\"three_segments\": the "
-          "paper's.\n"
-          "most_contacts: a vertex that met so many walls in a step stays until the next. hold: it stays at "
-          "the first, where "
-          "it was.")
-      .def(
-          "step_or_stay",
-          [](Any_body& self, const py::object& targets, const std::string& sweep, bool clearance) {
-            Body_options options;
-            options.sweep.sweep = choose<Sweep>(
-                sweep, "sweep", {{"triangle", Sweep::triangle}, {"three_segments", Sweep::three_segments}});
-            options.clearance = clearance;
-            return self.step_or_stay(targets, options);
-          },
-          py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("clearance") = true,
-          "Moves the vertices one after the other by the rule of the paper: a vertex that meets a wall, or "
-          "would "
-          "have an edge that does where it goes, stays where it is. Touching is free; no contact is located, "
-          "and faces are not looked at. Returns what blocks, vertex by vertex, as a structured array: "
-          "vertex, "
-          "stays, is_vertex_blocked, edges and swept_edges (bit i is for neighbours(vertex)[i]), time, "
-          "point, "
-          "normal, kind, cell, facet. A vertex without a row moved, and nothing was met.\n\n"
-          "edges: a wall is in their way where the vertex would be. The wall of the row is that in the way "
-          "of "
-          "the vertex or, if that is free, of the first of these edges, with time and point along the edge.\n"
-          "swept_edges, unless sweep is \"three_segments\": a wall is in their way while they sweep their "
-          "triangles, which does not hold the vertex back: where nothing else does, stays is False, time is "
-          "nan "
-          "and cell is -1.\n"
-          "No vertex may have more than 64 edges.")
+          "\"three_segments\": the paper's.\n"
+          "policy: a vertex that meets a wall slides on along it, until it met most_contacts of them; or "
+          "\"reject\": it stays where it was.\n"
+          "edges: \"swept\": an edge that meets a wall while it sweeps is one that does. \"at_target\", with "
+          "policy=\"reject\": the rule of the paper and of traces: only one that meets a wall where its "
+          "vertex goes. Faces are not looked at then, and no vertex may have more than 64 edges.\n"
+          "report=\"blocked\", with edges=\"at_target\": returns what blocks instead, vertex by vertex, and "
+          "locates no contact of an edge on its way: vertex, stays, is_vertex_blocked, edges and swept_edges "
+          "(bit i is for neighbours(vertex)[i]), time, point, normal, kind, cell, facet. A vertex without a "
+          "row moved, and nothing was met. edges: a wall is in their way where the vertex would be. The wall "
+          "of the row is that in the way of the vertex or, if that is free, of the first of these edges, "
+          "with "
+          "time and point along the edge. swept_edges, unless sweep is \"three_segments\": a wall is in "
+          "their "
+          "way while they sweep their triangles, which does not hold the vertex back: where nothing else "
+          "does, stays is False, time is nan and cell is -1.")
       .def("neighbours", &Any_body::neighbours, py::arg("vertex"),
            "uint32 (K,): the other ends of the edges of a vertex, ascending.")
       .def(
           "move_vertex",
           [](Any_body& self, std::uint32_t vertex, const py::object& target, const std::string& sweep,
              const std::string& touch, const std::string& search, double tolerance) {
-            return self.move_vertex(vertex, target,
-                                    to_options({sweep, touch, search, "flooded", tolerance}, true, 4, false));
+            return self.move_vertex(
+                vertex, target, {.sweep = to_sweep_options({sweep, touch, search, "flooded", tolerance})});
           },
           py::arg("vertex"), py::arg("target"), py::kw_only(), py::arg("sweep") = "triangle",
           py::arg("touch") = "pass", py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20,

@@ -143,16 +143,11 @@ class Body:
         touch: _Touch = "pass",
         search: _Search = "exact",
         tolerance: float = ...,
+        policy: Literal["slide", "reject"] = "slide",
+        edges: Literal["swept", "at_target"] = "swept",
+        report: Literal["contacts", "blocked"] = "contacts",
         clearance: bool = True,
         most_contacts: int = 4,
-        hold: bool = False,
-    ) -> numpy.typing.NDArray[numpy.void]: ...
-    def step_or_stay(
-        self,
-        targets: _Points,
-        *,
-        sweep: Literal["triangle", "three_segments"] = "triangle",
-        clearance: bool = True,
     ) -> numpy.typing.NDArray[numpy.void]: ...
     def neighbours(self, vertex: int) -> numpy.typing.NDArray[numpy.uint32]: ...
     def move_vertex(

@@ -12,6 +12,7 @@ from cellwalk import Feature
 
 TETRAHEDRON = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 FACES = numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+BY_RULE = {"policy": "reject", "edges": "at_target", "report": "blocked"}
 
 
 class Bodies(unittest.TestCase):
@@ -69,7 +70,7 @@ class Bodies(unittest.TestCase):
         self.body.validate()
 
     def test_the_rule_of_the_paper_against_walks_and_sweeps(self):
-        """step_or_stay() decides as questions about the same motions do, vertex by vertex."""
+        """Edges at their targets decide as questions about the same motions do, vertex by vertex."""
         environment = cellwalk.Environment.generate("hexes", cells=6, solid=0.1)
         rng = numpy.random.default_rng(11)
         shape = 0.6 * (TETRAHEDRON - 0.25)
@@ -87,7 +88,7 @@ class Bodies(unittest.TestCase):
                         expected.append(self.rule(environment, now, vertex, targets[vertex], body, sweep))
                         if not (expected[-1][0] or expected[-1][1]):
                             now[vertex] = targets[vertex]
-                    rows = body.step_or_stay(targets, sweep=sweep)
+                    rows = body.step(targets, sweep=sweep, **BY_RULE)
                     self.assertEqual(body.positions.tobytes(), now.tobytes())
                     told = {row["vertex"]: row for row in rows}
                     self.assertEqual(list(told), sorted(told))
@@ -126,13 +127,13 @@ class Bodies(unittest.TestCase):
         return False, edges, swept
 
     def test_what_blocks_at_once(self):
-        rows = self.body.step_or_stay(self.body.positions + [0.0, 0.0, 3.0])
+        rows = self.body.step(self.body.positions + [0.0, 0.0, 3.0], **BY_RULE)
         self.assertEqual(rows["vertex"].tolist(), [0, 1, 2, 3])
         self.assertTrue(rows["is_vertex_blocked"].all() and rows["stays"].all())
         self.assertTrue((rows["point"][:, 2] == 4).all() and (rows["normal"] == [0, 0, -1]).all())
         self.assertEqual(rows["kind"].tolist(), [Feature.FACET] * 4)
         self.assertTrue((self.body.positions == TETRAHEDRON + 1.5).all())
-        self.assertEqual(len(self.body.step_or_stay(self.body.positions + [0.0, 0.0, 1.5])), 0)
+        self.assertEqual(len(self.body.step(self.body.positions + [0.0, 0.0, 1.5], **BY_RULE)), 0)
         self.assertEqual(self.body.positions[3, 2], 4, "touching is free")
         self.assertEqual(self.body.counts["contacts"], 4)
 
@@ -153,18 +154,22 @@ class Bodies(unittest.TestCase):
         with self.assertRaisesRegex(IndexError, "no vertex 9"):
             self.body.neighbours(9)
         with self.assertRaisesRegex(ValueError, "the target of vertex 2 is not finite"):
-            self.body.step_or_stay(targets)
-        with self.assertRaisesRegex(cellwalk.UsageError, "sweep.*faces"):
-            self.body.step_or_stay(self.body.positions, sweep="faces")
+            self.body.step(targets, **BY_RULE)
+        with self.assertRaisesRegex(cellwalk.UsageError, "no contact to slide from"):
+            self.body.step(self.body.positions, edges="at_target")
+        with self.assertRaisesRegex(cellwalk.UsageError, "reports contacts only"):
+            self.body.step(self.body.positions, report="blocked")
+        with self.assertRaisesRegex(cellwalk.UsageError, "policy.*stay"):
+            self.body.step(self.body.positions, policy="stay")
         angles = numpy.arange(66) / 10
         star = numpy.stack([2 + numpy.cos(angles), 2 + numpy.sin(angles), 1 + angles / 10], axis=1)
         star[0] = 2.0
         spokes = numpy.array([[0, i] for i in range(1, 66)])
         many = cellwalk.Body(self.environment, star, spokes)
         with self.assertRaisesRegex(ValueError, "vertex 0 has 65 edges"):
-            many.step_or_stay(star)
+            many.step(star, **BY_RULE)
         self.assertEqual(many.neighbours(0).tolist(), list(range(1, 66)))
-        self.assertEqual(len(cellwalk.Body(self.environment, star[:-1].copy(), spokes[:-1].copy()).step_or_stay(star[:-1].copy())), 0)
+        self.assertEqual(len(cellwalk.Body(self.environment, star[:-1].copy(), spokes[:-1].copy()).step(star[:-1].copy(), **BY_RULE)), 0)
         self.assertTrue((self.body.positions == TETRAHEDRON + 1.5).all())
 
     def test_from_a_file(self):

@@ -80,19 +80,33 @@ template <int D>
 std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
                                                     const Body_options& options, Body_counts& counts) {
   leave_region(counts);  // which asks for the epoch
-  return try_move(vertex, target, options, counts);
+  return try_move(vertex, target, options.sweep, counts);
 }
 
 template <int D>
 std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
-                                                 const Body_options& options, Body_counts& counts, bool any) {
-  if (options.sweep.sweep == Sweep::faces) take_up_faces(counts);
+                                                 const Sweep_options& options, Body_counts& counts,
+                                                 bool any) {
+  if (options.sweep == Sweep::faces) take_up_faces(counts);
   if (target == positions_[vertex]) return {};
+  Particle<D> to;
+  if (const auto first = find_contact(vertex, target, options, counts, any, to)) return first;
+  are_faces_swept_ &= options.sweep == Sweep::faces;
+  is_apart_ = false;
+  for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
+  commit(vertex, to);
+  return {};
+}
+
+template <int D>
+std::optional<Body_contact<D>> Body<D>::find_contact(std::uint32_t vertex, const Point<D>& target,
+                                                     const Sweep_options& options, Body_counts& counts,
+                                                     bool any, Particle<D>& to) {
   catch_up_vertex(vertex, counts);
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
     catch_up_edge(corners_[i].edge, counts);
   const Particle<D> from = particles_[vertex];
-  Particle<D> to = from;
+  to = from;
   visited_.clear();
   crossed_.clear();
   const Walk_result<D> walked =
@@ -103,7 +117,7 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   if (walked.contact)
     first = {vertex_contact(*snapshot_, from.position, target, *walked.contact, counts.edges.walk), vertex,
              vertex};
-  else if (options.sweep.touch == Touch::stop)
+  else if (options.touch == Touch::stop)
     if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
       first = {*touch, vertex, vertex};
   if (any && first) return first;
@@ -111,8 +125,8 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   moved_chains_.resize(corner_begin_[vertex + 1] - corner_begin_[vertex]);
   for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
     const Corner& corner = corners_[i];
-    Sweep_result<D> swept = sweep_edge_along(*snapshot_, way, particles_[corner.other], seen_from(corner),
-                                             options.sweep, counts.edges);
+    Sweep_result<D> swept =
+        sweep_edge_along(*snapshot_, way, particles_[corner.other], seen_from(corner), options, counts.edges);
     if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
       const bool is_edge = swept.contact->body == Body_feature::edge;
       first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
@@ -124,13 +138,8 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
     moved.is_behind = false;
   }
   moved_rests_.clear();
-  if (options.sweep.sweep == Sweep::faces) sweep_faces(vertex, way, first, counts);
-  if (first) return first;
-  are_faces_swept_ &= options.sweep.sweep == Sweep::faces;
-  is_apart_ = false;
-  for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
-  commit(vertex, to);
-  return {};
+  if (options.sweep == Sweep::faces) sweep_faces(vertex, way, first, counts);
+  return first;
 }
 
 /// Takes the chains of a moved vertex over, and its place.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
 #include <cellwalk/body/body.h>
+#include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,27 +31,53 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   return along;
 }
 
+[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
+  throw Error(Error_code::usage,
+              options.edges == Edge_rule::at_target
+                  ? "a step that looks at edges where their vertex goes has no contact to slide "
+                    "from: use Contact_policy::reject with Edge_rule::at_target"
+                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
+                    "to have what blocks reported");
+}
+
+void check_rule(const Body_options& options) {
+  const bool is_at_target = options.edges == Edge_rule::at_target;
+  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
+    refuse_rule(options);
+}
+
 }  // namespace
 
 template <int D>
-void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options,
-                   std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
+void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
+                   Body_counts& counts) {
+  check_rule(options);
   if (moves_at_once(targets, options, counts)) return;
+  if (options.edges == Edge_rule::at_target)
+    move_each_or_stay(targets, options, report, counts);
+  else
+    move_each(targets, options, report.contacts, counts);
+}
+
+/// Moves vertex by vertex; what edges sweep counts.
+template <int D>
+void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& options,
+                        std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
   std::vector<Vector<D>> normals;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     if (moves_in_region(v, targets[v], counts)) continue;
     Point<D> target = targets[v];
     normals.clear();
     for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
-      const auto contact = try_move(v, target, options, counts);
+      const auto contact = try_move(v, target, options.sweep, counts);
       if (!contact) break;
       ++counts.contacts;
       contacts.push_back(*contact);
-      if (options.hold) {
+      if (options.policy == Contact_policy::reject) {
         ++counts.held;
         break;
       }
-      counts.held += !stop(v, target, *contact, options, counts);
+      counts.held += !stop(v, target, *contact, options.sweep, counts);
       normals.push_back(contact->contact.normal);
       const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
       if (!(length(left) > 0)) break;
@@ -62,11 +89,11 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
 
 template <int D>
 bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
-                   const Body_options& options, Body_counts& counts) {
+                   const Sweep_options& options, Body_counts& counts) {
   if (met.contact.impact == Exact_time()) return false;
   const Point<D> from = positions_[vertex];
-  Body_options tried = options;
-  tried.sweep.search = Contact_search::exact;  // whether there is a contact matters, not where
+  Sweep_options tried = options;
+  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
   return detail::try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
     if (x == from) return false;
     ++counts.stop_tries;
@@ -74,10 +101,12 @@ bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_cont
   });
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                              \
-  template void Body<D>::step(std::span<const Point<D>>, const Body_options&, std::vector<Body_contact<D>>&, \
-                              Body_counts&);                                                                 \
-  template bool Body<D>::stop(std::uint32_t, const Point<D>&, const Body_contact<D>&, const Body_options&,   \
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template void Body<D>::step(std::span<const Point<D>>, const Body_options&, Step_report<D>&,              \
+                              Body_counts&);                                                                \
+  template void Body<D>::move_each(std::span<const Point<D>>, const Body_options&,                          \
+                                   std::vector<Body_contact<D>>&, Body_counts&);                            \
+  template bool Body<D>::stop(std::uint32_t, const Point<D>&, const Body_contact<D>&, const Sweep_options&, \
                               Body_counts&);
 
 CELLWALK_INSTANTIATE(2)

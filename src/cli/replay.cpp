@@ -97,7 +97,7 @@ ordered_json counts_json(const Replayed& replayed) {
   const Edge_counts& edges = c.body.edges;
   ordered_json result{{"moves", c.body.moves},
                       {"in_region", c.body.in_region},
-                      {"held", c.body.contacts},
+                      {"held", c.body.held},
                       {"vertex_hits", c.vertex_hits},
                       {"edge_hits", c.edge_hits},
                       {"triangle_hits", c.triangle_hits},

@@ -111,7 +111,8 @@ struct Run {
 template <int D>
 World<D> Run<D>::make_world() const {
   try {
-    return World<D>(environment.snapshot(), scene, bodies.shapes, options.body);
+    const Body_options& how = options.record.empty() ? options.body : recorded_options();
+    return World<D>(environment.snapshot(), scene, bodies.shapes, how);
   } catch (const Error& error) {
     // What a scene asks for is input, whatever it would be in a call.
     const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
@@ -327,7 +328,6 @@ void add_run(CLI::App& app, Action& chosen) {
           throw Error(Error_code::usage,
                       "bodies that are recorded move by three segments: leave --sweep out, or --record");
         options->body.sweep.sweep = Sweep::three_segments;
-        options->body.hold = true;
       }
       std::optional<tbb::global_control> limit;
       if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);

@@ -84,25 +84,28 @@ void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& sh
   }
 }
 
+Body_options recorded_options() {
+  Body_options options = trace_options(Sweep::triangle);
+  options.reported = Reported::both;
+  return options;
+}
+
 Run_record::Run_record(io::Atomic_file& file, const std::string& scene_name,
                        const Environment<3>& environment, const World<3>& world, const Scene<3>& scene)
-    : scene_name_(scene_name), file_(file), recorder_(naming(scene_name, [&] {
-        return Trace_recorder(environment.snapshot(), Locator<3>(environment.snapshot()),
-                              start_of(environment, world, scene));
-      })) {}
+    : file_(file), trace_(start_of(environment, world, scene)) {
+  naming(scene_name, [&] {
+    for (std::size_t b = 0; b < world.bodies().size(); ++b)
+      check_trace_start(environment.snapshot(), world.bodies()[b].body(), b);
+  });
+}
 
 void Run_record::record(const World<3>& world) {
-  targets_.clear();
-  for (const auto& moving : world.bodies())
-    targets_.insert(targets_.end(), moving.targets().begin(), moving.targets().end());
-  naming(scene_name_, [&] { recorder_.step(targets_); });
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
-    const auto positions = world.bodies()[b].body().positions();
-    const auto& particles = recorder_.bodies()[b].particles();
-    if (std::ranges::equal(positions, particles, {}, {}, &Particle<3>::position)) continue;
-    throw Error(Error_code::other, fmt::format("body {} of the run and of its record part ways in step {}", b,
-                                               recorder_.trace().steps));
+    const auto targets = world.bodies()[b].targets();
+    trace_.targets.insert(trace_.targets.end(), targets.begin(), targets.end());
+    append_answers(world.report(b).blocked, Sweep::triangle, trace_.answers);
   }
+  ++trace_.steps;
 }
 
 template void check_recordable(const Scene<2>&, const std::vector<Body_soup<2>>&, const std::string&);

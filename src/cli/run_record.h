@@ -6,7 +6,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/io/trace_file.h>
 #include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/trace_recorder.h>
+#include <cellwalk/simulation/trace_rule.h>
 #include <cellwalk/simulation/world.h>
 
 #include <memory>
@@ -22,31 +22,28 @@ template <int D>
 void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& shapes,
                       const std::string& scene_name);
 
-/// Records a run whose bodies move by the rule of traces (Sweep::three_segments, Body_options::hold).
+/// How bodies are to move that are recorded: by the rule of traces. What meets a wall is reported as contacts too.
+Body_options recorded_options();
+
+/// Records a run whose bodies move by recorded_options().
 class Run_record {
  public:
   /// \pre the scene is recordable, the world has made no step
-  /// \throw Error as Trace_recorder, with the name of the scene
+  /// \throw Error as check_trace_start(), with the name of the scene
   Run_record(io::Atomic_file& file, const std::string& scene_name, const Environment<3>& environment,
              const World<3>& world, const Scene<3>& scene);
 
-  /// To be called after each step. \throw Error(input) as Trace_recorder, with the name of the scene; Error(other) if the
-  /// bodies went elsewhere in the world
+  /// To be called after each step.
   void record(const World<3>& world);
   /// Scenes of the plane are not recordable: never called.
   void record(const World<2>&) {}
 
   /// Completes the file, which the caller commits.
-  void write() { io::write_trace(file_, recorder_.trace()); }
-
-  const Trace& trace() const { return recorder_.trace(); }
-  const Trace_counts& counts() const { return recorder_.counts(); }
+  void write() { io::write_trace(file_, trace_); }
 
  private:
-  std::string scene_name_;
   io::Atomic_file& file_;
-  Trace_recorder recorder_;
-  std::vector<Point<3>> targets_;
+  Trace trace_;
 };
 
 /// A record into a file; none if it is null.

@@ -112,7 +112,7 @@ bool Deformable<D>::predict(double dt) {
 }
 
 template <int D>
-void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
+void Deformable<D>::step(const Flight_conditions<D>& conditions, Step_report<D>& report,
                          Body_counts& counts) {
   const double dt = conditions.time_step, stiffness = matching_.material().stiffness;
   const double before = kinetic_energy(), height_before = height_energy(conditions.gravity);
@@ -124,9 +124,10 @@ void Deformable<D>::step(const Flight_conditions<D>& conditions, std::vector<Bod
     stored_ = 0;
     return;
   }
+  const std::vector<Body_contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   std::ranges::copy(body_.positions(), moved_.begin());
-  body_.step(targets_, conditions.body, contacts, counts);
+  body_.step(targets_, conditions.body, report, counts);
 
   double level = before + stored_;  // of kinetic energy, at the height before
   limit(level + gained);

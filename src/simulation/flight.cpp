@@ -69,8 +69,7 @@ Point<D> Flight<D>::on_path() const {
 }
 
 template <int D>
-void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-                     Body_counts& counts) {
+void Flight<D>::step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts) {
   const double dt = conditions.time_step;
   const double angle_before = angle_;
   Point<D> origin;
@@ -92,8 +91,9 @@ void Flight<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_co
     std::ranges::copy(body_.positions(), targets_.begin());
     return;
   }
+  const std::vector<Body_contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
-  body_.step(targets_, conditions.body, contacts, counts);
+  body_.step(targets_, conditions.body, report, counts);
   if (guide_) return;
   for (std::size_t i = first; i < contacts.size(); ++i) {
     const Vector<D>& normal = contacts[i].contact.normal;

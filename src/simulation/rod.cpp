@@ -133,8 +133,7 @@ detail::Natural_bend<D> Rod<D>::bend() const {
 }
 
 template <int D>
-void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-                  Body_counts& counts) {
+void Rod<D>::step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts) {
   pass_way_points(counts);
   const detail::Chain_state<D> before = state();
   const double twist_before = twist_ * radians;
@@ -154,7 +153,7 @@ void Rod<D>::step(const Flight_conditions<D>& conditions, std::vector<Body_conta
     std::ranges::copy(x, targets_.begin());
     return;
   }
-  body_.step(targets_, conditions.body, contacts, counts);
+  body_.step(targets_, conditions.body, report, counts);
 }
 
 template class Rod<2>;

@@ -22,7 +22,7 @@ void World<D>::step() {
 }
 
 template <int D>
-void World<D>::report(std::size_t particle) {
+void World<D>::record_contacts(std::size_t particle) {
   for (const Met_contact<D>& m : met_) {
     const Vector<D> normal = m.contact.normal + Vector<D>{};  // no negative zeros for readers of tables
     contacts_.push_back({steps_done_,
@@ -44,7 +44,7 @@ void World<D>::step_free() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
     velocities_[i] = (1 / dt) * advance(snapshot_, particles_[i], displacement, response, met_, counts_);
-    report(i);
+    record_contacts(i);
   }
 }
 
@@ -56,12 +56,12 @@ void World<D>::step_bodies() {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bodies_.size(), bodies_at_once),
                     [&](const auto& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        body_steps_[i].contacts.clear();
-                        bodies_[i].step(conditions_, body_steps_[i].contacts, body_steps_[i].counts);
+                        body_steps_[i].report.clear();
+                        bodies_[i].step(conditions_, body_steps_[i].report, body_steps_[i].counts);
                       }
                     });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-    for (const Body_contact<D>& met : body_steps_[i].contacts) {
+    for (const Body_contact<D>& met : body_steps_[i].report.contacts) {
       const Contact<D>& c = met.contact;
       const Vector<D> normal = c.normal + Vector<D>{};
       contacts_.push_back({steps_done_, 0, c.time, c.point, normal, c.kind, snapshot_.index(c.cell),

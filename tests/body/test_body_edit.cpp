@@ -111,23 +111,24 @@ void expect_edits_noticed() {
       const Locator<D> before(snapshot);
       Body<D> body(snapshot, before, simplex_body<D>());
       Body_counts counts;
-      std::vector<Body_contact<D>> contacts;
-      std::vector<Blocked_move<D>> blocked;
-      Body_options options;
+      Step_report<D> report;
+      Body_options options, at_target;
+      at_target.policy = Contact_policy::reject;
+      at_target.edges = Edge_rule::at_target;
       options.clearance = has_region;
       std::vector<Point<D>> targets(body.positions().begin(), body.positions().end());
       for (Point<D>& x : targets) x[0] += 0x1p-6;
-      body.step(targets, options, contacts, counts);
+      body.step(targets, options, report, counts);
       EXPECT_EQ(counts.in_region > 0, has_region);
       for (const auto& edit : no_edits) edit();
-      EXPECT_NO_THROW(body.step(targets, options, contacts, counts));
+      EXPECT_NO_THROW(body.step(targets, options, report, counts));
 
       edits[e]();
       const std::vector<Point<D>> stood(body.positions().begin(), body.positions().end());
       const std::uint64_t moves = counts.moves;
       const std::vector<std::function<void()>> uses{
-          [&] { body.step(targets, options, contacts, counts); },
-          [&] { body.step_or_stay(targets, options, blocked, counts); },
+          [&] { body.step(targets, options, report, counts); },
+          [&] { body.step(targets, at_target, report, counts); },
           [&] { body.move_vertex(0, targets[0], options, counts); },
           [&] { body.catch_up(counts); },
           [&] { body.leave_region(counts); },
@@ -136,7 +137,7 @@ void expect_edits_noticed() {
       for (std::size_t u = 0; u < uses.size(); ++u)
         EXPECT_NE(usage_error(uses[u]).find("register_again"), std::string::npos) << "use " << u;
       EXPECT_EQ(counts.moves, moves);
-      EXPECT_TRUE(contacts.empty());
+      EXPECT_TRUE(report.contacts.empty());
       // Opening and closing leaves locators right; what moves cells does not.
       if (e == 0)
         EXPECT_NO_THROW(before.locate(stood[0]));
@@ -187,17 +188,17 @@ TEST(BodyEdit, AWallThatAppearsIsMet) {
   const Locator<2> locator(snapshot);
   Body<2> body(snapshot, locator, {{{0.5, 0.5}, {0.75, 0.5}}, {{0, 1}}, {}});
   Body_counts counts;
-  std::vector<Body_contact<2>> contacts;
+  Step_report<2> report;
   // There and back through the open facet, in a region that holds both.
   const std::vector<Point<2>> here{{0.5, 0.5}, {0.75, 0.5}}, there{{1.25, 0.5}, {1.5, 0.5}};
-  body.step(there, {}, contacts, counts);
-  body.step(here, {}, contacts, counts);
-  EXPECT_TRUE(contacts.empty());
+  body.step(there, {}, report, counts);
+  body.step(here, {}, report, counts);
+  EXPECT_TRUE(report.contacts.empty());
   EXPECT_GT(counts.in_region, 0u);
   environment.set_impassable(middle_facet(snapshot), true);
   body.register_again(locator);
-  body.step(there, {}, contacts, counts);
-  EXPECT_FALSE(contacts.empty());
+  body.step(there, {}, report, counts);
+  EXPECT_FALSE(report.contacts.empty());
   for (const Point<2>& x : body.positions()) EXPECT_LE(x[0], 1);
   EXPECT_NO_THROW(body.catch_up(counts));
   EXPECT_NO_THROW(body.validate());

@@ -99,13 +99,13 @@ struct Strip {
     std::vector<Point<3>> targets(body.positions().begin(), body.positions().end());
     for (std::uint32_t v = 0; v < targets.size(); ++v)
       if (only == all || v == only) targets[v] = targets[v] + by;
-    body.step(targets, options, contacts, counts);
+    body.step(targets, options, report, counts);
   }
 
   Body<3> body;
   Body_options options;
   Body_counts counts;
-  std::vector<Body_contact<3>> contacts;
+  Step_report<3> report;
 };
 
 /// Round a corner, nearly all the way without tests: particles and chains are where they were. Then faces are asked about.
@@ -114,10 +114,10 @@ TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
   Strip strip(snapshot, {10, 1.7, 1.5});
   for (int k = 0; k < 85; ++k) strip.step({-0.1, 0, 0});
   for (int k = 0; k < 80; ++k) strip.step({0, 0.1, 0});
-  EXPECT_TRUE(strip.contacts.empty());
+  EXPECT_TRUE(strip.report.contacts.empty());
   EXPECT_GT(strip.counts.in_region, 1000u);
   strip.step({0, 0, -5}, 7);
-  EXPECT_FALSE(strip.contacts.empty()) << "on the floor";
+  EXPECT_FALSE(strip.report.contacts.empty()) << "on the floor";
   strip.options.sweep.sweep = Sweep::faces;
   EXPECT_NO_THROW(strip.step({0, 0, 1}, 7));
   strip.body.catch_up(strip.counts);
@@ -153,14 +153,14 @@ TEST(Body_faces, AnyOrderOfSweepsIsTheSame) {
       for (double& x : by) x += random.real(-0.02, 0.02);
       for (Strip* strip : {&*lazy, &eager, &plain}) {
         strip->options.sweep.sweep = sweep;
-        strip->contacts.clear();
+        strip->report.clear();
         ASSERT_NO_THROW(strip->step(by, only)) << trial << " " << k;
       }
       for (Strip* strip : {&eager, &plain}) {
         strip->body.catch_up(strip->counts);
         ASSERT_NO_THROW(strip->body.validate()) << trial << " " << k;
         ASSERT_TRUE(std::ranges::equal(lazy->body.positions(), strip->body.positions())) << trial << " " << k;
-        ASSERT_EQ(lazy->contacts.size(), strip->contacts.size()) << trial << " " << k;
+        ASSERT_EQ(lazy->report.contacts.size(), strip->report.contacts.size()) << trial << " " << k;
       }
       with_faces += sweep == Sweep::faces;
     }

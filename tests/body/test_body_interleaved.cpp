@@ -32,28 +32,27 @@ struct Interleaved_seen {
 /// What a call answered.
 template <int D>
 struct Answer {
-  std::vector<Body_contact<D>> contacts;
-  std::vector<Blocked_move<D>> blocked;
+  Step_report<D> report;
   std::optional<Error_code> error;
 };
 
 template <int D>
 std::string difference(const Answer<D>& a, const Answer<D>& b) {
   if (a.error != b.error) return "an error";
-  if (a.contacts.size() != b.contacts.size()) return "the number of contacts";
-  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-    const Contact<D>&x = a.contacts[i].contact, &y = b.contacts[i].contact;
-    if (a.contacts[i].vertex != b.contacts[i].vertex) return "the vertex of a contact";
+  const auto &of_a = a.report.contacts, &of_b = b.report.contacts;
+  if (of_a.size() != of_b.size()) return "the number of contacts";
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    const Contact<D>&x = of_a[i].contact, &y = of_b[i].contact;
+    if (of_a[i].vertex != of_b[i].vertex) return "the vertex of a contact";
     if (x.impact != y.impact) return "the time of a contact";
-    if (x.body != y.body || x.kind != y.kind || a.contacts[i].feature != b.contacts[i].feature)
+    if (x.body != y.body || x.kind != y.kind || of_a[i].feature != of_b[i].feature)
       return "the feature of a contact";
   }
   const auto equal = [](const Blocked_move<D>& x, const Blocked_move<D>& y) {
     return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked && x.edges == y.edges &&
            x.swept_edges == y.swept_edges;
   };
-  if (!std::equal(a.blocked.begin(), a.blocked.end(), b.blocked.begin(), b.blocked.end(), equal))
-    return "what blocks";
+  if (!std::ranges::equal(a.report.blocked, b.report.blocked, equal)) return "what blocks";
   return {};
 }
 
@@ -134,28 +133,32 @@ class Interleaving {
     return result;
   }
 
-  Body_options options() {
+  enum class Call { step, step_at_target, move_vertex };
+
+  Body_options options(Call call) {
     Body_options options;
     const auto sweep = random().below(3);
     options.sweep.sweep = sweep == 0                 ? Sweep::three_segments
                           : sweep == 1 || has_slits_ ? Sweep::triangle
                                                      : Sweep::faces;
-    options.hold = random().below(3) == 0;
+    if (random().below(3) == 0) options.policy = Contact_policy::reject;
     options.most_contacts = 1 + static_cast<int>(random().below(4));
+    if (call == Call::step_at_target) {
+      options.policy = Contact_policy::reject;
+      options.edges = Edge_rule::at_target;
+      options.reported = Reported::both;
+    }
     return options;
   }
-
-  enum class Call { step, step_or_stay, move_vertex };
 
   Answer<D> call(Body<D>& body, Call call, std::span<const Point<D>> targets, std::uint32_t vertex,
                  const Body_options& options, Body_counts& counts) {
     Answer<D> answer;
     try {
-      if (call == Call::step) body.step(targets, options, answer.contacts, counts);
-      if (call == Call::step_or_stay) body.step_or_stay(targets, options, answer.blocked, counts);
-      if (call == Call::move_vertex)
-        if (auto contact = body.move_vertex(vertex, targets[vertex], options, counts))
-          answer.contacts.push_back(*contact);
+      if (call != Call::move_vertex)
+        body.step(targets, options, answer.report, counts);
+      else if (auto contact = body.move_vertex(vertex, targets[vertex], options, counts))
+        answer.report.contacts.push_back(*contact);
     } catch (const Error& error) {
       answer.error = error.code();
     }
@@ -168,8 +171,8 @@ class Interleaving {
       const auto to = targets(body);
       const auto vertex = static_cast<std::uint32_t>(random().below(to.size()));
       const auto which = random().below(4);
-      const Call kind = which < 2 ? Call::step : which == 2 ? Call::step_or_stay : Call::move_vertex;
-      Body_options some = options();
+      const Call kind = which < 2 ? Call::step : which == 2 ? Call::step_at_target : Call::move_vertex;
+      Body_options some = options(kind);
       const Body_options with_region = some;
       some.clearance = false;
       Body_options here = with_region;
@@ -177,13 +180,13 @@ class Interleaving {
       ++seen_.calls;
       seen_.by_segments += some.sweep.sweep == Sweep::three_segments;
       seen_.by_faces += D == 3 && some.sweep.sweep == Sweep::faces;
-      seen_.by_rule += kind == Call::step_or_stay;
+      seen_.by_rule += kind == Call::step_at_target;
       seen_.single += kind == Call::move_vertex;
       std::optional<Body<D>> anew = made_anew(body);
       const Answer<D> answer = call(body, kind, to, vertex, here, seen_.counts);
       const Answer<D> expected = call(plain, kind, to, vertex, some, seen_.plain_counts);
-      seen_.contacts += expected.contacts.size();
-      seen_.blocked += expected.blocked.size();
+      seen_.contacts += expected.report.contacts.size();
+      seen_.blocked += expected.report.blocked.size();
       seen_.threw += expected.error.has_value();
       const std::string name = world_.name + ", call " + std::to_string(k) + ": ";
       std::string what = difference(answer, expected);
@@ -268,11 +271,12 @@ void test_interleaved() {
       Interleaving<D>(first_interleaved_world + number, generic, seen).run(12, 16);
     std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.bodies << " bodies, "
               << seen.calls << " calls (" << seen.by_segments << " by three segments, " << seen.by_faces
-              << " by faces, " << seen.by_rule << " to step or stay, " << seen.single << " of one vertex), "
-              << seen.contacts << " contacts, " << seen.blocked << " blocked; in regions "
-              << seen.counts.in_region << " of " << seen.counts.moves << " moves, caught up "
-              << seen.counts.catch_ups << "; made anew " << seen.made_anew << ", refused " << seen.threw
-              << "; different " << seen.different << ", invalid " << seen.invalid << "\n";
+              << " by faces, " << seen.by_rule << " with edges at their targets, " << seen.single
+              << " of one vertex), " << seen.contacts << " contacts, " << seen.blocked
+              << " blocked; in regions " << seen.counts.in_region << " of " << seen.counts.moves
+              << " moves, caught up " << seen.counts.catch_ups << "; made anew " << seen.made_anew
+              << ", refused " << seen.threw << "; different " << seen.different << ", invalid "
+              << seen.invalid << "\n";
     EXPECT_EQ(seen.different, 0) << seen.first;
     if (worlds < 4 * oracle::world_kinds) continue;  // too few to meet everything
     EXPECT_GT(seen.bodies, 100);

@@ -122,22 +122,22 @@ class Body_in_orders {
       options.sweep.sweep = sweep == 0                 ? Sweep::three_segments
                             : sweep == 1 || has_slits_ ? Sweep::triangle
                                                        : Sweep::faces;
-      options.hold = random().below(2) == 0;
+      const bool rejects = random().below(2) == 0;
+      if (rejects || by_rule) options.policy = Contact_policy::reject;
+      if (by_rule) {
+        options.edges = Edge_rule::at_target;
+        options.reported = Reported::both;
+      }
       options.clearance = random().below(2) == 0;
       ++seen_.steps;
-      std::vector<Body_contact<D>> first;
-      std::vector<Blocked_move<D>> first_blocked;
+      Step_report<D> first;
       bool refused = false;
       for (std::size_t i = 0; i < orders; ++i) {
-        std::vector<Body_contact<D>> contacts;
-        std::vector<Blocked_move<D>> blocked;
+        Step_report<D> report;
         Body_counts counts;
         bool is_refused = false;
         try {
-          if (by_rule)
-            bodies[i].step_or_stay(to, options, blocked, counts);
-          else
-            bodies[i].step(to, options, contacts, counts);
+          bodies[i].step(to, options, report, counts);
         } catch (const Error&) {  // a wall pierces a face that was not swept before
           is_refused = true;
         }
@@ -145,20 +145,19 @@ class Body_in_orders {
         if (is_refused != refused)
           return seen_.note(seen_.contacts_otherwise, world_.name + ": refused in some orders");
         if (i == 0) {
-          seen_.contacts += contacts.size();
-          seen_.blocked += blocked.size();
-          first = std::move(contacts);
-          first_blocked = std::move(blocked);
+          seen_.contacts += report.contacts.size();
+          seen_.blocked += report.blocked.size();
+          first = std::move(report);
           continue;
         }
         const std::string name = world_.name + ", order " + std::to_string(i) + ", step " +
                                  std::to_string(step) +
-                                 (by_rule        ? " or stay"
-                                  : options.hold ? ", held"
-                                                 : "");
-        const std::string what = difference(first, contacts, i);
+                                 (by_rule   ? ", edges at their targets"
+                                  : rejects ? ", rejected"
+                                            : "");
+        const std::string what = difference(first.contacts, report.contacts, i);
         if (!what.empty()) return seen_.note(seen_.contacts_otherwise, name + what);
-        if (!are_alike(first_blocked, blocked))
+        if (!are_alike(first.blocked, report.blocked))
           return seen_.note(seen_.contacts_otherwise, name + ": blocked");
         if (!std::ranges::equal(bodies[0].positions(), bodies[i].positions()))
           return seen_.note(seen_.stands_elsewhere, name + ": stands elsewhere");

@@ -37,33 +37,33 @@ Body<3> hexahedron(const Snapshot<3>& snapshot, const Point<3>& at, double side)
 TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   const Snapshot<3> snapshot = rooms<3>({8, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {2, 2, 0.5}, 1);  // stands on the floor
-  std::vector<Body_contact<3>> contacts;
+  Step_report<3> report;
   Body_counts counts;
   for (int k = 0; k < 40; ++k) {
-    body.step(shifted<3>(body, {0.1, 0, -0.05}), {}, contacts, counts);  // pressed down and pulled along
+    body.step(shifted<3>(body, {0.1, 0, -0.05}), {}, report, counts);  // pressed down and pulled along
     body.catch_up(counts);
     ASSERT_NO_THROW(body.validate());
   }
   EXPECT_GT(body.positions()[0][0], 5.4) << "it stuck to the floor";
   EXPECT_LT(body.positions()[0][2], 1e-9);
-  ASSERT_FALSE(contacts.empty());
-  EXPECT_EQ(contacts[0].contact.normal, (Vector<3>{0, 0, 1}));
+  ASSERT_FALSE(report.contacts.empty());
+  EXPECT_EQ(report.contacts[0].contact.normal, (Vector<3>{0, 0, 1}));
 }
 
-TEST(Body_step, HoldsVerticesThatMeetWalls) {
+TEST(Body_step, RejectsMovesThatMeetWalls) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {1, 2, 2}, 1);
   const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
   const std::vector<Point<3>> targets = shifted<3>(body, {-0.75, 0.125, 0});
   Body_options options;
-  options.hold = true;
-  std::vector<Body_contact<3>> contacts;
+  options.policy = Contact_policy::reject;
+  Step_report<3> report;
   Body_counts counts;
-  body.step(targets, options, contacts, counts);
+  body.step(targets, options, report, counts);
   // The four vertices on the side of the wall x = 0 would pass it, the others go all the way.
   for (std::size_t v = 0; v < 8; ++v)
     EXPECT_EQ(body.positions()[v], before[v][0] < 1 ? before[v] : targets[v]) << v;
-  EXPECT_EQ(contacts.size(), 4u);
+  EXPECT_EQ(report.contacts.size(), 4u);
   EXPECT_EQ(counts.held, 4u);
   EXPECT_EQ(counts.stop_tries, 0u);
   body.catch_up(counts);
@@ -83,16 +83,16 @@ TEST(Body_step, SlidesAlongAnObliqueWall) {
   Body_placement<2> placement;
   placement.position = {1, 1.3};
   Body<2> body(snapshot, Locator<2>(snapshot), transformed(generate_body(Quad_shape{0.5}), placement));
-  std::vector<Body_contact<2>> contacts;
+  Step_report<2> report;
   Body_counts counts;
   for (int k = 0; k < 160; ++k) {
-    body.step(shifted<2>(body, {0.07, -0.02}), {}, contacts, counts);
+    body.step(shifted<2>(body, {0.07, -0.02}), {}, report, counts);
     body.catch_up(counts);
     ASSERT_NO_THROW(body.validate());
   }
   EXPECT_GT(body.positions()[0][0], 8) << "it stuck to the wall";
-  EXPECT_GT(contacts.size(), 20u);
-  EXPECT_LT(counts.held, contacts.size() / 2);
+  EXPECT_GT(report.contacts.size(), 20u);
+  EXPECT_LT(counts.held, report.contacts.size() / 2);
 }
 
 TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
@@ -123,27 +123,27 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
     Body<3> body(snapshot, locator, soup);
     Body_options options;
     options.sweep.sweep = sweep;
-    std::vector<Body_contact<3>> contacts;
+    Step_report<3> report;
     Body_counts counts;
     for (int k = 0; k < 30; ++k) {
-      body.step(shifted<3>(body, {0, 0, -0.07}), options, contacts, counts);
+      body.step(shifted<3>(body, {0, 0, -0.07}), options, report, counts);
       body.catch_up(counts);
       ASSERT_NO_THROW(body.validate()) << k;
     }
     double lowest = 4;
     for (const Point<3>& x : body.positions()) lowest = std::min(lowest, x[2]);
     if (sweep == Sweep::triangle) {
-      EXPECT_TRUE(contacts.empty()) << "no edge meets the cell";
+      EXPECT_TRUE(report.contacts.empty()) << "no edge meets the cell";
       EXPECT_NEAR(lowest, 0.4, 1e-9);
       // Faces cannot be swept from there on: the cell sticks through.
       options.sweep.sweep = Sweep::faces;
-      EXPECT_THROW(body.step(shifted<3>(body, {0, 0, 0.01}), options, contacts, counts), Error);
+      EXPECT_THROW(body.step(shifted<3>(body, {0, 0, 0.01}), options, report, counts), Error);
       continue;
     }
-    ASSERT_FALSE(contacts.empty());
-    EXPECT_EQ(contacts[0].contact.body, Body_feature::face);
-    EXPECT_EQ(contacts[0].feature, 0u);
-    EXPECT_EQ(contacts[0].contact.point[2], 1);
+    ASSERT_FALSE(report.contacts.empty());
+    EXPECT_EQ(report.contacts[0].contact.body, Body_feature::face);
+    EXPECT_EQ(report.contacts[0].feature, 0u);
+    EXPECT_EQ(report.contacts[0].contact.point[2], 1);
     EXPECT_GT(counts.faces.faces, 50u);
     EXPECT_GT(lowest, 0.4);
     // Two corners may go down past the cell, if the third is left behind; but not the middle.
@@ -175,13 +175,13 @@ TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
       Body_options options;
       options.clearance = clearance;
       options.most_contacts = most;
-      std::vector<Body_contact<2>> contacts;
+      Step_report<2> report;
       Body_counts counts;
-      body.step(std::vector<Point<2>>{{2.5, 1.5}}, options, contacts, counts);
+      body.step(std::vector<Point<2>>{{2.5, 1.5}}, options, report, counts);
       EXPECT_EQ(body.positions()[0], (Point<2>{2.5, 1.5})) << most;
-      EXPECT_TRUE(contacts.empty());
-      body.step(std::vector<Point<2>>{{5, 2.5}}, options, contacts, counts);
-      EXPECT_EQ(contacts.size(), 1u);
+      EXPECT_TRUE(report.contacts.empty());
+      body.step(std::vector<Point<2>>{{5, 2.5}}, options, report, counts);
+      EXPECT_EQ(report.contacts.size(), 1u);
       EXPECT_NEAR(body.positions()[0][0], 4, 1e-12) << most;
       EXPECT_EQ(body.positions()[0][1] > 2.4, most > 1) << "it goes on along the wall after the first";
     }
@@ -190,10 +190,10 @@ TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
 TEST(Body_step, ABodyWithoutVerticesStaysOne) {
   const Snapshot<3> snapshot = rooms<3>({2, 2, 2}, {});
   Body<3> body(snapshot, Locator<3>(snapshot), {});
-  std::vector<Body_contact<3>> contacts;
+  Step_report<3> report;
   Body_counts counts;
-  body.step({}, {}, contacts, counts);
-  EXPECT_TRUE(contacts.empty());
+  body.step({}, {}, report, counts);
+  EXPECT_TRUE(report.contacts.empty());
   EXPECT_EQ(counts.moves, 0u);
   EXPECT_NO_THROW(body.validate());
 }
@@ -202,17 +202,17 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   // A solid cell at x from 10 to 11, y from 4 to 5.
   const Snapshot<2> snapshot = rooms<2>({20, 20}, {90});
   Body<2> body(snapshot, Locator<2>(snapshot), {{{9.5, 4.5}}, {}, {}});
-  std::vector<Body_contact<2>> contacts;
+  Step_report<2> report;
   Body_counts counts;
-  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, contacts, counts);
+  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, report, counts);
   ASSERT_EQ(counts.in_region, 1u);
   // The vertex goes from where it is now, not from where it was registered; out of the region, round the cell.
   for (const Point<2>& target : {Point<2>{9.52, 6.5}, {11.5, 6.5}, {11.5, 4.5}})
     ASSERT_FALSE(body.move_vertex(0, target, {}, counts));
   EXPECT_NO_THROW(body.validate());
   // No region lets it go back through the cell.
-  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, contacts, counts);
-  EXPECT_EQ(contacts.size(), 1u);
+  body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, report, counts);
+  EXPECT_EQ(report.contacts.size(), 1u);
   EXPECT_EQ(body.positions()[0][0], 11);
   EXPECT_NO_THROW(body.validate());
 }
@@ -235,10 +235,10 @@ TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
     Body<2> body(snapshot, locator, {{{1.5, 2.5}, {1.5, 2}}, {{0, 1}}, {}});
     Body_options options;
     options.clearance = clearance;
-    std::vector<Body_contact<2>> contacts;
+    Step_report<2> report;
     Body_counts counts;
     const Cell below = body.particles()[1].cell;
-    body.step(std::vector<Point<2>>{{1.75, 2.5}, {1.5, 2}}, options, contacts, counts);
+    body.step(std::vector<Point<2>>{{1.75, 2.5}, {1.5, 2}}, options, report, counts);
     EXPECT_EQ(counts.in_region, clearance ? 2u : 0u);
     body.leave_region(counts);
     EXPECT_EQ(body.particles()[1].cell, below);
@@ -272,7 +272,7 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
   Body_counts counts, plain_counts;
   Body_options plain;
   plain.clearance = false;
-  std::vector<Body_contact<D>> contacts, plain_contacts;
+  Step_report<D> report, plain_report;
   int partly = 0;
   for (int k = 0; k < bodies; ++k) {
     Body_soup<D> soup;
@@ -293,13 +293,13 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
           for (double& c : targets.back()) c += random.real(-0.1, 0.1);
         }
         const std::uint64_t before = counts.in_region;
-        contacts.clear();
-        plain_contacts.clear();
-        body.step(targets, {}, contacts, counts);
-        other.step(targets, plain, plain_contacts, plain_counts);
+        report.clear();
+        plain_report.clear();
+        body.step(targets, {}, report, counts);
+        other.step(targets, plain, plain_report, plain_counts);
         partly += counts.in_region - before > 0 && counts.in_region - before < 4;
         ASSERT_TRUE(std::ranges::equal(body.positions(), other.positions())) << k << " " << step;
-        ASSERT_EQ(contacts.size(), plain_contacts.size());
+        ASSERT_EQ(report.contacts.size(), plain_report.contacts.size());
       }
       body.catch_up(counts);
       body.validate();

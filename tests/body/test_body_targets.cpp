@@ -26,20 +26,20 @@ void expect_three_segments_go_on(const Snapshot<D>& snapshot, const Body_soup<D>
       Body<D> body(snapshot, locator, soup);
       Body_options options;
       options.sweep.sweep = sweep;
-      std::vector<Body_contact<D>> contacts;
+      Step_report<D> report;
       Body_counts counts;
       for (int k = 0; k < 10; ++k) {
         std::vector<Point<D>> targets = soup.points;
         targets[0][axis] = target;
-        body.step(targets, options, contacts, counts);
+        body.step(targets, options, report, counts);
       }
       ends.push_back(body.positions()[0]);
       if (target < 2) {
-        EXPECT_TRUE(contacts.empty());
+        EXPECT_TRUE(report.contacts.empty());
         continue;
       }
-      ASSERT_FALSE(contacts.empty());
-      EXPECT_EQ(contacts[0].contact.body, Body_feature::edge);
+      ASSERT_FALSE(report.contacts.empty());
+      EXPECT_EQ(report.contacts[0].contact.body, Body_feature::edge);
       EXPECT_GT(body.positions()[0][axis], soup.points[0][axis] + 0.5) << "it stays";
     }
     EXPECT_EQ(ends[0], ends[1]) << target;
@@ -72,8 +72,8 @@ TEST(Body_targets, FarTargetsLeaveFiltersOfUse) {
         std::vector<Point<3>> targets = soup.points;
         for (std::size_t v = 0; v < 4; ++v)
           targets[v][static_cast<std::size_t>(ways[v] / 2)] = (ways[v] % 2 == 0 ? -1 : 1) * distances[i];
-        std::vector<Body_contact<3>> contacts;
-        body.step(targets, {}, contacts, counts[i]);
+        Step_report<3> report;
+        body.step(targets, {}, report, counts[i]);
         body.catch_up(counts[i]);
         body.validate();
       } catch (const Error& error) {

@@ -39,12 +39,12 @@ TEST(Registration, LooksAtNoFacesInThePlane) {
   const Body_soup<2> soup{{{1.2, 1.2}, {1.6, 1.2}, {1.4, 1.6}}, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}};
   Body<2> body(snapshot, Locator<2>(snapshot), soup);
   EXPECT_TRUE(body.faces().empty());
-  std::vector<Body_contact<2>> contacts;
+  Step_report<2> report;
   Body_counts counts;
   std::vector<Point<2>> targets(soup.points);
   for (Point<2>& x : targets) x[0] += 3;
-  body.step(targets, {}, contacts, counts);
-  EXPECT_FALSE(contacts.empty());
+  body.step(targets, {}, report, counts);
+  EXPECT_FALSE(report.contacts.empty());
   body.catch_up(counts);
   EXPECT_NO_THROW(body.validate());
 }

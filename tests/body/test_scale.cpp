@@ -41,7 +41,7 @@ struct Copy {
   Snapshot<D> snapshot;
   Locator<D> locator;
   std::unique_ptr<Body<D>> body;
-  std::vector<Body_contact<D>> contacts;
+  Step_report<D> report;
   Body_counts counts;
 
   Copy(const Cell_soup<D>& soup, int k) : exponent(k), snapshot(compiled(soup, k)), locator(snapshot) {}
@@ -55,8 +55,8 @@ struct Copy {
     body = std::make_unique<Body<D>>(snapshot, locator, soup);
   }
   void step(std::span<const Point<D>> targets, const Body_options& options) {
-    contacts.clear();
-    body->step(all_scaled<D>(targets, exponent), options, contacts, counts);
+    report.clear();
+    body->step(all_scaled<D>(targets, exponent), options, report, counts);
   }
 };
 
@@ -83,9 +83,9 @@ void expect_scaled(const Copy<D>& one, const Copy<D>& other, const std::string& 
   SCOPED_TRACE(name + ", times 2^" + std::to_string(other.exponent));
   EXPECT_EQ(all_scaled<D>(one.body->positions(), other.exponent),
             (std::vector<Point<D>>(other.body->positions().begin(), other.body->positions().end())));
-  ASSERT_EQ(one.contacts.size(), other.contacts.size());
-  for (std::size_t i = 0; i < one.contacts.size(); ++i) {
-    const Body_contact<D>&a = one.contacts[i], &b = other.contacts[i];
+  ASSERT_EQ(one.report.contacts.size(), other.report.contacts.size());
+  for (std::size_t i = 0; i < one.report.contacts.size(); ++i) {
+    const Body_contact<D>&a = one.report.contacts[i], &b = other.report.contacts[i];
     EXPECT_EQ(a.vertex, b.vertex);
     EXPECT_EQ(a.feature, b.feature);
     expect_scaled<D>(a.contact, b.contact, other.exponent);
@@ -135,13 +135,13 @@ void move_at_all_scales(std::vector<std::unique_ptr<Copy<D>>>& copies, oracle::M
   for (const auto& copy : copies) copy->step(targets, options);
   for (std::size_t k = 1; k < copies.size(); ++k) expect_scaled<D>(one, *copies[k], name);
   ++seen.steps;
-  seen.contacts += one.contacts.size();
-  for (std::size_t i = 0; i < one.contacts.size(); ++i) {
-    const Body_contact<D>& c = one.contacts[i];
+  seen.contacts += one.report.contacts.size();
+  for (std::size_t i = 0; i < one.report.contacts.size(); ++i) {
+    const Body_contact<D>& c = one.report.contacts[i];
     seen.by_edge += c.contact.body == Body_feature::edge;
     seen.by_face += c.contact.body == Body_feature::face;
     seen.at_once += c.contact.impact == Exact_time();
-    seen.slides += i > 0 && one.contacts[i - 1].vertex == c.vertex;
+    seen.slides += i > 0 && one.report.contacts[i - 1].vertex == c.vertex;
   }
 }
 
@@ -272,7 +272,7 @@ void expect_lifts_at_the_origin() {
         c->place({{from}, {}, {}});
         c->step(std::vector<Point<D>>{to}, options_without_clearance);
       }
-      ASSERT_FALSE(unit.contacts.empty());
+      ASSERT_FALSE(unit.report.contacts.empty());
       expect_scaled(unit, copy, "from a corner at the origin, or to it");
       Particle<D> slid = unit.locator.particle_at(from).value(),
                   there = copy.locator.particle_at(scaled(from, k)).value();

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace cellwalk::test {
@@ -21,6 +22,10 @@ struct Random_trace_options {
   double body_side = 0.6, speed = 0.1;
   std::uint64_t seed = 1;
 };
+
+inline Body_soup<3> trace_body_at(const Point<3>* first) {
+  return trace_body_soup(std::span<const Point<3>, trace_vertices>(first, trace_vertices));
+}
 
 inline std::array<Point<3>, trace_vertices> box(const Point<3>& middle, double side, double tremble,
                                                 Random& random) {
@@ -55,7 +60,7 @@ inline Trace random_start(const Random_trace_options& options) {
     for (std::size_t k = 0; k < 3; ++k) middle[k] = random.real(0, options.cells[k]);
     const auto corners = box(middle, options.body_side, 0.01, random);
     try {
-      const Trace_body registered(environment.snapshot(), locator, corners);
+      const Body<3> registered(environment.snapshot(), locator, trace_body_soup(corners));
     } catch (const Error&) {
       continue;
     }
@@ -76,7 +81,7 @@ inline Trace random_trace(const Random_trace_options& options) {
     targets.clear();
     for (std::size_t b = 0; b < drifts.size(); ++b) {
       Point<3> middle = drifts[b];
-      for (const Particle<3>& p : recorder.bodies()[b].particles()) middle = middle + 0.125 * p.position;
+      for (const Point<3>& x : recorder.bodies()[b].positions()) middle = middle + 0.125 * x;
       if (step == 0 || random.chance(0.1)) drifts[b] = random_drift(options.speed, random);
       const auto corners = box(middle, options.body_side, options.speed, random);
       targets.insert(targets.end(), corners.begin(), corners.end());

@@ -68,17 +68,17 @@ Seen run(std::vector<Deformable<D>>& bodies, const Flight_conditions<D>& conditi
   constexpr int steps_between_checks = 50;
   Seen seen;
   Body_counts counts;
-  std::vector<Body_contact<D>> contacts;
+  Step_report<D> report;
   for (Deformable<D>& d : bodies) {
     std::vector<double> lengths;
     for (const auto& [u, v] : d.body().edges())
       lengths.push_back(length(d.body().positions()[v] - d.body().positions()[u]));
     const double kinetic = d.kinetic_energy(), energy = d.energy(conditions.gravity);
     for (int s = 1; s <= steps; ++s) {
-      contacts.clear();
-      d.step(conditions, contacts, counts);
-      seen.contacts += contacts.size();
-      for (const auto& c : contacts) seen.of_edges += c.contact.body == Body_feature::edge;
+      report.clear();
+      d.step(conditions, report, counts);
+      seen.contacts += report.contacts.size();
+      for (const auto& c : report.contacts) seen.of_edges += c.contact.body == Body_feature::edge;
       if (conditions.gravity == Vector<D>{}) {
         EXPECT_LE(d.kinetic_energy(), kinetic * (1 + 1e-14)) << "step " << s;
       } else {
@@ -114,7 +114,7 @@ void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& s
       for (const auto& d : bodies) before.push_back(d.body().positions()[0]);
       // Nothing is stuck in free space: what has a velocity moves.
       Body_counts counts;
-      std::vector<Body_contact<D>> met;
+      Step_report<D> met;
       for (std::size_t b = 0; b < bodies.size(); ++b) {
         double way = 0, most = 0;
         for (int s = 0; s < 300; ++s) {
@@ -156,7 +156,7 @@ void expect_bodies_come_to_rest(const Snapshot<D>& snapshot, const Body_soup<D>&
     const Seen seen = run<D>(bodies, conditions, 2500);
     EXPECT_GT(seen.contacts, 2000u);
     Body_counts counts;
-    std::vector<Body_contact<D>> met;
+    Step_report<D> met;
     for (auto& d : bodies) {
       const std::vector<Point<D>> before(d.body().positions().begin(), d.body().positions().end());
       for (int s = 0; s < 200; ++s) d.step(conditions, met, counts);
@@ -188,11 +188,11 @@ TEST(Deformable, FliesStraightAndTurnsEvenly) {
         material, {1, 0.5, 0.25}, {0, 0, std::numbers::pi / 2});
     Flight_conditions<3> conditions;
     conditions.time_step = 0.01;
-    std::vector<Body_contact<3>> contacts;
+    Step_report<3> report;
     Body_counts counts;
     const double energy = d.kinetic_energy();
-    for (int s = 0; s < 800; ++s) d.step(conditions, contacts, counts);
-    EXPECT_TRUE(contacts.empty());
+    for (int s = 0; s < 800; ++s) d.step(conditions, report, counts);
+    EXPECT_TRUE(report.contacts.empty());
     EXPECT_NEAR(d.kinetic_energy(), energy, 1e-9 * energy);
     Point<3> middle{};
     for (const Point<3>& x : d.body().positions()) middle = middle + 0.125 * x;
@@ -214,10 +214,10 @@ TEST(Deformable, BouncesWithItsRestitution) {
     Flight_conditions<3> conditions;
     conditions.time_step = 0.02;
     conditions.restitution = restitution;
-    std::vector<Body_contact<3>> contacts;
+    Step_report<3> report;
     Body_counts counts;
-    for (int s = 0; s < 110; ++s) d.step(conditions, contacts, counts);
-    EXPECT_GE(contacts.size(), 4u);
+    for (int s = 0; s < 110; ++s) d.step(conditions, report, counts);
+    EXPECT_GE(report.contacts.size(), 4u);
     EXPECT_NEAR(d.velocity()[2], restitution, 1e-9) << "flat on the floor: all corners at once";
     EXPECT_NEAR(d.kinetic_energy(), 4 * restitution * restitution, 1e-9);
   }
@@ -236,9 +236,9 @@ TEST(Deformable, FrictionSlowsItDown) {
     conditions.restitution = 0.3;
     conditions.friction = friction;
     conditions.gravity = {0, -9.81};
-    std::vector<Body_contact<2>> contacts;
+    Step_report<2> report;
     Body_counts counts;
-    for (int s = 0; s < 300; ++s) d.step(conditions, contacts, counts);
+    for (int s = 0; s < 300; ++s) d.step(conditions, report, counts);
     const double reached = d.body().positions()[0][0];
     EXPECT_LT(reached, before - 0.05);
     // Part of the energy is spent when the landing body finds back to its shape.
@@ -280,10 +280,10 @@ TEST(Deformable, StaysWhereItIsIfItsMotionIsNotFinite) {
     Flight_conditions<2> conditions;
     conditions.gravity = {huge, huge};
     conditions.time_step = 1e150;
-    std::vector<Body_contact<2>> contacts;
+    Step_report<2> report;
     Body_counts counts;
     const std::vector<Point<2>> before(d.body().positions().begin(), d.body().positions().end());
-    d.step(conditions, contacts, counts);
+    d.step(conditions, report, counts);
     EXPECT_TRUE(std::ranges::equal(before, d.body().positions()));
     EXPECT_EQ(d.velocity(), (Vector<2>{}));
   }

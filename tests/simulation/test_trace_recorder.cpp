@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Touches, which traces and sweeps take differently, are refused where a trace is made.
+// Traces as they are recorded, touches included.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "simulation/random_trace.h"
+#include "simulation/trace_oracle.h"
 
 namespace cellwalk {
 namespace {
@@ -66,7 +69,7 @@ TEST(TraceRecorder, KeepsTargetsAndAnswers) {
   for (std::size_t v = 0; v < trace_vertices; ++v) {
     EXPECT_EQ(trace.answer(0, 0, v), 0);
     EXPECT_EQ(int{trace.answer(1, 0, v)}, v % 2 == 0 ? 0x71 : 0);
-    EXPECT_EQ(recorder.bodies()[0].particles()[v].position, v % 2 == 0 ? free[v] : out[v]);
+    EXPECT_EQ(recorder.bodies()[0].positions()[v], v % 2 == 0 ? free[v] : out[v]);
   }
   EXPECT_EQ(recorder.counts().moves, 16u);
   EXPECT_EQ(recorder.counts().held, 4u);
@@ -74,7 +77,7 @@ TEST(TraceRecorder, KeepsTargetsAndAnswers) {
 
 TEST(TraceRecorder, RefusesStartsThatTouch) {
   const std::string message = refusal(Error_code::input, [] { Room(box_at({0, 0.25, 0.25})).recorder(); });
-  EXPECT_TRUE(message.starts_with("body 0: its edge from vertex 0 to vertex 2 touches a wall at the start"))
+  EXPECT_TRUE(message.starts_with("body 0: its edge from vertex 0 to vertex 1 touches a wall at the start"))
       << message;
   // An edge that passes an edge of the solid cell, its ends off it.
   refusal(Error_code::input, [] {
@@ -97,24 +100,29 @@ TEST(TraceRecorder, RefusesStartsThatTouch) {
               }).starts_with("body 0: vertex 0 of the body"));
 }
 
-TEST(TraceRecorder, RefusesMovesThatTouch) {
-  const auto message_of = [](const Corners& body, std::size_t vertex, const Point<3>& target) {
+/// They are hits in a trace, and so the vertex stays off the wall.
+TEST(TraceRecorder, MovesThatTouchAreHits) {
+  const auto answer_to = [](const Corners& body, std::size_t vertex, const Point<3>& target) {
     const Room room(body);
+    const test::Trace_walls walls(room.start);
     Trace_recorder recorder = room.recorder();
     Corners targets = body;
     recorder.step(targets);  // standing still touches nothing
+    EXPECT_EQ(std::ranges::count(recorder.trace().answers, 0), 8);
     targets[vertex] = target;
-    const std::string message = refusal(Error_code::input, [&] { recorder.step(targets); });
-    EXPECT_EQ(recorder.trace().steps, 1u);
-    EXPECT_EQ(recorder.trace().answers.size(), 8u);
-    return message.substr(0, message.find(':'));
+    recorder.step(targets);
+    const unsigned answer = recorder.trace().answer(1, 0, vertex);
+    std::array<Point<3>, trace_edges> q;
+    for (std::size_t k = 0; k < trace_edges; ++k) q[k] = body[trace_neighbour(vertex, k)];
+    EXPECT_EQ(answer, test::answer(walls, body[vertex], target, q));
+    EXPECT_EQ(recorder.bodies()[0].positions()[vertex], body[vertex]);
+    return answer;
   };
   const Corners in_corner = box_at({0.25, 0.25, 0.25}), below = box_at({0.75, 1.25, 0.25});
-  EXPECT_EQ(message_of(in_corner, 0, {0, 0.5, 0.5}), "step 1, body 0, vertex 0");  // on the boundary
-  EXPECT_EQ(message_of(in_corner, 7, {1, 1, 1}),
-            "step 1, body 0, vertex 7");  // on a corner of the solid cell
+  EXPECT_EQ(answer_to(in_corner, 0, {0, 0.5, 0.5}), 0x71u) << "on the boundary";
+  EXPECT_EQ(answer_to(in_corner, 7, {1, 1, 1}), 0x71u) << "on a corner of the solid cell";
   // An edge of the body comes to lie on an edge of that cell.
-  EXPECT_EQ(message_of(below, 4, {0.75, 1.25, 1.25}), "step 1, body 0, vertex 4");
+  EXPECT_EQ(answer_to(below, 4, {0.75, 1.25, 1.25}) & trace_segment_bit, 0u);
 }
 
 }  // namespace

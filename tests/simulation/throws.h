@@ -68,23 +68,23 @@ Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, in
   conditions.body = options;
   without = conditions;
   without.body.clearance = false;
-  std::vector<Body_contact<D>> contacts, others;
+  Step_report<D> report, others;
   std::vector<double> way(flights.size());
   Body_counts plain_counts;
   for (int s = 0; s < steps; ++s)
     for (std::size_t i = 0; i < flights.size(); ++i) {
       const Point<D> before = flights[i].body().positions()[0];
-      contacts.clear();
-      flights[i].step(conditions, contacts, flown.counts);
-      flown.contacts += contacts.size();
-      for (const auto& c : contacts) {
+      report.clear();
+      flights[i].step(conditions, report, flown.counts);
+      flown.contacts += report.contacts.size();
+      for (const auto& c : report.contacts) {
         flown.edge_contacts += c.contact.body == Body_feature::edge;
         flown.face_contacts += c.contact.body == Body_feature::face;
       }
       if (compare) {
         others.clear();
         plain[i].step(without, others, plain_counts);
-        bool is_same = others.size() == contacts.size();
+        bool is_same = others.contacts.size() == report.contacts.size();
         for (std::uint32_t v = 0; v < shape.points.size(); ++v)
           is_same = is_same && flights[i].body().positions()[v] == plain[i].body().positions()[v];
         flown.differing += !is_same;

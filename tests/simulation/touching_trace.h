@@ -46,7 +46,7 @@ inline Trace touching_start(const Touching_trace_options& options, Random& rando
   while (trace.bodies < options.bodies) {
     const auto corners = lattice_box(options, random);
     try {
-      const Trace_body registered(environment.snapshot(), locator, corners);
+      const Body<3> registered(environment.snapshot(), locator, trace_body_soup(corners));
     } catch (const Error&) {
       continue;
     }

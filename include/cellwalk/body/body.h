@@ -35,11 +35,34 @@ struct Blocked_move {
   bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
   std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
   std::uint64_t swept_edges =
-      0;  ///< of these while they sweep their triangles; unless Sweep::three_segments is asked for
+      0;  ///< of these while they sweep their triangles; none for Sweep::three_segments
   /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
   /// (time and point are along the edge then).
   std::optional<Wall_contact<D>> contact;
   bool stays() const { return is_vertex_blocked || edges != 0; }
+};
+
+/// What a vertex does that meets a wall, or has an edge or a face that does.
+enum class Contact_policy {
+  slide,  ///< it stops at a verified position just before, and its remaining motion is projected on the wall and tried again
+  reject  ///< it stays where it was
+};
+
+/// Which of the edges of a vertex meet a wall.
+enum class Edge_rule {
+  swept,  ///< those that do so while they sweep what Sweep_options::sweep says; faces likewise
+  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are looked at too unless
+  /// Sweep::three_segments is asked for, but only reported; faces are left alone. With Touch::stop whatever closed wall the closed way,
+  /// an edge at its end or a closed triangle meets is in the way, where the vertex or the edge starts too: one that is at a wall
+  /// stays. Of Contact_policy::reject, for vertices of at most 64 edges.
+  at_target
+};
+
+/// What a step reports; what is not reported is not computed where it can be done without.
+enum class Reported {
+  contacts,  ///< when, where and against which wall
+  blocked,  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
+  both
 };
 
 struct Body_options {
@@ -48,10 +71,26 @@ struct Body_options {
   /// lie on a border between cells may be registered in another of them, and where walls leave a choice, of the side on which a
   /// motion in their plane goes on or of the one to report, that may be taken otherwise.
   bool clearance = true;
-  /// A vertex that meets a wall goes on along it, until it met so many in a step. Less than 1 is 1: it stays at the first.
+  Contact_policy policy = Contact_policy::slide;
+  Edge_rule edges = Edge_rule::swept;
+  Reported reported = Reported::contacts;
+  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at the first.
   int most_contacts = 4;
-  /// A vertex that meets a wall stays where it is, and does not go on: the rule of traces.
-  bool hold = false;
+};
+
+/// What walls did in a step, as far as it is asked for.
+template <int D>
+struct Step_report {
+  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments finds it, or the first touch
+  /// if there is none.
+  std::vector<Body_contact<D>> contacts;
+  /// Vertex by vertex; one without an entry moved, and nothing was met.
+  std::vector<Blocked_move<D>> blocked;
+
+  void clear() {
+    contacts.clear();
+    blocked.clear();
+  }
 };
 
 /// What the moves of bodies did. All counts are machine-independent.
@@ -105,28 +144,20 @@ class Body {
   /// The other ends of the edges of a vertex, ascending.
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
-  /// Moves the vertices one after the other to their targets, as far as walls allow: a vertex that meets one, or has an edge
-  /// that does, stops at a verified position just before, and its remaining motion is projected on the wall and tried again.
-  /// Contacts are appended in the order met. \pre one finite target a vertex
-  /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
-  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge. The first
-  /// time faces are swept after moves that left them alone, all are registered.
-  void step(std::span<const Point<D>> targets, const Body_options& options,
-            std::vector<Body_contact<D>>& contacts, Body_counts& counts);
+  /// Moves the vertices one after the other to their targets, as far as walls allow. What meets a wall is decided by options.edges, what
+  /// its vertex does then by options.policy. Appends to the report what is asked for.
+  /// \pre one finite target a vertex
+  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked or both without Edge_rule::at_target,
+  ///        and Sweep::faces after moves that left the faces alone and let a wall pierce one
+  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge, and locating the
+  /// contacts that are reported or slid along. The first time faces are swept after moves that left them alone, all are registered. By
+  /// Edge_rule::at_target with Touch::stop rational arithmetic for walls near a move that planes alone do not prove free, and once for those
+  /// near a body that was moved otherwise.
+  void step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
+            Body_counts& counts);
 
-  /// Moves the vertices one after the other, by the rule of the paper: a vertex that meets a wall, or would have an edge that does
-  /// where it goes, stays where it is. Whatever the sweep, only the way of the vertex and the edges at its end decide; the
-  /// swept triangles are looked at if options.sweep.sweep is not three_segments, and reported. No contact is located. With Touch::pass
-  /// touching is free. With Touch::stop whatever closed wall the closed way, an edge at its end or a closed triangle meets is in the
-  /// way, where the vertex or the edge starts too: one that is at a wall stays. Appends what blocks, vertex by vertex; a vertex
-  /// without an entry moved, and nothing was met.
-  /// \pre one finite target a vertex; no vertex has more than 64 edges
-  /// Cost: that of step(), less that of locating contacts; with Touch::stop rational arithmetic for walls near a move that planes
-  /// alone do not prove free, and once for those near a body that was moved otherwise.
-  void step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                    std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
-
-  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact. Gives a region free of walls up.
+  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by Contact_policy::reject and
+  /// Edge_rule::swept, of the options but the sweep nothing counts. Gives a region free of walls up.
   /// \pre the target is finite
   /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
   std::optional<Body_contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
@@ -172,9 +203,16 @@ class Body {
   Face_registration register_face_here(std::uint32_t face, Face_counts& counts) const;
   void sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
                    Body_counts& counts);
+  void move_each(std::span<const Point<D>> targets, const Body_options& options,
+                 std::vector<Body_contact<D>>& contacts, Body_counts& counts);
   /// As move_vertex, where there is no region. If `any` is set, any contact will do.
   std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
-                                          const Body_options& options, Body_counts& counts, bool any = false);
+                                          const Sweep_options& options, Body_counts& counts,
+                                          bool any = false);
+  /// The first contact, or what it takes to commit the move.
+  std::optional<Body_contact<D>> find_contact(std::uint32_t vertex, const Point<D>& target,
+                                              const Sweep_options& options, Body_counts& counts, bool any,
+                                              Particle<D>& to);
   bool moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
                      Body_counts& counts);
   bool is_free_at_end(const Particle<D>& p, const Particle<D>& q, const Sweep_options& options,
@@ -182,14 +220,18 @@ class Body {
   bool keeps_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
                    const Sweep_options& options, Edge_counts& counts);
   void move_each_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                         std::vector<Blocked_move<D>>& blocked, Body_counts& counts);
-  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
+                         Step_report<D>& report, Body_counts& counts);
+  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
                                Body_counts& counts);
+  const Corner& first_blocked(const Blocked_move<D>& blocked) const;
+  void locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const;
+  Body_contact<D> first_contact(const Blocked_move<D>& blocked, const Point<D>& target,
+                                const Sweep_options& options, Body_counts& counts);
   bool meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
                     Blocked_move<D>& answer, Body_counts& counts);
   bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
                           Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts);
-  void note_apart(const Body_options& options, Body_counts& counts);
+  void note_apart(const Sweep_options& options, Body_counts& counts);
   bool touches_wall(Body_counts& counts);
   bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
                        const Sweep_options& options, Edge_counts& counts) const;
@@ -207,7 +249,7 @@ class Body {
   void place(std::uint32_t vertex, const Point<D>& position);
   void set_outside(std::uint32_t vertex, bool is_outside);
   bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
-            const Body_options& options, Body_counts& counts);
+            const Sweep_options& options, Body_counts& counts);
   Chain seen_from(const Corner& corner) const;
 
   const Snapshot<D>* snapshot_;

@@ -5,10 +5,12 @@
 #define CELLWALK_RECORDS_TRACE_H
 
 #include <cellwalk/kernel/point.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cellwalk {
@@ -22,9 +24,20 @@ constexpr std::size_t trace_neighbour(std::size_t vertex, std::size_t k) {
   return vertex ^ (std::size_t{1} << k);
 }
 
+/// The vertices and edges of a body of a trace.
+inline Body_soup<3> trace_body_soup(std::span<const Point<3>, trace_vertices> positions) {
+  Body_soup<3> soup;
+  soup.points.assign(positions.begin(), positions.end());
+  for (std::uint32_t v = 0; v < trace_vertices; ++v)
+    for (std::size_t k = 0; k < trace_edges; ++k)
+      if (const auto w = static_cast<std::uint32_t>(trace_neighbour(v, k)); v < w)
+        soup.edges.push_back({v, w});
+  return soup;
+}
+
 /// Bits of the answer to the move of one vertex: set for hits.
-constexpr std::uint8_t trace_segment_bit = 1;   ///< the segment from the position of the vertex to its target
-constexpr std::uint8_t trace_edge_bits = 0x0e;  ///< bit 1 + k: the segment from there to neighbour k
+constexpr std::uint8_t trace_segment_bit = 1;       ///< the segment from the position of the vertex to its target
+constexpr std::uint8_t trace_edge_bits = 0x0e;      ///< bit 1 + k: the segment from there to neighbour k
 constexpr std::uint8_t trace_triangle_bits = 0x70;  ///< bit 4 + k: the triangle of the motion and neighbour k
 constexpr std::uint8_t trace_all_bits = trace_segment_bit | trace_edge_bits | trace_triangle_bits;
 

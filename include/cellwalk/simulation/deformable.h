@@ -37,8 +37,7 @@ class Deformable {
   /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays in place, and loses its
   /// velocity.
   /// Cost: that of Shape_matching::goals and of Body::step.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts);
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

@@ -33,10 +33,9 @@ class Flight {
   /// A guided body, with its origin at the first waypoint. It rotates about its origin.
   Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. Thrown bodies bounce off the walls they meet. A body whose motion
-  /// is not finite stays in place, and loses its velocity and spin.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts);
+  /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least. Thrown bodies
+  /// bounce off the walls they meet. A body whose motion is not finite stays in place, and loses its velocity and spin.
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

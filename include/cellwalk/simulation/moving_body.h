@@ -22,10 +22,9 @@ class Moving_body {
   Moving_body(Deformable<D> deformable) : kind_(std::move(deformable)) {}
   Moving_body(Rod<D> rod) : kind_(std::move(rod)) {}
 
-  /// Advances by one time step. Contacts are appended.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts) {
-    std::visit([&](auto& moving) { moving.step(conditions, contacts, counts); }, kind_);
+  /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least.
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts) {
+    std::visit([&](auto& moving) { moving.step(conditions, report, counts); }, kind_);
   }
 
   Body<D>& body() {

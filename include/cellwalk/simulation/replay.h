@@ -6,7 +6,6 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/trace.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +26,7 @@ struct Replay_counts {
   std::uint64_t edge_hits = 0;      ///< edges that hit at the target: bits 1 to 3
   std::uint64_t triangle_hits = 0;  ///< triangles swept by edges that hit: bits 4 to 6
   std::uint64_t rounds = 0;  ///< edges that passed around an obstacle: the triangle hits, the edge does not
-  Body_counts body;          ///< contacts: moves after which the vertex stays
+  Body_counts body;          ///< held: moves after which the vertex stays in place
 };
 
 struct Replay_options {
@@ -71,10 +70,8 @@ class Replay {
   const Trace* trace_;
   Body_options options_;
   std::vector<Body<3>> bodies_;
-  /// For each vertex, the edge that leads to its i-th neighbour.
-  std::array<std::array<std::uint8_t, trace_edges>, trace_vertices> edge_of_{};
-  std::vector<Blocked_move<3>> blocked_;  ///< in one step of one body
-  std::vector<std::uint8_t> answers_;     ///< of all moves; 0 for future ones
+  Step_report<3> report_;              ///< of one body in one step
+  std::vector<std::uint8_t> answers_;  ///< of all moves; 0 for future ones
   std::vector<Replay_contact> contacts_;
   std::uint32_t steps_done_ = 0;
   Replay_counts counts_;

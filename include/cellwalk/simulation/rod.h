@@ -44,8 +44,7 @@ class Rod {
 
   /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are used.
   /// Cost: about 1 us a vertex, and that of Body::step.
-  void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
-            Body_counts& counts);
+  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

@@ -3,7 +3,8 @@
 #ifndef CELLWALK_SIMULATION_TRACE_RECORDER_H
 #define CELLWALK_SIMULATION_TRACE_RECORDER_H
 
-#include <cellwalk/simulation/trace_body.h>
+#include <cellwalk/simulation/trace_rule.h>
+#include <cellwalk/walk/locate.h>
 
 #include <span>
 #include <vector>
@@ -11,9 +12,6 @@
 namespace cellwalk {
 
 /// Records a trace step by step. Refers to the snapshot, which must outlive it.
-///
-/// In a trace a touch counts as a hit, while here touching is free (see Touch). To make both rules agree, motions that touch a wall
-/// without hitting it are refused, and so are edges that touch a wall at the start.
 class Trace_recorder {
  public:
   /// \param snapshot the environment of the trace
@@ -24,23 +22,18 @@ class Trace_recorder {
 
   /// Moves all vertices of all bodies, in order.
   /// \pre one finite target for each vertex, [body][vertex]
-  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; then its step is not recorded,
-  ///        and the recorder must not be used any more
-  /// Cost: some ten times that of the replay, since touches are detected.
+  /// Cost: that of Body::step.
   void step(std::span<const Point<3>> targets);
 
   const Trace& trace() const { return trace_; }
-  std::span<const Trace_body> bodies() const { return bodies_; }
-  const Trace_counts& counts() const { return counts_; }
+  std::span<const Body<3>> bodies() const { return bodies_; }
+  const Body_counts& counts() const { return counts_; }
 
  private:
-  void check_start(std::size_t body) const;
-  bool touches(const Trace_body& body, std::size_t vertex, const Point<3>& target) const;
-
-  const Snapshot<3>* snapshot_;
   Trace trace_;
-  std::vector<Trace_body> bodies_;
-  Trace_counts counts_;
+  std::vector<Body<3>> bodies_;
+  Step_report<3> report_;  ///< of one body in one step
+  Body_counts counts_;
 };
 
 }  // namespace cellwalk

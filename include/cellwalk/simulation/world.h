@@ -58,6 +58,8 @@ class World {
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
+  /// The report of the last step of one body. \pre there was one
+  const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
   /// The counts of the walks of particles.
   const Walk_counts& counts() const { return counts_; }
   /// The counts of the moves of all bodies.
@@ -78,7 +80,7 @@ class World {
   void place_copies(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator);
   void step_free();
   void step_bodies();
-  void report(std::size_t particle);
+  void record_contacts(std::size_t particle);
 
   void check_epoch() const;
 
@@ -94,8 +96,8 @@ class World {
   Flight_conditions<D> conditions_;
   std::vector<Contact_record<D>> contacts_;
   struct Body_step {
-    std::vector<Body_contact<D>> contacts;  ///< in the latest step
-    Body_counts counts;                     ///< of all steps
+    Step_report<D> report;  ///< of the latest step
+    Body_counts counts;     ///< of all steps
   };
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
   std::vector<Met_contact<D>> met_;

@@ -74,8 +74,8 @@ void keep_bodies() {
   keep(
       +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
       &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
-      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::step_or_stay, &Body<D>::move_vertex,
-      &Body<D>::catch_up, &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
+      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::catch_up,
+      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
 
   keep(&transformed<D>, &make_body<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),

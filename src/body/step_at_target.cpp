@@ -1,42 +1,85 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The step of a body by the rule of the paper: what meets a wall stays where it is.
+// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide, and what meets a wall
+// stays where it is.
 #include <cellwalk/body/body.h>
 
+#include <bit>
 #include <utility>
 
 namespace cellwalk {
-template <int D>
-void Body<D>::step_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                           std::vector<Blocked_move<D>>& blocked, Body_counts& counts) {
-  if (!moves_at_once(targets, options, counts)) move_each_or_stay(targets, options, blocked, counts);
-}
 
-/// The same vertex by vertex. Not to be inlined: the step above is short.
+/// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
 [[gnu::noinline]] void Body<D>::move_each_or_stay(std::span<const Point<D>> targets,
-                                                  const Body_options& options,
-                                                  std::vector<Blocked_move<D>>& blocked,
+                                                  const Body_options& options, Step_report<D>& report,
                                                   Body_counts& counts) {
-  note_apart(options, counts);
+  const Sweep_options& sweep = options.sweep;
+  note_apart(sweep, counts);
   // Planes prove that nothing is touched where nothing was.
-  const bool may_be_plain = options.sweep.touch == Touch::pass || is_apart_;
+  const bool may_be_plain = sweep.touch == Touch::pass || is_apart_;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     if (moves_in_region(v, targets[v], counts) ||
-        (may_be_plain && moves_plainly(v, targets[v], options.sweep, counts)))
+        (may_be_plain && moves_plainly(v, targets[v], sweep, counts)))
       continue;
-    const Blocked_move<D> answer = move_or_stay(v, targets[v], options, counts);
+    Blocked_move<D> answer = move_or_stay(v, targets[v], sweep, counts);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts.contacts += answer.stays();
-    blocked.push_back(answer);
+    counts.held += answer.stays();
+    if (options.reported != Reported::blocked && answer.stays())
+      report.contacts.push_back(first_contact(answer, targets[v], sweep, counts));
+    if (options.reported == Reported::contacts) continue;
+    locate_wall(answer, targets[v]);
+    report.blocked.push_back(answer);
   }
+}
+
+/// The edge of a vertex that is the first to be blocked.
+template <int D>
+const typename Body<D>::Corner& Body<D>::first_blocked(const Blocked_move<D>& blocked) const {
+  return corners_[corner_begin_[blocked.vertex] +
+                  static_cast<std::uint32_t>(std::countr_zero(blocked.edges))];
+}
+
+/// Where the wall is that keeps a vertex from moving, which walks and searches of chains left out.
+template <int D>
+void Body<D>::locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const {
+  if (blocked.is_vertex_blocked)
+    locate_contact(*snapshot_, positions_[blocked.vertex], target, *blocked.contact);
+  else if (blocked.contact)
+    locate_contact(*snapshot_, target, positions_[first_blocked(blocked).other], *blocked.contact);
+}
+
+/// The contact of a vertex that stays.
+template <int D>
+Body_contact<D> Body<D>::first_contact(const Blocked_move<D>& blocked, const Point<D>& target,
+                                       const Sweep_options& options, Body_counts& counts) {
+  const std::uint32_t vertex = blocked.vertex;
+  Sweep_options segments = options;
+  segments.sweep = Sweep::three_segments;
+  Particle<D> to;
+  for (const Touch touch : {Touch::pass, Touch::stop}) {
+    segments.touch = touch;
+    if (const auto first = find_contact(vertex, target, segments, counts, false, to)) return *first;
+  }
+  // It touched a wall where it started.
+  const Particle<D>& from = particles_[vertex];
+  const auto meeting = [&](const Point<D>& q, std::uint32_t edge) -> Body_contact<D> {
+    Contact<D> contact =
+        closed_meeting<D>(*snapshot_, from.cell, {from.position, target, q}, counts.edges).value();
+    if (blocked.is_vertex_blocked) contact.body = Body_feature::vertex;
+    return {contact, vertex, contact.body == Body_feature::vertex ? vertex : edge};
+  };
+  if (blocked.is_vertex_blocked) return meeting(from.position, 0);
+  const Corner& corner = first_blocked(blocked);
+  return meeting(positions_[corner.other], corner.edge);
 }
 
 /// Finds out whether the body is apart from all walls, where that matters and is not known.
 template <int D>
-void Body<D>::note_apart(const Body_options& options, Body_counts& counts) {
+void Body<D>::note_apart(const Sweep_options& options, Body_counts& counts) {
   if (region_ && outside_ == 0)
     is_apart_ = true;
-  else if (options.sweep.touch == Touch::pass)
+  else if (options.touch == Touch::pass)
     is_apart_ = false;  // what moves now may touch
   else if (!is_apart_)
     is_apart_ = !touches_wall(counts);
@@ -144,7 +187,7 @@ bool Body<D>::keeps_chain(const Particle<D>& from, const Particle<D>& to, const 
 
 template <int D>
 Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
-                                      const Body_options& options, Body_counts& counts) {
+                                      const Sweep_options& options, Body_counts& counts) {
   Blocked_move<D> answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
@@ -155,7 +198,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
   visited_.clear();
   crossed_.clear();
   // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
-  const bool needs_way = options.sweep.sweep != Sweep::three_segments;
+  const bool needs_way = options.sweep != Sweep::three_segments;
   const std::uint64_t signs = counts.edges.walk.predicates.orientations;
   Walk_options recorded;
   recorded.locates_contact = false;
@@ -167,12 +210,11 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
       walked.contact) {
     answer.is_vertex_blocked = true;
     answer.contact = walked.contact;
-    locate_contact(*snapshot_, from.position, target, *answer.contact);
     return answer;
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
   const bool is_apart = is_apart_ && counts.edges.walk.predicates.orientations == signs;
-  if (options.sweep.touch == Touch::stop && !is_apart)
+  if (options.touch == Touch::stop && !is_apart)
     if (const auto touch =
             closed_meeting<D>(*snapshot_, from.cell, {from.position, target, from.position}, counts.edges)) {
       answer.is_vertex_blocked = true;
@@ -187,8 +229,8 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
     const bool is_in_region = is_inside && !is_outside_[corners_[i].other];
     moved.is_behind = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options.sweep, moved, answer, counts)
-                                  : meets_at_end(way, i, options.sweep, answer, counts);
+    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options, moved, answer, counts)
+                                  : meets_at_end(way, i, options, answer, counts);
     if (is_met) answer.edges |= std::uint64_t{1} << (i - begin);
   }
   if (answer.stays()) return answer;
@@ -227,10 +269,7 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
     else
       contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
   }
-  if (contact && !answer.contact) {
-    locate_contact(*snapshot_, way.to.position, q.position, *contact);
-    answer.contact = contact;
-  }
+  if (contact && !answer.contact) answer.contact = contact;
   return contact.has_value();
 }
 
@@ -274,10 +313,7 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
     anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
   }
   if (anew.contact) {
-    if (!answer.contact) {
-      locate_contact(*snapshot_, way.to.position, q.position, *anew.contact);
-      answer.contact = anew.contact;
-    }
+    if (!answer.contact) answer.contact = anew.contact;
     return true;
   }
   moved.chain = std::move(anew.chain);
@@ -302,12 +338,14 @@ bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, co
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::note_apart(const Body_options&, Body_counts&);                                     \
+  template void Body<D>::note_apart(const Sweep_options&, Body_counts&);                                    \
   template bool Body<D>::touches_wall(Body_counts&);                                                        \
-  template void Body<D>::move_each_or_stay(std::span<const Point<D>>, const Body_options&,                  \
-                                           std::vector<Blocked_move<D>>&, Body_counts&);                    \
-  template void Body<D>::step_or_stay(std::span<const Point<D>>, const Body_options&,                       \
-                                      std::vector<Blocked_move<D>>&, Body_counts&);                         \
+  template void Body<D>::move_each_or_stay(std::span<const Point<D>>, const Body_options&, Step_report<D>&, \
+                                           Body_counts&);                                                   \
+  template const typename Body<D>::Corner& Body<D>::first_blocked(const Blocked_move<D>&) const;            \
+  template void Body<D>::locate_wall(Blocked_move<D>&, const Point<D>&) const;                              \
+  template Body_contact<D> Body<D>::first_contact(const Blocked_move<D>&, const Point<D>&,                  \
+                                                  const Sweep_options&, Body_counts&);                      \
   template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
                                          const Sweep_options&, Edge_counts&) const;                         \
   template bool Body<D>::moves_plainly(std::uint32_t, const Point<D>&, const Sweep_options&, Body_counts&); \
@@ -319,7 +357,7 @@ bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, co
                                       Body_counts&);                                                        \
   template bool Body<D>::sweep_meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&,             \
                                             Moved_chain&, Blocked_move<D>&, Body_counts&);                  \
-  template Blocked_move<D> Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Body_options&,       \
+  template Blocked_move<D> Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Sweep_options&,      \
                                                  Body_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/simulation/trace_rule.h>
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace cellwalk {
+namespace {
+
+/// Of each vertex, which of its edges leads to its i-th neighbour in ascending order.
+constexpr auto edge_of = [] {
+  std::array<std::array<std::uint8_t, trace_edges>, trace_vertices> table{};
+  for (std::size_t v = 0; v < trace_vertices; ++v)
+    for (std::size_t k = 0; k < trace_edges; ++k) {
+      std::size_t place = 0;
+      for (std::size_t j = 0; j < trace_edges; ++j) place += trace_neighbour(v, j) < trace_neighbour(v, k);
+      table[v][place] = static_cast<std::uint8_t>(k);
+    }
+  return table;
+}();
+
+}  // namespace
+
+Body_options trace_options(Sweep sweep) {
+  Body_options options;
+  options.sweep.sweep = sweep;
+  options.sweep.touch = Touch::stop;
+  options.policy = Contact_policy::reject;
+  options.edges = Edge_rule::at_target;
+  options.reported = Reported::blocked;
+  return options;
+}
+
+std::uint8_t trace_answer(const Blocked_move<3>& blocked, Sweep sweep) {
+  if (blocked.is_vertex_blocked)
+    return sweep == Sweep::triangle ? trace_segment_bit | trace_triangle_bits : trace_segment_bit;
+  std::uint8_t answer = 0;
+  for (std::size_t i = 0; i < trace_edges; ++i) {
+    const auto k = edge_of[blocked.vertex][i];
+    answer |= static_cast<std::uint8_t>((blocked.edges >> i & 1) << (1 + k) | (blocked.swept_edges >> i & 1)
+                                                                                  << (4 + k));
+  }
+  return answer;
+}
+
+void append_answers(std::span<const Blocked_move<3>> blocked, Sweep sweep,
+                    std::vector<std::uint8_t>& answers) {
+  const std::size_t first = answers.size();
+  answers.resize(first + trace_vertices);
+  for (const Blocked_move<3>& move : blocked) answers[first + move.vertex] = trace_answer(move, sweep);
+}
+
+void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number) {
+  Edge_counts counts;
+  bool has_extent = false;
+  for (const auto& [u, v] : body.edges()) {
+    const Particle<3>& from = body.particles()[u];
+    const Point<3>& to = body.positions()[v];
+    has_extent |= from.position != to;
+    if (closed_meeting<3>(snapshot, from.cell, {from.position, to, from.position}, counts))
+      throw Error(
+          Error_code::input,
+          fmt::format("body {}: its edge from vertex {} to vertex {} touches a wall at the start, which a "
+                      "trace counts as a hit: put it elsewhere",
+                      number, u, v));
+  }
+  if (!has_extent)
+    throw Error(Error_code::input,
+                fmt::format("body {}: all its vertices are in one place: give it a size", number));
+}
+
+}  // namespace cellwalk

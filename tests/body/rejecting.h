@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Steps by the rule of traces.
+#ifndef CELLWALK_TESTS_BODY_REJECTING_H
+#define CELLWALK_TESTS_BODY_REJECTING_H
+
+#include <cellwalk/body/body.h>
+
+#include <span>
+
+namespace cellwalk::test {
+
+inline Body_options rejecting(Sweep sweep, Touch touch, bool clearance) {
+  Body_options options;
+  options.sweep.sweep = sweep;
+  options.sweep.touch = touch;
+  options.clearance = clearance;
+  options.policy = Contact_policy::reject;
+  options.edges = Edge_rule::at_target;
+  options.reported = Reported::both;
+  return options;
+}
+
+template <int D>
+Step_report<D> reject(Body<D>& body, std::span<const Point<D>> targets, const Body_options& options,
+                      Body_counts& counts) {
+  Step_report<D> report;
+  body.step(targets, options, report, counts);
+  return report;
+}
+
+}  // namespace cellwalk::test
+
+#endif  // CELLWALK_TESTS_BODY_REJECTING_H
