@@ -109,8 +109,10 @@ class Particles {
               out.arrive(row, result.cell, result.cells);
               continue;
             }
-            out.meet(row, *result.contact, result.cells);
-            chunk.add(snapshot, row, *result.contact, Body_feature::vertex);
+            const Contact<D> contact =
+                to_contact(*result.contact, Exact_time(result.contact->time), Body_feature::vertex);
+            out.meet(row, contact, result.cells);
+            chunk.add(snapshot, row, contact);
             if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
           }
           chunk.counts = counts;

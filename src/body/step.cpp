@@ -63,7 +63,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
 template <int D>
 bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
                    const Body_options& options, Body_counts& counts) {
-  if (met.contact.impact == Exact_time()) return false;
+  if (met.contact.time == Exact_time()) return false;
   const Point<D> from = positions_[vertex];
   Body_options tried = options;
   tried.sweep.search = Contact_search::exact;  // whether there is a contact matters, not where

@@ -64,7 +64,7 @@ void World<D>::step_bodies() {
     for (const Body_contact<D>& met : body_steps_[i].contacts) {
       const Contact<D>& c = met.contact;
       const Vector<D> normal = c.normal + Vector<D>{};
-      contacts_.push_back({steps_done_, 0, c.time, c.point, normal, c.kind, snapshot_.index(c.cell),
+      contacts_.push_back({steps_done_, 0, c.rounded_time(), c.point, normal, c.kind, snapshot_.index(c.cell),
                            Met_body{i, met.vertex, c.body, met.feature}});
     }
 }

@@ -44,7 +44,7 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     const Contact<D>&x = a.contacts[i].contact, &y = b.contacts[i].contact;
     if (a.contacts[i].vertex != b.contacts[i].vertex) return "the vertex of a contact";
-    if (x.impact != y.impact) return "the time of a contact";
+    if (x.time != y.time) return "the time of a contact";
     if (x.body != y.body || x.kind != y.kind || a.contacts[i].feature != b.contacts[i].feature)
       return "the feature of a contact";
   }

@@ -68,7 +68,6 @@ struct Seen {
 template <int D>
 void expect_scaled(const Contact<D>& a, const Contact<D>& b, int exponent) {
   EXPECT_EQ(a.time, b.time);
-  EXPECT_EQ(a.impact, b.impact);
   EXPECT_EQ(scaled(a.point, exponent), b.point);
   EXPECT_EQ(a.normal, b.normal);
   EXPECT_EQ(a.kind, b.kind);
@@ -140,7 +139,7 @@ void move_at_all_scales(std::vector<std::unique_ptr<Copy<D>>>& copies, oracle::M
     const Body_contact<D>& c = one.contacts[i];
     seen.by_edge += c.contact.body == Body_feature::edge;
     seen.by_face += c.contact.body == Body_feature::face;
-    seen.at_once += c.contact.impact == Exact_time();
+    seen.at_once += c.contact.time == Exact_time();
     seen.slides += i > 0 && one.contacts[i - 1].vertex == c.vertex;
   }
 }

@@ -182,7 +182,7 @@ TEST(Trace_body, ReportsContacts) {
     }
     ASSERT_TRUE(first);
     EXPECT_EQ(contact.body, is_vertex ? Body_feature::vertex : Body_feature::edge);
-    EXPECT_NEAR(contact.time, *first, 0x1p-50);
+    EXPECT_NEAR(contact.rounded_time(), *first, 0x1p-50);
     EXPECT_NEAR(length(contact.normal), 1, 0x1p-40);
     ++(is_vertex ? of_vertices : of_edges);
   });
