@@ -110,10 +110,10 @@ class Particles {
               continue;
             }
             const Contact<D> contact =
-                to_contact(*result.contact, Exact_time(result.contact->time), Body_feature::vertex);
+                vertex_contact(snapshot, particle.position, target, *result.contact, counts);
             out.meet(row, contact, result.cells);
             chunk.add(snapshot, row, contact);
-            if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+            if constexpr (stops) stop_at_contact(snapshot, particle, target, contact, counts);
           }
           chunk.counts = counts;
         });

@@ -3,35 +3,11 @@
 #include <cellwalk/body/body.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "slide.h"
 #include "stop_candidates.h"
 
 namespace cellwalk {
-namespace {
-
-/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
-constexpr double rounding = 0x1p-40;
-
-/// What is left of a motion that met walls, the last of them just now.
-template <int D>
-Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
-  const Vector<D>& last = normals.back();
-  const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
-  for (std::size_t i = normals.size() - 1; i-- > 0;) {
-    if (dot(along, normals[i]) >= 0) continue;
-    const Vector<D> both = detail::along_both(along, last, normals[i]);
-    const double most_into = rounding * length(both);
-    const bool leads_out = std::all_of(normals.begin(), normals.end(),
-                                       [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
-    return leads_out ? both : Vector<D>{};
-  }
-  return along;
-}
-
-}  // namespace
-
 template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options,
                    std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
@@ -52,7 +28,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
       }
       counts.held += !stop(v, target, *contact, options, counts);
       normals.push_back(contact->contact.normal);
-      const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
+      const Vector<D> left = detail::slide<D>(targets[v] - positions_[v], normals);
       if (!(length(left) > 0)) break;
       target = positions_[v] + left + detail::lift<D>(positions_[v], left, normals.back());
       if (!is_finite(target)) break;

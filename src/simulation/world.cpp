@@ -23,15 +23,15 @@ void World<D>::step() {
 
 template <int D>
 void World<D>::report(std::size_t particle) {
-  for (const Met_contact<D>& m : met_) {
-    const Vector<D> normal = m.contact.normal + Vector<D>{};  // no negative zeros for readers of tables
+  for (const Contact<D>& met : met_) {
+    const Vector<D> normal = met.normal + Vector<D>{};  // no negative zeros for readers of tables
     contacts_.push_back({steps_done_,
                          static_cast<std::uint32_t>(particle),
-                         m.time,
-                         m.contact.point,
+                         met.rounded_time(),
+                         met.point,
                          normal,
-                         m.contact.kind,
-                         snapshot_.index(m.contact.cell),
+                         met.kind,
+                         snapshot_.index(met.cell),
                          {}});
   }
   met_.clear();

@@ -211,13 +211,13 @@ void expect_flights_scale() {
       Wall_response response;
       if (k % 4 == 1) response.restitution = 0.5;
       if (k % 3 == 1) response.friction = 0.25;
-      std::vector<Met_contact<D>> first;
+      std::vector<Contact<D>> first;
       Point<D> end{};
       Vector<D> speed{};
       for (const auto& copy : copies) {
         Particle<D> particle = copy->locator.particle_at(scaled(from, copy->exponent)).value();
         ASSERT_NE(particle.cell, Cell::none);
-        std::vector<Met_contact<D>> met;
+        std::vector<Contact<D>> met;
         Walk_counts counts;
         const Vector<D> after =
             advance(copy->snapshot, particle, scaled(velocity, copy->exponent), response, met, counts);
@@ -233,8 +233,8 @@ void expect_flights_scale() {
         ASSERT_EQ(met.size(), first.size());
         for (std::size_t i = 0; i < met.size(); ++i) {
           EXPECT_EQ(met[i].time, first[i].time);
-          EXPECT_EQ(met[i].contact.normal, first[i].contact.normal);
-          EXPECT_EQ(met[i].contact.facet, first[i].contact.facet);
+          EXPECT_EQ(met[i].normal, first[i].normal);
+          EXPECT_EQ(met[i].facet, first[i].facet);
         }
       }
       ++flights;
@@ -275,7 +275,7 @@ void expect_lifts_at_the_origin() {
       expect_scaled(unit, copy, "from a corner at the origin, or to it");
       Particle<D> slid = unit.locator.particle_at(from).value(),
                   there = copy.locator.particle_at(scaled(from, k)).value();
-      std::vector<Met_contact<D>> met;
+      std::vector<Contact<D>> met;
       Walk_counts counts;
       advance(unit.snapshot, slid, to - from, {}, met, counts);
       advance(copy.snapshot, there, scaled(to - from, k), {}, met, counts);

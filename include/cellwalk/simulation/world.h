@@ -97,7 +97,7 @@ class World {
     Body_counts counts;                     ///< of all steps
   };
   std::vector<Body_step> body_steps_;  ///< of each body: they move at the same time
-  std::vector<Met_contact<D>> met_;
+  std::vector<Contact<D>> met_;
   Walk_counts counts_;
 };
 
