@@ -4,19 +4,17 @@
 #define CELLWALK_SIMULATION_CONTACT_RECORD_H
 
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/walk/walk.h>
 
 #include <cstdint>
 #include <optional>
 
 namespace cellwalk {
 
-/// What of a body met a wall.
+/// Whose feature met a wall, if it was a body's.
 struct Met_body {
   std::uint32_t body = 0;    ///< its number in the run
   std::uint32_t vertex = 0;  ///< the one that was moving
-  Body_feature feature = Body_feature::vertex;
-  std::uint32_t number = 0;  ///< of the vertex, edge or face
+  std::uint32_t number = 0;  ///< of the vertex, edge or face that met the wall
 };
 
 /// A particle or a body was stopped by a wall.
@@ -24,12 +22,9 @@ template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
   std::uint32_t particle = 0;  ///< its number in the run; of no meaning where a body is met
-  /// In [0,1]. Of particles: share of the step that had passed. Of bodies: share of the vertex's motion that was free; what
-  /// is left of it after a contact is a motion of its own.
-  double time = 0;
-  Point<D> point{};    ///< where the motion met the wall, rounded
-  Vector<D> normal{};  ///< unit normal of the wall, towards the free side
-  Contact_kind kind = Contact_kind::facet;
+  /// Its time, of particles: share of the step that had passed. Of bodies: share of the vertex's motion that was free; what is left of
+  /// it after a contact is a motion of its own.
+  Contact<D> contact;
   std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
   std::optional<Met_body> body{};  ///< nothing: it was a particle
 };
