@@ -109,9 +109,11 @@ class Particles {
               out.arrive(row, result.cell, result.cells);
               continue;
             }
-            out.meet(row, *result.contact, result.cells);
-            chunk.add(snapshot, row, *result.contact, Body_feature::vertex);
-            if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+            const Contact<D> contact =
+                vertex_contact(snapshot, particle.position, target, *result.contact, counts);
+            out.meet(row, contact, result.cells);
+            chunk.add(snapshot, row, contact);
+            if constexpr (stops) stop_at_contact(snapshot, particle, target, contact, counts);
           }
           chunk.counts = counts;
         });

@@ -4,32 +4,12 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "slide.h"
 #include "stop_candidates.h"
 
 namespace cellwalk {
 namespace {
-
-/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
-constexpr double rounding = 0x1p-40;
-
-/// What is left of a motion that met walls, the last of them just now.
-template <int D>
-Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
-  const Vector<D>& last = normals.back();
-  const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
-  for (std::size_t i = normals.size() - 1; i-- > 0;) {
-    if (dot(along, normals[i]) >= 0) continue;
-    const Vector<D> both = detail::along_both(along, last, normals[i]);
-    const double most_into = rounding * length(both);
-    const bool leads_out = std::all_of(normals.begin(), normals.end(),
-                                       [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
-    return leads_out ? both : Vector<D>{};
-  }
-  return along;
-}
 
 [[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
   throw Error(Error_code::usage,
@@ -79,7 +59,7 @@ void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& o
       }
       counts.held += !stop(v, target, *contact, options.sweep, counts);
       normals.push_back(contact->contact.normal);
-      const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
+      const Vector<D> left = detail::slide<D>(targets[v] - positions_[v], normals);
       if (!(length(left) > 0)) break;
       target = positions_[v] + left + detail::lift<D>(positions_[v], left, normals.back());
       if (!is_finite(target)) break;
@@ -90,7 +70,7 @@ void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& o
 template <int D>
 bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
                    const Sweep_options& options, Body_counts& counts) {
-  if (met.contact.impact == Exact_time()) return false;
+  if (met.contact.time == Exact_time()) return false;
   const Point<D> from = positions_[vertex];
   Sweep_options tried = options;
   tried.search = Contact_search::exact;  // whether there is a contact matters, not where

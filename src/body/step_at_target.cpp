@@ -7,6 +7,17 @@
 #include <utility>
 
 namespace cellwalk {
+namespace {
+
+/// The wall that is touched, as walks report walls.
+template <int D>
+std::optional<Wall_contact<D>> touched_wall(const std::optional<Contact<D>>& touch) {
+  if (!touch) return {};
+  return Wall_contact<D>{touch->rounded_time(), touch->point,  touch->normal, touch->kind,
+                         touch->facet,          touch->corner, touch->cell};
+}
+
+}  // namespace
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
@@ -218,7 +229,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
     if (const auto touch =
             closed_meeting<D>(*snapshot_, from.cell, {from.position, target, from.position}, counts.edges)) {
       answer.is_vertex_blocked = true;
-      answer.contact = *touch;
+      answer.contact = touched_wall(touch);
       return answer;
     }
   const Way<D> way{from, to, visited_, crossed_, false, is_apart};
@@ -264,8 +275,8 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
   std::optional<Wall_contact<D>> contact = walked.contact;
   if (!contact || contact->kind != Contact_kind::facet) {
     if (stops)
-      contact =
-          closed_meeting<D>(*snapshot_, way.to.cell, {way.to.position, q.position, way.to.position}, edges);
+      contact = touched_wall(
+          closed_meeting<D>(*snapshot_, way.to.cell, {way.to.position, q.position, way.to.position}, edges));
     else
       contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
   }
@@ -306,7 +317,7 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
   if (stops && !is_crossed) {
     const bool is_plain = way.is_apart && counts.edges.walk.predicates.orientations == signs;
     if (anew.contact || !is_plain) {
-      anew.contact = meeting(way.to.cell, {way.to.position, q.position, way.to.position});
+      anew.contact = touched_wall(meeting(way.to.cell, {way.to.position, q.position, way.to.position}));
       if (!anew.contact) anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
     }
   } else if (anew.contact && !is_crossed) {

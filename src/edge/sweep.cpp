@@ -2,6 +2,7 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/edge/three_segments.h>
 
+#include <utility>
 #include <vector>
 
 #include "contact_search.h"
@@ -22,17 +23,6 @@ Swept_triangle<D> triangle_of(const Way<D>& way, const Particle<D>& q) {
 template <int D>
 void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>>& other) {
   if (other && (!first || is_before(*other, *first))) first = other;
-}
-
-template <int D>
-Contact<D> edge_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                        const Chain_result<D>& found) {
-  Contact<D> contact;
-  static_cast<Wall_contact<D>&>(contact) = *found.contact;
-  contact.body = Body_feature::edge;
-  contact.impact = found.impact;
-  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), contact, contact.normal);
-  return contact;
 }
 
 /// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
@@ -60,19 +50,21 @@ bool is_free_where_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const
 
 /// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
 template <int D>
-Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                        const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
-  Chain_result<D> result{before, {}, {}};
   if (way.blocked) {
     ++counts.edges;
     ++counts.changed;
-    walk_start(snapshot, result.chain, way.crossed);
-    if (is_free_where_blocked(snapshot, way, q, counts.walk)) return result;
+    if (is_free_where_blocked(snapshot, way, q, counts.walk)) {
+      Sweep_result<D> result{{}, before};
+      walk_start(snapshot, result.chain, way.crossed);
+      return result;
+    }
   } else {
-    result = check_third_segment(snapshot, way, q, before, counts, options.certificates);
-    if (!result.contact && !result.has_choice) return result;
+    Chain_result<D> found = check_third_segment(snapshot, way, q, before, counts, options.certificates);
+    if (!found.contact && !found.has_choice) return {{}, std::move(found.chain)};
   }
   // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
   // goes on, is for the events to say.
@@ -82,7 +74,7 @@ Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Par
 
 template <int D>
 Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
-                  const Chain_result<D>& found, const Sweep_options& options, Edge_counts& counts) {
+                  const Contact<D>& first, const Sweep_options& options, Edge_counts& counts) {
   switch (options.search) {
     case Contact_search::exact:
       break;
@@ -98,7 +90,9 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
         return *contact;
       break;
   }
-  return edge_contact(snapshot, way, q, found);
+  Contact<D> contact = first;
+  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), first, first.normal);
+  return contact;
 }
 
 }  // namespace
@@ -106,10 +100,8 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts) {
-  Sweep_result<D> result;
-  const Chain_result<D> found = detect(snapshot, way, q, before, options, counts);
-  result.chain = found.chain;
-  if (found.contact) result.contact = locate(snapshot, way, q, before, found, options, counts);
+  Sweep_result<D> result = detect(snapshot, way, q, before, options, counts);
+  if (result.contact) result.contact = locate(snapshot, way, q, before, *result.contact, options, counts);
   if (options.touch == Touch::stop)
     keep_first(result.contact, detail::first_touch(snapshot, way.from.cell, triangle_of(way, q), counts));
   return result;
@@ -118,11 +110,8 @@ Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way,
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
                           const Wall_contact<D>& met, Walk_counts& counts) {
-  Contact<D> result;
-  static_cast<Wall_contact<D>&>(result) = met;
-  result.impact = to_time(detail::exit_time<D>(snapshot.view(met.cell), from, target, counts).value());
-  result.time = result.impact.rounded();
-  return result;
+  const detail::Moment<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
+  return to_contact(met, to_time(time.value()), Body_feature::vertex);
 }
 
 template <int D>

@@ -34,7 +34,7 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
     if constexpr (Kernel::is_exact)
       answer.contact = vertex_contact(snapshot, particle.position, to, *result.contact, counts.walk);
     else
-      answer.contact = Contact<D>{*result.contact, Body_feature::vertex, Exact_time(result.contact->time)};
+      answer.contact = to_contact(*result.contact, Exact_time(result.contact->time), Body_feature::vertex);
   }
   return answer;
 }
@@ -48,7 +48,7 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const P
   for (const Particle<D>& start : starts) {
     const Answer<D> result = move_from<Kernel>(snapshot, start, to, options, counts);
     const bool further = result.status == Motion_status::free ||
-                         (result.contact && best.contact && result.contact->impact > best.contact->impact);
+                         (result.contact && best.contact && result.contact->time > best.contact->time);
     if (best.status == Motion_status::outside || further) best = result;
     if (best.status == Motion_status::free) break;
   }

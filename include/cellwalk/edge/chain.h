@@ -3,7 +3,6 @@
 #ifndef CELLWALK_EDGE_CHAIN_H
 #define CELLWALK_EDGE_CHAIN_H
 
-#include <cellwalk/kernel/exact_time.h>
 #include <cellwalk/walk/walk.h>
 
 #include <boost/container/small_vector.hpp>
@@ -59,8 +58,7 @@ struct Chain_result {
   /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. 1: it leads to q on another
   /// side of the walls there than the one that q is on.
   std::optional<Wall_contact<D>> contact;
-  Exact_time impact{};  ///< of a sweep's contact: contact->time before it was rounded
-  /// Of find_chain(): the segment runs along a wall from its rim on, and has chains on both sides of it.
+  /// The segment runs along a wall from its rim on, and has chains on both sides of it.
   bool has_choice = false;
 };
 

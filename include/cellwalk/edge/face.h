@@ -46,19 +46,16 @@ struct Face_counts {
 };
 static_assert(names_all_before<Face_counts>(offsetof(Face_counts, walk)));
 
-/// A wall that comes through a face. `normal` is that of the face at that time on the side it came from, unless the inside of
-/// the wall is met (kind facet): then it is that of the wall, on the side of the face.
-/// `body` is the part of the face that meets it: its inside, one of its edges, or p.
-struct Face_contact : Contact<3> {
-  /// True if no wall comes through the face, but an edge of it, where it moved in the plane of a wall and passed its rim, took the
-  /// other side of it than the face. The time is then 0, the point where p started, and the normal that of the wall on the side of
-  /// the face, if the wall has that side.
-  bool is_edge_astray = false;
-};
-
 struct Face_result {
-  Face_rests rests;                     ///< after the move
-  std::optional<Face_contact> contact;  ///< if set, a wall comes through the face, and there are no rests
+  Face_rests rests;  ///< after the move
+  /// If set, a wall comes through the face, and there are no rests. The normal is that of the face at that time on the side it came
+  /// from, unless the inside of the wall is met (kind facet): then it is that of the wall, on the side of the face. `body` is the
+  /// part of the face that meets it: its inside, one of its edges, or p.
+  std::optional<Contact<3>> contact;
+  /// True if no wall comes through the face, but an edge of it, where it moved in the plane of a wall and passed its rim, took the
+  /// other side of it than the face. The time of the contact is then 0, the point where p started, and the normal that of the wall
+  /// on the side of the face, if the wall has that side.
+  bool is_edge_astray = false;
 };
 
 /// Sweeps the face pqr while p goes its way and q and r stand still. Returns its rests afterwards, or the first contact. Touching

@@ -53,14 +53,6 @@ struct Sweep_options {
   double tolerance = 0x1p-20;  ///< of dichotomic searches: length of the last interval of time, in (0,1]
 };
 
-template <int D>
-struct Sweep_result {
-  std::optional<Contact<D>> contact;  ///< none: the move is free
-  Particle<D> p;                      ///< after the move, or where it was
-  Chain chain;                        ///< of the edge then
-  std::uint32_t cells = 0;            ///< visited by p
-};
-
 /// Moves p to a target, with an edge from it to q, which stands still.
 /// \pre p and q satisfy I1, `before` is the chain of the edge, the target is finite, options.tolerance lies in (0,1]
 /// \throw Error(usage) for p or q in a cell that an edit removed, if no other has its name yet
@@ -72,8 +64,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts);
 
-/// The same for one edge of a vertex whose walk is known: a contact of the edge, before p is blocked if it is. The result's
-/// p and cells are not set. Touch::stop counts what p touches as well.
+/// The same for one edge of a vertex whose walk is known: a contact of the edge, before p is blocked if it is. Touch::stop counts what p touches as well.
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts);

@@ -3,7 +3,12 @@
 #ifndef CELLWALK_EDGE_TRIANGLE_H
 #define CELLWALK_EDGE_TRIANGLE_H
 
+#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/flood.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
 
 namespace cellwalk {
 
@@ -19,9 +24,18 @@ struct Way {
   bool is_apart = false;
 };
 
+/// What becomes of an edge that is swept.
+template <int D>
+struct Sweep_result {
+  std::optional<Contact<D>> contact;  ///< none: the move is free
+  Chain chain;                        ///< of the edge after the move
+  // Of sweep_edge() only:
+  Particle<D> p{};          ///< after the move, or where it was
+  std::uint32_t cells = 0;  ///< visited by p
+};
+
 /// Sweeps the edge pq while p goes its way and q stands still. Returns the chain of the edge afterwards, or the first contact:
-/// contact->time is the share of the motion of p that is free, the exact root rounded down; point, normal, kind and facet are
-/// those of the wall that blocks it there.
+/// its normal is that of the wall.
 ///
 /// Tried in this order: the ends share a cell; the edge passes its old chain still; no wall meets the swept triangle; the
 /// events, one by one, exactly. Touching a wall is no contact. If p is blocked, a contact is one of the edge before
@@ -32,7 +46,7 @@ struct Way {
 /// Cost: a few ns to some hundred ns for the certificates; about a microsecond an event and ten a contact in general position,
 /// up to a millisecond where the triangle lies in planes of facets, for what only edges that touch or hit a wall get to.
 template <int D>
-Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates = {});
 

@@ -36,8 +36,8 @@ inline Body_soup<3> trace_body_soup(std::span<const Point<3>, trace_vertices> po
 }
 
 /// Bits of the answer to the move of one vertex: set for hits.
-constexpr std::uint8_t trace_segment_bit = 1;       ///< the segment from the position of the vertex to its target
-constexpr std::uint8_t trace_edge_bits = 0x0e;      ///< bit 1 + k: the segment from there to neighbour k
+constexpr std::uint8_t trace_segment_bit = 1;   ///< the segment from the position of the vertex to its target
+constexpr std::uint8_t trace_edge_bits = 0x0e;  ///< bit 1 + k: the segment from there to neighbour k
 constexpr std::uint8_t trace_triangle_bits = 0x70;  ///< bit 4 + k: the triangle of the motion and neighbour k
 constexpr std::uint8_t trace_all_bits = trace_segment_bit | trace_edge_bits | trace_triangle_bits;
 

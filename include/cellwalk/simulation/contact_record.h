@@ -4,7 +4,6 @@
 #define CELLWALK_SIMULATION_CONTACT_RECORD_H
 
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/walk/walk.h>
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +14,6 @@ namespace cellwalk {
 struct Met_body {
   std::uint32_t body = 0;    ///< its number in the run
   std::uint32_t vertex = 0;  ///< the moving vertex
-  Body_feature feature = Body_feature::vertex;
   std::uint32_t number = 0;  ///< of the vertex, edge or face
 };
 
@@ -24,12 +22,9 @@ template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
   std::uint32_t particle = 0;  ///< its number in the run; meaningless for bodies
-  /// In [0,1]. For particles the fraction of the step that had passed; for bodies the fraction of the vertex's motion that was
+  /// For particles, its time is the fraction of the step that had passed; for bodies, the fraction of the vertex's motion that was
   /// free, where the rest of the motion after a contact counts as a motion of its own.
-  double time = 0;
-  Point<D> point{};    ///< the point of contact, rounded
-  Vector<D> normal{};  ///< unit normal of the wall, towards the free side
-  Contact_kind kind = Contact_kind::facet;
+  Contact<D> contact;
   std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
   std::optional<Met_body> body{};  ///< none: a particle
 };

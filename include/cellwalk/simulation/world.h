@@ -100,7 +100,7 @@ class World {
     Body_counts counts;     ///< of all steps
   };
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
-  std::vector<Met_contact<D>> met_;
+  std::vector<Contact<D>> met_;
   Walk_counts counts_;
 };
 

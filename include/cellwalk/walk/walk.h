@@ -64,7 +64,7 @@ enum class Walk_status {
 /// The environment feature that blocks a motion.
 enum class Contact_kind : std::uint8_t { vertex, edge, facet };
 
-/// Where and by what a motion is blocked.
+/// Where and by what a walk is blocked. Contact says the same of the motion of a body, with its exact time.
 template <int D>
 struct Wall_contact {
   double time = 0;     ///< parameter of the motion in [0,1]; the exact fraction, rounded to within 4 ulp
