@@ -24,8 +24,9 @@ template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
   std::uint32_t particle = 0;  ///< its number in the run; meaningless for bodies
-  /// In [0,1]. For particles the fraction of the step that had passed; for bodies the fraction of the vertex's motion that was
-  /// free, where the rest of the motion after a contact counts as a motion of its own.
+  /// In [0,1]. For particles the fraction of the step that had passed; for bodies the fraction of the
+  /// vertex's motion that was free, where the rest of the motion after a contact counts as a motion of its
+  /// own.
   double time = 0;
   Point<D> point{};    ///< the point of contact, rounded
   Vector<D> normal{};  ///< unit normal of the wall, towards the free side

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Rigid bodies, thrown or guided along a path. Each vertex is drawn to its place in the rigid shape as far as walls allow.
+// Rigid bodies, thrown or guided along a path. Each vertex is drawn to its place in the rigid shape as far as
+// walls allow.
 #ifndef CELLWALK_SIMULATION_FLIGHT_H
 #define CELLWALK_SIMULATION_FLIGHT_H
 
@@ -23,8 +24,8 @@ struct Flight_conditions {
   Body_options body;
 };
 
-/// A body with a rigid motion. Its shape is rigid as long as no wall is in the way; a vertex that a wall holds back is drawn
-/// towards its place again in the next step.
+/// A body with a rigid motion. Its shape is rigid as long as no wall is in the way; a vertex that a wall
+/// holds back is drawn towards its place again in the next step.
 template <int D>
 class Flight {
  public:
@@ -33,8 +34,8 @@ class Flight {
   /// A guided body, with its origin at the first waypoint. It rotates about its origin.
   Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. Thrown bodies bounce off the walls they meet. A body whose motion
-  /// is not finite stays in place, and loses its velocity and spin.
+  /// Advances by one time step. Contacts are appended. Thrown bodies bounce off the walls they meet. A body
+  /// whose motion is not finite stays in place, and loses its velocity and spin.
   void step(const Flight_conditions<D>& conditions, std::vector<Body_contact<D>>& contacts,
             Body_counts& counts);
 

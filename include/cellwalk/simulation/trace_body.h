@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body of a trace among walls, moved by the rule of traces: a vertex whose motion, or an edge of which after it, hits a wall
-// stays where it is. The rule: docs/formats.md.
+// A body of a trace among walls, moved by the rule of traces: a vertex whose motion, or an edge of which
+// after it, hits a wall stays where it is. The rule: docs/formats.md.
 #ifndef CELLWALK_SIMULATION_TRACE_BODY_H
 #define CELLWALK_SIMULATION_TRACE_BODY_H
 
@@ -37,20 +37,25 @@ using Trace_positions = std::span<const Point<3>, trace_vertices>;
 /// One body. Refers to the snapshot, which must outlive it. Copies are bodies of their own.
 class Trace_body {
  public:
-  /// Registers a body where it stands. \throw Error(outside) naming the vertex that is not in free space, or the edge that
+  /// Registers a body where it stands.
+  /// \throw Error(outside) naming the vertex that is not in free space, or the edge that
   /// crosses a wall
   Trace_body(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace_positions positions);
 
-  /// The answer to the move of one vertex, and its contact: that of the vertex if it hits, else the first one of its edges.
+  /// The answer to the move of one vertex, and its contact: that of the vertex if it hits, else the first one
+  /// of its edges.
   struct Move {
     std::uint8_t answer = 0;
     std::optional<Contact<3>> contact;
   };
 
-  /// Moves one vertex to a target, or leaves it where it is. The answer has bits 0 to 3 with Sweep::three_segments, and
-  /// bits 4 to 6 as well with Sweep::triangle; which one is asked for does not change what moves.
-  /// \pre the target is finite; `sweep` is one of these two \throw Error(usage) if the environment was edited since the body was made
-  /// Degenerate cases: touching a wall is no hit, see sweep_triangle(); an edge that lies in a wall keeps its side of it.
+  /// Moves one vertex to a target, or leaves it where it is. The answer has bits 0 to 3 with
+  /// Sweep::three_segments, and bits 4 to 6 as well with Sweep::triangle; which one is asked for does not
+  /// change what moves.
+  /// \pre the target is finite; `sweep` is one of these two
+  /// \throw Error(usage) if the environment was edited since the body was made
+  /// Degenerate cases: touching a wall is no hit, see sweep_triangle(); an edge that lies in a wall keeps its
+  /// side of it.
   /// Cost: that of a walk and the sweeps of three edges.
   Move move(std::size_t vertex, const Point<3>& target, Sweep sweep, Trace_counts& counts);
 
@@ -67,8 +72,8 @@ class Trace_body {
   const Snapshot<3>* snapshot_;
   std::uint64_t epoch_;  ///< of the snapshot, when the body was registered
   std::array<Particle<3>, trace_vertices> particles_;
-  std::vector<Chain>
-      chains_;  ///< from the lower vertex of each edge, at its place; half of the places are used
+  /// From the lower vertex of each edge, at its place; half of the places are used
+  std::vector<Chain> chains_;
   std::vector<Cell> visited_;        // scratch space of move()
   std::vector<Half_facet> crossed_;  // the same
 };

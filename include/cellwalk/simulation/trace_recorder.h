@@ -12,20 +12,21 @@ namespace cellwalk {
 
 /// Records a trace step by step. Refers to the snapshot, which must outlive it.
 ///
-/// In a trace a touch counts as a hit, while here touching is free (see Touch). To make both rules agree, motions that touch a wall
-/// without hitting it are refused, and so are edges that touch a wall at the start.
+/// In a trace a touch counts as a hit, while here touching is free (see Touch). To make both rules agree,
+/// motions that touch a wall without hitting it are refused, and so are edges that touch a wall at the start.
 class Trace_recorder {
  public:
   /// \param snapshot the environment of the trace
-  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies; without steps
-  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one that touches a wall, or
-  ///        has all its vertices in one place
+  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies;
+  ///        without steps
+  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one
+  ///        that touches a wall, or has all its vertices in one place
   Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start);
 
   /// Moves all vertices of all bodies, in order.
   /// \pre one finite target for each vertex, [body][vertex]
-  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; then its step is not recorded,
-  ///        and the recorder must not be used any more
+  /// \throw Error(input) naming the step, body and vertex of a move that touches a wall; then its step is not
+  ///        recorded, and the recorder must not be used any more
   /// Cost: some ten times that of the replay, since touches are detected.
   void step(std::span<const Point<3>> targets);
 
