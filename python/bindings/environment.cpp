@@ -55,7 +55,7 @@ Locations locate(const Shared_world& self, const py::object& points, int threads
             status[i] = static_cast<std::uint8_t>(at.status);
             dimension[i] = static_cast<std::uint8_t>(at.dimension);
             cell[i] = number_of(world.snapshot(), at.cell);
-            sides[i] = static_cast<std::uint32_t>(at.sides);
+            sides[i] = static_cast<std::uint32_t>(at.sides.size());
           }
         });
         return found;

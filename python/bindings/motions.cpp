@@ -31,18 +31,16 @@ const py::object& Motions::times() {
   return time = std::move(all);
 }
 
-py::dict to_dict(const Walk_counts& c) {
-  using namespace py::literals;
-  return py::dict("walks"_a = c.walks, "stays"_a = c.stays, "crossings"_a = c.crossings,
-                  "star_searches"_a = c.star_searches, "signs"_a = c.predicates.orientations,
-                  "exact_fallbacks"_a = c.predicates.fallbacks);
+py::dict to_dict(const Walk_counts& counts) {
+  py::dict result = to_dict<Walk_counts>(counts);
+  for (const auto& [name, count] : named_counts(counts.predicates)) result[py::str(name)] = count;
+  return result;
 }
 
-py::dict to_dict(const Edge_counts& c) {
-  using namespace py::literals;
-  return py::dict("edges"_a = c.edges, "same_cell"_a = c.same_cell, "convex_pair"_a = c.convex_pair,
-                  "same_chain"_a = c.same_chain, "changed"_a = c.changed, "event_sweeps"_a = c.event_sweeps,
-                  "clear"_a = c.clear, "walk"_a = to_dict(c.walk));
+py::dict to_dict(const Edge_counts& counts) {
+  py::dict result = to_dict<Edge_counts>(counts);
+  result["walk"] = to_dict(counts.walk);
+  return result;
 }
 
 void bind_motions(py::module_& module) {

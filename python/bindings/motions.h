@@ -105,6 +105,13 @@ struct Chunk {
   }
 };
 
+/// The counts of a set by the names that reports give them, without those of its inner sets.
+template <Count_set Set>
+py::dict to_dict(const Set& counts) {
+  py::dict result;
+  for (const auto& [name, count] : named_counts(counts)) result[py::str(name)] = count;
+  return result;
+}
 py::dict to_dict(const Walk_counts& counts);
 py::dict to_dict(const Edge_counts& counts);
 

@@ -11,21 +11,6 @@
 
 namespace cellwalk {
 
-Body_counts& Body_counts::operator+=(const Body_counts& other) {
-  moves += other.moves;
-  in_region += other.in_region;
-  regions += other.regions;
-  no_region += other.no_region;
-  region_cells += other.region_cells;
-  catch_ups += other.catch_ups;
-  contacts += other.contacts;
-  stop_tries += other.stop_tries;
-  held += other.held;
-  edges += other.edges;
-  faces += other.faces;
-  return *this;
-}
-
 namespace {
 
 /// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
@@ -116,7 +101,8 @@ std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Poi
   const Way<D> way{from, to, visited_, crossed_, walked.contact.has_value()};
   std::optional<Body_contact<D>> first;
   if (walked.contact)
-    first = {vertex_contact(*snapshot_, way, *walked.contact, counts.edges.walk), vertex, vertex};
+    first = {vertex_contact(*snapshot_, from.position, target, *walked.contact, counts.edges.walk), vertex,
+             vertex};
   else if (options.sweep.touch == Touch::stop)
     if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
       first = {*touch, vertex, vertex};

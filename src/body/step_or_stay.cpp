@@ -158,6 +158,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
   const bool needs_way = options.sweep.sweep != Sweep::three_segments;
   const std::uint64_t signs = counts.edges.walk.predicates.orientations;
   Walk_options recorded;
+  recorded.locates_contact = false;
   if (needs_way) {
     recorded.visited = &visited_;
     recorded.crossed = &crossed_;
@@ -166,6 +167,7 @@ Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& targ
       walked.contact) {
     answer.is_vertex_blocked = true;
     answer.contact = walked.contact;
+    locate_contact(*snapshot_, from.position, target, *answer.contact);
     return answer;
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
@@ -211,7 +213,9 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
     ++edges.edges;
   }
   const std::uint64_t signs = edges.walk.predicates.orientations;
-  const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk);
+  Walk_options plain;
+  plain.locates_contact = false;
+  const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk, plain);
   const bool is_plain = is_apart_ && edges.walk.predicates.orientations == signs;
   if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
@@ -223,7 +227,10 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
     else
       contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
   }
-  if (contact && !answer.contact) answer.contact = contact;
+  if (contact && !answer.contact) {
+    locate_contact(*snapshot_, way.to.position, q.position, *contact);
+    answer.contact = contact;
+  }
   return contact.has_value();
 }
 
@@ -253,7 +260,7 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
   }
   answer.swept_edges |= std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
   const std::uint64_t signs = counts.edges.walk.predicates.orientations;
-  Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk);
+  Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
   const bool is_crossed =
       anew.contact && anew.contact->kind == Contact_kind::facet && anew.contact->time != 1;
@@ -267,7 +274,10 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
     anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
   }
   if (anew.contact) {
-    if (!answer.contact) answer.contact = anew.contact;
+    if (!answer.contact) {
+      locate_contact(*snapshot_, way.to.position, q.position, *anew.contact);
+      answer.contact = anew.contact;
+    }
     return true;
   }
   moved.chain = std::move(anew.chain);

@@ -31,41 +31,23 @@ Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& ar
 
 }  // namespace
 
-Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
-  edges += other.edges;
-  same_cell += other.same_cell;
-  convex_pair += other.convex_pair;
-  same_chain += other.same_chain;
-  chain_facets += other.chain_facets;
-  changed += other.changed;
-  event_sweeps += other.event_sweeps;
-  floods += other.floods;
-  flooded_cells += other.flooded_cells;
-  clear += other.clear;
-  pierced += other.pierced;
-  searches += other.searches;
-  search_sweeps += other.search_sweeps;
-  search_walks += other.search_walks;
-  search_walls += other.search_walls;
-  search_misses += other.search_misses;
-  walk += other.walk;
-  return *this;
-}
-
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                           Walk_counts& counts) {
+                           Walk_counts& counts, bool locates_contact) {
   bool on_planes = false;
-  return detail::find_chain(snapshot, p, q, counts, on_planes);
+  Chain_result<D> result = detail::chain_of_walk(snapshot, p, q, counts, on_planes);
+  if (result.contact && locates_contact) locate_contact(snapshot, p.position, q.position, *result.contact);
+  return result;
 }
 
 template <int D>
-Chain_result<D> detail::find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                                   Walk_counts& counts, bool& on_planes) {
+Chain_result<D> detail::chain_of_walk(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                                      Walk_counts& counts, bool& on_planes) {
   Chain_result<D> result;
   std::vector<Half_facet> crossed;
   Walk_options options;
   options.crossed = &crossed;
+  options.locates_contact = false;
   const Walk_result<D> walked = walk(snapshot, p, q.position, counts, options);
   on_planes = walked.on_planes;
   result.has_choice = walked.had_choice;
@@ -117,13 +99,13 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
   return true;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                              \
-  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&,         \
-                                         Walk_counts&);                                                      \
-  template Chain_result<D> detail::find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
-                                                 Walk_counts&, bool&);                                       \
-  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                              \
-  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);                      \
+#define CELLWALK_INSTANTIATE(D)                                                                      \
+  template Chain_result<D> find_chain<D>(const Snapshot<D>&, const Particle<D>&, const Particle<D>&, \
+                                         Walk_counts&, bool);                                        \
+  template Chain_result<D> detail::chain_of_walk<D>(const Snapshot<D>&, const Particle<D>&,          \
+                                                    const Particle<D>&, Walk_counts&, bool&);        \
+  template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
+  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -66,7 +66,7 @@ bool detail::is_confirmed(const Snapshot<D>& snapshot, const Way<D>& way, const 
   counts.chain_facets += chain.size();
   // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
   bool on_planes = false;
-  result = find_chain(snapshot, p, q, counts.walk, on_planes);
+  result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);
   if (!certificates.same_chain) return false;
   const bool is_same = !result.contact && result.chain == chain;
   if (!is_same && !passes(snapshot, chain, p.position, q.position, counts.walk)) return false;

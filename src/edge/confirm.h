@@ -9,17 +9,18 @@ namespace cellwalk::detail {
 
 /// True proves that the triangle swept by the edge pq while p goes its way is free, with its chain in `result`: the ends share a
 /// cell, or lie in two cells whose union is convex, or the edge passes the chain it had before, led on by what p crossed. Else
-/// `result` is that of a walk along the edge. Where the triangle lies in the plane of walls that begin inside of it, so that the edge
-/// may have a choice of sides, nothing is proved.
+/// `result` is that of a walk along the edge, its contact left to locate_contact(). Where the triangle lies in the plane of walls that
+/// begin inside of it, so that the edge may have a choice of sides, nothing is proved.
 /// \pre !way.blocked
 template <int D>
 bool is_confirmed(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
                   const Edge_certificates& certificates, Chain_result<D>& result, Edge_counts& counts);
 
-/// As cellwalk::find_chain(); also whether q lies on the plane of a facet of a cell that the segment was walked through.
+/// As cellwalk::find_chain(), with a contact left to locate_contact(), unless the segment arrives at q on another side: its time is 1
+/// then. Also whether q lies on the plane of a facet of a cell that the segment was walked through.
 template <int D>
-Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                           Walk_counts& counts, bool& on_planes);
+Chain_result<D> chain_of_walk(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                              Walk_counts& counts, bool& on_planes);
 
 }  // namespace cellwalk::detail
 

@@ -2,6 +2,7 @@
 #include "contact_search.h"
 
 #include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/star.h>
 
 #include <cmath>
@@ -21,20 +22,14 @@ namespace {
 template <int D>
 Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t vertex) {
   Vector<D> sum{};
-  Flooded found{start};
-  for (std::size_t head = 0; head < found.size(); ++head) {
-    const Cell_view<D> cell = snapshot.view(found[head]);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!facet_contains(cell, i, vertex, vertex)) continue;
-      const Half_facet f = Snapshot<D>::half_facet(found[head], i);
-      if (snapshot.is_impassable(f)) {
-        sum = sum + inner_normal(cell, i);
-      } else if (const Cell next = snapshot.neighbor(f);
-                 std::find(found.begin(), found.end(), next) == found.end()) {
-        found.push_back(next);
-      }
-    }
-  }
+  Link_search<D> links(snapshot, start);
+  const auto is_at_vertex = [vertex](const Cell_view<D>& cell, std::size_t i) {
+    return facet_contains(cell, i, vertex, vertex);
+  };
+  const auto add_normal = [&sum](const Cell_view<D>& cell, std::size_t i, Half_facet) {
+    sum = sum + inner_normal(cell, i);
+  };
+  while (links.next()) links.expand_all(is_at_vertex, add_normal);
   const double size = length(sum);
   return size > 0 ? (1 / size) * sum : sum;
 }

@@ -119,17 +119,6 @@ Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, co
 
 }  // namespace
 
-Face_counts& Face_counts::operator+=(const Face_counts& other) {
-  faces += other.faces;
-  flooded_cells += other.flooded_cells;
-  clear += other.clear;
-  walls += other.walls;
-  clipped += other.clipped;
-  flat += other.flat;
-  walk += other.walk;
-  return *this;
-}
-
 Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
                        const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
                        Face_counts& counts) {

@@ -116,12 +116,11 @@ Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way,
 }
 
 template <int D>
-Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
-                          Walk_counts& counts) {
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
+                          const Wall_contact<D>& met, Walk_counts& counts) {
   Contact<D> result;
-  static_cast<Wall_contact<D>&>(result) = contact;
-  const Cell_view<D> last = snapshot.view(way.visited.back());
-  result.impact = to_time(detail::exit_time<D>(last, way.from.position, way.to.position, counts).value());
+  static_cast<Wall_contact<D>&>(result) = met;
+  result.impact = to_time(detail::exit_time<D>(snapshot.view(met.cell), from, target, counts).value());
   result.time = result.impact.rounded();
   return result;
 }
@@ -135,17 +134,11 @@ std::optional<Contact<D>> closed_meeting(const Snapshot<D>& snapshot, Cell start
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
                                       const Point<D>& target, Edge_counts& counts) {
-  std::vector<Cell> visited;
-  Walk_options options;
-  options.visited = &visited;
-  const Walk_result<D> walked = walk(snapshot, p, target, counts.walk, options);
+  const Walk_result<D> walked = walk(snapshot, p, target, counts.walk);
   std::optional<Contact<D>> first =
       detail::first_touch<D>(snapshot, p.cell, {p.position, target, p.position}, counts);
-  if (walked.contact) {
-    Way<D> way{p, p, visited, {}, true};
-    way.to.position = target;
-    keep_first<D>(first, vertex_contact(snapshot, way, *walked.contact, counts.walk));
-  }
+  if (walked.contact)
+    keep_first<D>(first, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
   return first;
 }
 
@@ -163,7 +156,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
   const Way<D> way{p, moved, visited, crossed, walked.contact.has_value()};
   Sweep_result<D> result = sweep_edge_along(snapshot, way, q, before, options, counts);
   if (walked.contact)
-    keep_first<D>(result.contact, vertex_contact(snapshot, way, *walked.contact, counts.walk));
+    keep_first<D>(result.contact, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
   result.cells = walked.cells;
   result.p = result.contact ? p : moved;
   if (result.contact) result.chain = before;
@@ -173,8 +166,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 #define CELLWALK_INSTANTIATE(D)                                                                              \
   template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,        \
                                                const Chain&, const Sweep_options&, Edge_counts&);            \
-  template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Way<D>&, const Wall_contact<D>&,           \
-                                        Walk_counts&);                                                       \
+  template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&,                \
+                                        const Wall_contact<D>&, Walk_counts&);                               \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \
                                                     Edge_counts&);                                           \
   template std::optional<Contact<D>> closed_meeting<D>(const Snapshot<D>&, Cell, const Swept_triangle<D>&,   \

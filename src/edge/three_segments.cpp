@@ -11,6 +11,7 @@ Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Way<D>& w
                                     const Edge_certificates& certificates) {
   Chain_result<D> result;
   if (!detail::is_confirmed(snapshot, way, q, before, certificates, result, counts)) ++counts.changed;
+  if (result.contact) locate_contact(snapshot, way.to.position, q.position, *result.contact);
   return result;
 }
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "text.h"
+
 namespace cellwalk::io {
 namespace {
 
@@ -40,7 +42,8 @@ Parsed_number parse_fraction(std::string_view text, std::size_t slash) {
   std::string_view n = text.substr(0, slash), d = text.substr(slash + 1);
   const bool negative = n.starts_with('-');
   if (negative || n.starts_with('+')) n.remove_prefix(1);
-  if (!is_digits(n) || !is_digits(d)) return {0, fmt::format("'{}' is not a fraction of integers", text)};
+  if (!is_digits(n) || !is_digits(d))
+    return {0, fmt::format("'{}' is not a fraction of integers", shown(text))};
   if (n.size() > most_digits || d.size() > most_digits) return {0, "a fraction with too many digits"};
   // A leading zero would make it octal.
   auto trimmed = [](std::string_view s) {
@@ -48,10 +51,10 @@ Parsed_number parse_fraction(std::string_view text, std::size_t slash) {
     return first == std::string_view::npos ? std::string("0") : std::string(s.substr(first));
   };
   const Integer top(trimmed(n)), bottom(trimmed(d));
-  if (bottom == 0) return {0, fmt::format("the denominator of '{}' is zero", text)};
+  if (bottom == 0) return {0, fmt::format("the denominator of '{}' is zero", shown(text))};
   if (top == 0) return {negative ? -0.0 : 0.0, {}};
   const auto value = exact_quotient(top, bottom);
-  if (!value) return {0, fmt::format("the fraction '{}' is not exactly a double", text)};
+  if (!value) return {0, fmt::format("the fraction '{}' is not exactly a double", shown(text))};
   return {negative ? -*value : *value, {}};
 }
 
@@ -96,8 +99,8 @@ Parsed_number parse_number(std::string_view text) {
   const std::string_view bare = digits == std::string_view::npos ? text : text.substr(digits);
   const bool hex = digits <= 1 && (bare.starts_with("0x") || bare.starts_with("0X"));
   const auto value = hex ? parse_hexadecimal(text) : parse_decimal(text);
-  if (!value) return {0, fmt::format("'{}' is not a number that a double can hold", text)};
-  if (!std::isfinite(*value)) return {0, fmt::format("'{}' is not finite", text)};
+  if (!value) return {0, fmt::format("'{}' is not a number that a double can hold", shown(text))};
+  if (!std::isfinite(*value)) return {0, fmt::format("'{}' is not finite", shown(text))};
   return {*value, {}};
 }
 

@@ -79,12 +79,12 @@ class Obj_reader {
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error != std::errc{} || end != digits.data() + digits.size() || index == 0)
-      in_.fail(fmt::format("'{}' is not a corner of a {}: an index counted from 1, or a negative one", word,
-                           kind));
+      in_.fail(fmt::format("'{}' is not a corner of a {}: an index counted from 1, or a negative one",
+                           shown(word), kind));
     if (index < 0) index += static_cast<std::int64_t>(soup_.points.size()) + 1;
     constexpr std::int64_t most = 0xfffffffe;
     if (index < 1 || index > most)
-      in_.fail(fmt::format("corner '{}' of a {} names a vertex that does not exist", word, kind));
+      in_.fail(fmt::format("corner '{}' of a {} names a vertex that does not exist", shown(word), kind));
     const auto vertex = static_cast<std::uint32_t>(index - 1);
     if (vertex >= soup_.points.size() && (!furthest_ || vertex > furthest_->vertex))
       furthest_ = Ahead{vertex, in_.line(), kind};

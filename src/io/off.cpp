@@ -37,7 +37,7 @@ Header read_header(Line_reader& in, Read_report& report) {
   header.normals = prefix("N");
   if (!keyword.empty())
     in.fail(fmt::format("'{}OFF' holds points that are not in 3-space: only three coordinates are read",
-                        keyword));
+                        shown(keyword)));
   if (same_word(in.rest().substr(std::min(in.rest().find_first_not_of(" \t"), in.rest().size())), "binary"))
     header.binary = true;
   return header;

@@ -97,7 +97,7 @@ class Ply_reader {
       else if (element.name == "edge" && body_)
         edges(element);
       else if (element.count > 0)
-        report.notes.push_back(fmt::format("{} elements '{}' ignored", element.count, element.name)),
+        report.notes.push_back(fmt::format("{} elements '{}' ignored", element.count, shown(element.name))),
             skip(element);
     }
     for (std::size_t f = 0; f < soup_.facets.size(); ++f)

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "text.h"
+
 namespace cellwalk::io::detail {
 namespace {
 
@@ -137,8 +139,8 @@ Body_source<D> source(const Json_node& node) {
     std::vector<std::string_view> names;
     names.reserve(known.size());
     for (const auto& k : known) names.push_back(k.name);
-    shape.fail(
-        fmt::format("'{}' is no shape of dimension {}; known are {}", name, D, fmt::join(names, ", ")));
+    shape.fail(fmt::format("'{}' is no shape of dimension {}; known are {}", shown(name), D,
+                           fmt::join(names, ", ")));
   }
   keys.insert(keys.end(), found->keys.begin(), found->keys.end());
   node.expect_keys(keys);

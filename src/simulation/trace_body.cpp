@@ -55,10 +55,8 @@ Trace_body::Move Trace_body::move(std::size_t vertex, const Point<3>& target, Sw
   const Walk_result<3> walked = cellwalk::move(*snapshot_, to, target, counts.edges.walk,
                                                {Walk_strategy::certified, &visited_, &crossed_});
   if (walked.contact) {
-    to.position = target;
     result.answer = sweep == Sweep::triangle ? trace_segment_bit | trace_triangle_bits : trace_segment_bit;
-    result.contact =
-        vertex_contact(*snapshot_, {from, to, visited_, crossed_, true}, *walked.contact, counts.edges.walk);
+    result.contact = vertex_contact(*snapshot_, from.position, target, *walked.contact, counts.edges.walk);
     ++counts.vertex_hits;
     ++counts.held;
     return result;

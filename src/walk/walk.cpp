@@ -2,27 +2,28 @@
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/walk_impl.h>
 
-namespace cellwalk {
+#include <tuple>
 
-Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
-  walks += other.walks;
-  stays += other.stays;
-  crossings += other.crossings;
-  plane_blocks += other.plane_blocks;
-  uncertain_lanes += other.uncertain_lanes;
-  side_tests += other.side_tests;
-  along_tests += other.along_tests;
-  turns += other.turns;
-  star_searches += other.star_searches;
-  star_cells += other.star_cells;
-  predicates += other.predicates;
-  return *this;
-}
+namespace cellwalk {
 
 void detail::refuse_removed_cell() {
   throw Error(Error_code::usage,
               "a particle is in a cell that is not there: locate it again after cells were replaced");
 }
+
+template <int D>
+void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                    Wall_contact<D>& contact) {
+  if (contact.normal != Vector<D>{}) return;
+  const auto corners = detail::spanning_corners(snapshot.view(snapshot.cell_of(contact.facet)),
+                                                snapshot.facet_of(contact.facet));
+  contact.time = std::apply([&](const auto&... corner) { return crossing_time(*corner..., a, b); }, corners);
+  contact.point = point_on<D>(a, b, contact.time);
+  contact.normal = detail::inner_normal(corners);
+}
+
+template void locate_contact(const Snapshot<2>&, const Point<2>&, const Point<2>&, Wall_contact<2>&);
+template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>&, Wall_contact<3>&);
 
 #define CELLWALK_INSTANTIATE(KERNEL, D)                                                                      \
   template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,           \

@@ -111,7 +111,7 @@ class Body_in_orders {
   }
 
   void follow(std::vector<Body<D>>& bodies, int steps) {
-    for (const Point<D>& x : bodies[0].positions()) seen_.on_walls += locators_[0].locate(x).sides > 1;
+    for (const Point<D>& x : bodies[0].positions()) seen_.on_walls += locators_[0].locate(x).sides.size() > 1;
     for (int step = 0; step < steps; ++step) {
       std::vector<Point<D>> to(bodies[0].positions().begin(), bodies[0].positions().end());
       for (Point<D>& x : to)

@@ -65,8 +65,9 @@ class Mover {
       };
       const bool is_well_placed = cells.empty() || is_right_dimension(cells.front());
       std::sort(cells.begin(), cells.end());
-      demand(cells == place.free_cells && here.sides == place.sides && is_well_placed,
-             "a point is located wrongly");
+      demand(
+          cells == place.free_cells && static_cast<int>(here.sides.size()) == place.sides && is_well_placed,
+          "a point is located wrongly");
       ++totals.places;
     }
     if (here.status != Location_status::free) return std::nullopt;

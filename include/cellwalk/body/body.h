@@ -11,6 +11,7 @@
 #include <cellwalk/walk/locate.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -67,8 +68,11 @@ struct Body_counts {
   Edge_counts edges;
   Face_counts faces;
 
-  Body_counts& operator+=(const Body_counts& other);
+  static constexpr std::array<std::string_view, 9> names{"moves",     "in_region",    "regions",
+                                                         "no_region", "region_cells", "catch_ups",
+                                                         "contacts",  "stop_tries",   "held"};
 };
+static_assert(names_all_before<Body_counts>(offsetof(Body_counts, edges)));
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is moved with
 /// Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.

@@ -8,6 +8,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -22,15 +23,15 @@ using Chain = boost::container::small_vector<Half_facet, 4>;
 struct Edge_counts {
   std::uint64_t edges = 0;      ///< edges checked
   std::uint64_t same_cell = 0;  ///< proved by both ends being in one cell, without a sign
-  /// Proved by neighbouring cells with a convex union, without a sign
+  /// Proved by neighbouring cells with a convex union, without a sign.
   std::uint64_t convex_pair = 0;
   std::uint64_t same_chain = 0;     ///< proved by the new edge crossing the old chain
   std::uint64_t chain_facets = 0;   ///< facets examined for that
-  std::uint64_t changed = 0;        ///< neither: the chain is different, or there is none
+  std::uint64_t clear = 0;          ///< proved to meet no wall
   std::uint64_t event_sweeps = 0;   ///< swept triangles whose events were followed
+  std::uint64_t changed = 0;        ///< the chain is different, or there is none
   std::uint64_t floods = 0;         ///< swept triangles flooded
   std::uint64_t flooded_cells = 0;  ///< cells visited by floods
-  std::uint64_t clear = 0;          ///< proved to meet no wall
   std::uint64_t pierced = 0;        ///< proved to be pierced by a wall
   std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
   std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic searches
@@ -41,8 +42,12 @@ struct Edge_counts {
   std::uint64_t search_misses = 0;
   Walk_counts walk;  ///< of all walks and signs
 
-  Edge_counts& operator+=(const Edge_counts& other);
+  static constexpr std::array<std::string_view, 16> names{
+      "checked",       "same_cell",    "convex_pair",  "same_chain",    "chain_facets", "clear",
+      "event_sweeps",  "changed",      "floods",       "flooded_cells", "pierced",      "searches",
+      "search_sweeps", "search_walks", "search_walls", "search_misses"};
 };
+static_assert(names_all_before<Edge_counts>(offsetof(Edge_counts, walk)));
 
 /// The certificates that a sweep tries before it follows events. Each is sound by itself; disabling one only
 /// costs time.
@@ -64,11 +69,12 @@ struct Chain_result {
 
 /// Walks a temporary particle from p to q.
 /// \pre each particle lies in the closure of its cell
+/// \param locates_contact if false, a contact is left to locate_contact()
 /// Degenerate cases: if the segment may pass a wall on either side, a fixed rule chooses one, see walk().
 /// Cost: that of the walk.
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                           Walk_counts& counts);
+                           Walk_counts& counts, bool locates_contact = true);
 
 /// The same as find_chain(), but exhaustive: if the segment may pass a wall on either side, or lies in a
 /// plane of facets, through each of which it may change sides, all paths are tried until one leads to the

@@ -94,10 +94,11 @@ template <int D>
 std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                      const Chain& before, const Sweep_options& options, Edge_counts& counts);
 
-/// The contact of a vertex that its own walk reported.
+/// The contact of a vertex that goes from one point to another and is blocked, as its walk reported.
+/// Cost: some signs for each facet of the last cell, and a rational number.
 template <int D>
-Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
-                          Walk_counts& counts);
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
+                          const Wall_contact<D>& met, Walk_counts& counts);
 
 /// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed wall, or where it
 /// is blocked.

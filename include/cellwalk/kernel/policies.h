@@ -14,10 +14,13 @@
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
+#include <cellwalk/kernel/counts.h>
 #include <cellwalk/kernel/point.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace cellwalk {
 
@@ -89,12 +92,9 @@ struct Predicate_counts {
   std::uint64_t orientations = 0;  ///< signs of orientations computed
   std::uint64_t fallbacks = 0;     ///< signs that the filter left undecided
 
-  Predicate_counts& operator+=(const Predicate_counts& other) {
-    orientations += other.orientations;
-    fallbacks += other.fallbacks;
-    return *this;
-  }
+  static constexpr std::array<std::string_view, 2> names{"orientations", "exact_fallbacks"};
 };
+static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
 
 /// Exact signs at the cost of double arithmetic in nearly all cases. The default.
 /// Cost: about 5 ns if the filter decides; 0.1 to 10 us otherwise.

@@ -26,12 +26,12 @@ struct Location {
   std::uint16_t dimension = D;  ///< of the lowest cell of the complex it lies on: D inside, .. 0 on a vertex
   std::vector<Cell>
       cells;  ///< all free cells whose closure holds the point, side by side, each side by index
-  /// For each of them, which side it is on: 0, 1, .. Sides are classes of cells linked at the point (joined by passable facets
+  std::vector<int> side_of_cell;  ///< for each of them, the number of its side
+  /// A particle for each side, in its first cell. Sides are classes of cells linked at the point (joined by passable facets
   /// that contain it). More than one: the point lies on a wall or pinch with free space on several sides. The first side is that
   /// on which the point lies once it is displaced, see displaced_side(), where that is free; then they are in the order of
   /// their least corners. So the order does not depend on how cells are numbered.
-  std::vector<int> side_of_cell;
-  int sides = 0;  ///< how many there are
+  std::vector<Particle<D>> sides;
 };
 
 /// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it. Facets may be opened and

@@ -9,6 +9,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,6 +31,8 @@ struct Walk_options {
   /// If set, the passable facets crossed are appended, each seen from the cell it was left by. Where the motion goes
   /// through a ridge or vertex, these are all facets on the way through its star.
   std::vector<Half_facet>* crossed = nullptr;
+  /// If false, a contact is left without its time, point and normal: they are 0 until locate_contact() computes them.
+  bool locates_contact = true;
 };
 
 /// What the walks did. All counts are machine-independent.
@@ -46,8 +49,11 @@ struct Walk_counts {
   std::uint64_t star_cells = 0;       ///< cells looked at by them
   Predicate_counts predicates;
 
-  Walk_counts& operator+=(const Walk_counts& other);
+  static constexpr std::array<std::string_view, 10> names{
+      "walks",      "stays",       "crossings", "plane_blocks",  "uncertain_lanes",
+      "side_tests", "along_tests", "turns",     "star_searches", "star_cells"};
 };
+static_assert(names_all_before<Walk_counts>(offsetof(Walk_counts, predicates)));
 
 enum class Walk_status {
   arrived,  ///< the target lies in the closure of `cell`
@@ -93,6 +99,12 @@ struct Walk_result {
 template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
+
+/// Computes the time, point and normal of a contact of the motion from a to b, if the walk left them out
+/// (Walk_options::locates_contact). Nothing changes if they are there. Cost: 0.2 us, more where the time needs rational arithmetic.
+template <int D>
+void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                    Wall_contact<D>& contact);
 
 namespace detail {
 

@@ -13,9 +13,6 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
-#include <tuple>
-
 namespace cellwalk {
 namespace detail {
 
@@ -152,11 +149,6 @@ class Walker {
     result_.status = Walk_status::contact;
     Wall_contact<D>& contact = result_.contact.emplace();
     const Cell_view<D> wall_view = snapshot_.view(snapshot_.cell_of(wall));
-    const auto corners = spanning_corners(wall_view, snapshot_.facet_of(wall));
-    contact.time =
-        std::apply([&](const auto&... corner) { return crossing_time(corner..., a_, b_); }, corners);
-    contact.point = point_on<D>(a_, b_, contact.time);
-    contact.normal = inner_normal(corners);
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
                    : exit.kind == Exit::vertex ? Contact_kind::vertex
                                                : Contact_kind::edge;
@@ -164,6 +156,7 @@ class Walker {
       contact.corner = corner_of(wall_view, snapshot_.facet_of(wall), exit.u, exit.v);
     contact.facet = wall;
     contact.cell = cell_;
+    if (options_.locates_contact) locate_contact(snapshot_, a_, b_, contact);
     return false;
   }
 
@@ -182,14 +175,13 @@ class Walker {
     for (std::size_t i = 0; i < facets; ++i) {
       sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
       outside |= sides[i] > 0;
+      on_planes_ |= sides[i] == 0;
     }
     return exit_by_sides(cell, sides, outside);
   }
 
   template <class Sides>
   Exit exit_by_sides(const Cell_view<D>& cell, const Sides& sides, bool outside) {
-    on_planes_ = std::find(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(cell.facet_count()),
-                           0) != sides.begin() + static_cast<std::ptrdiff_t>(cell.facet_count());
     if (!outside) {
       result_.dimension = lowest_dimension(cell, b_, [&](std::size_t i) { return sides[i] == 0; });
       return {Exit::arrived};
@@ -294,6 +286,7 @@ class Walker {
         sides[i] = static_cast<std::int8_t>(side<Kernel>(cell, i, b_, counts_));
       }
       outside |= sides[i] > 0;
+      on_planes_ |= sides[i] == 0;
     }
     return exit_by_sides(cell, sides, outside);
   }

@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <boost/container/small_vector.hpp>
@@ -14,33 +15,41 @@
 
 namespace cellwalk::detail {
 
+/// Corners that span a facet.
+template <int D>
+using Spanning_corners = std::array<const Point<D>*, static_cast<std::size_t>(D)>;
+
 /// Corners that span facet i, in its order: the same ones in whatever order cells and points are listed.
-inline std::array<Point<2>, 2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
+inline Spanning_corners<2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
-  return {cell.point(loop[0]), cell.point(loop[1])};
+  return {&cell.point(loop[0]), &cell.point(loop[1])};
 }
 
-inline std::array<Point<3>, 3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
+inline Spanning_corners<3> spanning_corners(const Cell_view<3>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   const std::size_t n = loop.size();
-  const auto comes_before = [](const Point<3>& p, const Point<3>& q) {
-    return p[0] != q[0] ? p[0] < q[0] : p[1] != q[1] ? p[1] < q[1] : p[2] < q[2];
-  };
   std::size_t first = 0;
-  for (std::size_t k = 1; k < n; ++k)
-    if (comes_before(cell.point(loop[k]), cell.point(loop[first]))) first = k;
-  const auto at = [&](std::size_t k) -> const Point<3>& { return cell.point(loop[k % n]); };
-  while (n > 3 && are_collinear(at(first), at(first + 1), at(first + 2))) ++first;
-  return {at(first), at(first + 1), at(first + 2)};
+  const Point<3>* least = &cell.point(loop[0]);
+  for (std::size_t k = 1; k < n; ++k) {
+    const Point<3>& p = cell.point(loop[k]);
+    const Point<3>& q = *least;
+    if (p[0] > q[0]) continue;
+    if (p[0] == q[0] && (p[1] > q[1] || (p[1] == q[1] && p[2] > q[2]))) continue;
+    first = k;
+    least = &p;
+  }
+  // No line through its neighbours holds the least corner: the facet has an angle there.
+  return {least, &cell.point(loop[first + 1 < n ? first + 1 : 0]),
+          &cell.point(loop[first > 0 ? first - 1 : n - 1])};
 }
 
 /// The same as inner_normal(), by the spanning corners of the facet.
-inline Vector<2> inner_normal(const std::array<Point<2>, 2>& corners) {
-  return unit_normal(corners[0], corners[1]);
+inline Vector<2> inner_normal(const Spanning_corners<2>& corners) {
+  return unit_normal(*corners[0], *corners[1]);
 }
 
-inline Vector<3> inner_normal(const std::array<Point<3>, 3>& corners) {
-  return unit_normal(corners[0], corners[2], corners[1]);
+inline Vector<3> inner_normal(const Spanning_corners<3>& corners) {
+  return unit_normal(*corners[0], *corners[2], *corners[1]);
 }
 
 /// Unit normal of a half-facet towards its cell, rounded.
@@ -59,6 +68,16 @@ bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D
     return corners;
   };
   return sorted_corners(cell, i) < sorted_corners(other, j);
+}
+
+/// Of two half-facets the first in that order. `first` may be none.
+template <int D>
+Half_facet first_placed(const Snapshot<D>& snapshot, Half_facet first, Half_facet other) {
+  if (first == Half_facet::none) return other;
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(first));
+  const bool is_before = is_placed_before(snapshot.view(snapshot.cell_of(other)), snapshot.facet_of(other),
+                                          cell, snapshot.facet_of(first));
+  return is_before ? other : first;
 }
 
 /// True if facet i of a cell contains point u, and v too (3D ridge).
@@ -138,16 +157,10 @@ class Star_search {
  public:
   Star_search(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v, const Point<D>& a,
               const Point<D>& b, Walk_counts& counts)
-      : snapshot_(snapshot),
-        u_(u),
-        v_(v),
-        a_(a),
-        b_(b),
-        counts_(counts),
-        found_{{start, 0, Half_facet::none}} {
+      : snapshot_(snapshot), u_(u), v_(v), a_(a), b_(b), counts_(counts), links_(snapshot, start) {
     ++counts.star_searches;
-    for (std::size_t head = 0; head < found_.size(); ++head)
-      if (visit(head)) return;
+    while (links_.next())
+      if (visit()) return;
     if (candidates_.size() > 1) sort();
   }
 
@@ -159,7 +172,7 @@ class Star_search {
   using Candidates = boost::container::small_vector<Candidate, 4>;
 
   const Candidates& candidates() const { return candidates_; }
-  Cell cell(const Candidate& candidate) const { return found_[candidate.place].cell; }
+  Cell cell(const Candidate& candidate) const { return links_.cell(candidate.place); }
   /// True if there is more than one side to go on along.
   bool has_choice() const {
     return std::any_of(candidates_.begin(), candidates_.end(),
@@ -168,46 +181,32 @@ class Star_search {
   /// The facets on the way to a candidate.
   Star_way way(const Candidate& candidate) const {
     Star_way way;
-    for (std::size_t i = candidate.place; i != 0; i = found_[i].parent) way.push_back(found_[i].facet);
-    std::reverse(way.begin(), way.end());
+    links_.append_way(candidate.place, way);
     return way;
   }
   /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides nothing.
   Half_facet wall() const { return wall_; }
 
  private:
-  /// A cell of the star, and how the search came to it.
-  struct Found {
-    Cell cell;
-    std::size_t parent;
-    Half_facet facet;  ///< of the parent
-  };
-
   /// True if the motion continues in the inside of the cell, so that there is no other.
-  bool visit(std::size_t place) {
-    const Cell c = found_[place].cell;
-    const Cell_view<D> cell = snapshot_.view(c);
+  bool visit() {
     ++counts_.star_cells;
     bool is_candidate = true, is_inside = true, is_displaced = true;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!facet_contains(cell, i, u_, v_)) continue;
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      const int side = detail::side<Kernel>(cell, i, b_, counts_);
+    int side = 0;
+    const auto is_at_feature = [&](const Cell_view<D>& cell, std::size_t i) {
+      if (!facet_contains(cell, i, u_, v_)) return false;
+      side = detail::side<Kernel>(cell, i, b_, counts_);
       is_candidate &= side <= 0;
       is_inside &= side < 0;
       is_displaced &= side < 0 || (side == 0 && displaced_side(cell, i) < 0);
-      if (!snapshot_.is_impassable(f))
-        add(snapshot_.neighbor(f), place, f);
-      else if (side > 0)
-        note_wall(f, cell, i);
-    }
-    if (is_candidate) candidates_.push_back({place, is_displaced, static_cast<int>(candidates_.size())});
+      return true;
+    };
+    links_.expand_all(is_at_feature, [&](const Cell_view<D>& cell, std::size_t i, Half_facet wall) {
+      if (side > 0) note_wall(wall, cell, i);
+    });
+    if (is_candidate)
+      candidates_.push_back({links_.place(), is_displaced, static_cast<int>(candidates_.size())});
     return is_candidate && is_inside;
-  }
-
-  void add(Cell next, std::size_t parent, Half_facet facet) {
-    const auto is_next = [next](const Found& known) { return known.cell == next; };
-    if (std::none_of(found_.begin(), found_.end(), is_next)) found_.push_back({next, parent, facet});
   }
 
   void note_wall(Half_facet f, const Cell_view<D>& cell, std::size_t i) {
@@ -286,7 +285,7 @@ class Star_search {
   const std::uint32_t u_, v_;
   const Point<D>&a_, &b_;
   Walk_counts& counts_;
-  boost::container::small_vector<Found, 32> found_;
+  Link_search<D> links_;
   Candidates candidates_;
   Half_facet wall_ = Half_facet::none;
   double steepest_ = 0;
