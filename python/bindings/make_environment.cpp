@@ -59,8 +59,8 @@ Shared_world of_arrays(const py::object& points, const py::object& cells, const 
       D == 2 ? table.columns >= 3 : (table.columns >= 4 && table.columns <= 6) || table.columns == 8;
   if (!is_known)
     throw py::value_error(fmt::format("cells has {} columns: {}", table.columns,
-                                      D == 2 ? "cells of the plane are polygons of at least 3 points"
-                                             : "cells of space are tetrahedra (4), pyramids (5), prisms (6) "
+                                      D == 2 ? "2D cells are polygons of at least 3 points"
+                                             : "3D cells are tetrahedra (4), pyramids (5), prisms (6) "
                                                "or hexahedra (8), in the order of VTK"));
   Cell_soup<D> soup;
   soup.points.assign(given.begin(), given.end());

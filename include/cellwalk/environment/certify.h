@@ -48,7 +48,7 @@ struct Certificate {
   std::size_t boundary_facets = 0;
   std::size_t membranes = 0;   ///< impassable facets with free cells on both sides
   std::size_t components = 0;  ///< of free space, joined through passable facets
-  /// Vertices whose cells are not connected through facets that contain them
+  /// Vertices whose cells are not connected through facets that contain them.
   std::size_t pinched_vertices = 0;
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
 };

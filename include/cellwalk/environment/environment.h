@@ -40,7 +40,7 @@ struct Build_report {
   std::size_t merged_points = 0;  ///< duplicates merged (Duplicate_vertices::merge)
   bool flipped = false;           ///< every cell was inverted; all were flipped
   Split_report split;
-  /// Input cell of each cell if cells were split; otherwise empty (unchanged)
+  /// Input cell of each cell if cells were split; otherwise empty (unchanged).
   std::vector<std::uint32_t> origin;
   Certificate certificate;  ///< counts, volumes, components, walls
 };
@@ -121,7 +121,7 @@ class Environment {
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
-  /// Built when a vertex of the boundary first moves
+  /// Built when a vertex of the boundary first moves.
   std::unique_ptr<detail::Boundary_index<D>> boundary_;
   bool allow_duplicates_ = false;
 };

@@ -51,7 +51,7 @@ struct Motion_scene {
   std::vector<std::vector<std::uint32_t>> walls;
   std::vector<std::vector<std::uint32_t>> floor;    ///< 2D only: free cells as loops of points
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< 2D only: passable edges
-  /// Of all bodies; vertices are numbered consecutively through all bodies
+  /// Of all bodies; vertices are numbered consecutively through all bodies.
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::array<std::uint32_t, 3>> faces;
 
@@ -68,7 +68,7 @@ struct Motion_scene {
 /// One frame: views of the caller's arrays.
 struct Motion_frame {
   std::span<const Point<3>> positions;  ///< of all moving points
-  /// For each point a cell in whose closure it lies, by its number in the input
+  /// For each point a cell in whose closure it lies, by its number in the input.
   std::span<const std::uint32_t> cells;
   std::span<const Decision> decisions;  ///< of each body
 };

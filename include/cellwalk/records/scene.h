@@ -62,7 +62,7 @@ struct Guided_motion {
 template <int D>
 struct Body_start {
   Body_source<D> source;
-  /// Of guided bodies at the first waypoint; the position of random ones is not used
+  /// Of guided bodies at the first waypoint; the position of random ones is not used.
   Body_placement<D> placement{};
   Vector<D> velocity{};  ///< of a single thrown body
   Spin<D> spin{};

@@ -17,7 +17,7 @@ namespace cellwalk {
 /// A move that a wall blocked.
 struct Replay_contact {
   std::uint32_t step = 0, body = 0, vertex = 0;
-  /// Or the first of its edges that the wall blocks at the target
+  /// Or the first of its edges that the wall blocks at the target.
   Body_feature feature = Body_feature::vertex;
   Wall_contact<3> contact;
 };

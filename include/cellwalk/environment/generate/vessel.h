@@ -40,7 +40,7 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options);
 /// radius.
 struct Bulge_options {
   double length = 14;  ///< from end to end in a straight line
-  /// Height of the bend over the line between its ends, as a fraction of the length; 0 to 1
+  /// Height of the bend over the line between its ends, as a fraction of the length; 0 to 1.
   double bend = 0.4;
   double bulge_radius = 2;  ///< of the bulge; 0: none
   double bulge_offset = 2;  ///< of its centre from the centre line, outwards
