@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/kernel/counts.h>
+
 #include <gtest/gtest.h>
 
 #include <cstddef>
