@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Contacts of bodies, however they were found. Paper: section III.
+// Contacts of bodies, independent of the method that found them. Paper: section III.
 #ifndef CELLWALK_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_H
 
@@ -11,23 +11,26 @@
 
 namespace cellwalk {
 
-/// The feature of a body that meets a wall. Ties in time go to the first of them.
+/// The feature of a body that meets a wall. At equal times the first of them counts.
 enum class Body_feature : std::uint8_t { vertex, edge, face };
 
-/// When, where and by what the motion of a vertex p is blocked, be it itself, an edge at it or a face.
+/// A contact that blocks the motion of a vertex p: of the vertex itself, or of an edge or a face at it.
 ///
-/// time: share of the motion of p that is free, never later than the contact; impact is the same before rounding, where the
-/// search is exact. point: rounded. normal: unit, on the free side. If the vertex is blocked, or an edge by the inside of a
-/// facet, that of the wall; if an edge is blocked by an edge or vertex, the direction that is perpendicular to both. Always
-/// against the motion: docs/bodies.md says what it is where that asks for another. kind, facet, corner: of the environment.
+/// - time: the fraction of the motion of p that is free, never later than the contact; impact is its exact
+///   value, if the search is exact
+/// - point: rounded
+/// - normal: a unit vector on the free side, always against the motion. If the vertex is blocked, or an edge
+///   by the interior of a facet, it is that of the wall; if an edge is blocked by an edge or vertex, it is
+///   perpendicular to both. Degenerate cases: docs/bodies.md
+/// - kind, facet, corner: the feature of the environment
 template <int D>
 struct Contact : Wall_contact<D> {
   Body_feature body = Body_feature::vertex;
   Exact_time impact;
 };
 
-/// The order of contacts: by exact time, then vertices of the body before edges before faces, then features of the environment
-/// in that order, then by place and normal, last by half-facets.
+/// The order of contacts: by exact time, then by the feature of the body (vertices, edges, faces), then
+/// likewise by the feature of the environment, then by point and normal, and finally by half-facet.
 template <int D>
 bool is_before(const Contact<D>& a, const Contact<D>& b) {
   if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
