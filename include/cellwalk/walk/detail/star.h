@@ -58,8 +58,8 @@ Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
   return inner_normal(spanning_corners(cell, i));
 }
 
-/// An order of facets by the places of their corners: the same however they are numbered. Facets that
-/// coincide are equal.
+/// An order of facets by the positions of their corners, independent of their numbering. Coincident facets
+/// are equal.
 template <int D>
 bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D>& other, std::size_t j) {
   const auto sorted_corners = [](const Cell_view<D>& of, std::size_t facet) {
@@ -92,8 +92,8 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
   return has_u && has_v;
 }
 
-/// On which side of facet i a point of its plane lies once it is displaced, see displaced_side(): > 0 outside
-/// the cell.
+/// The side of facet i on which a displaced point of its plane lies, see displaced_side(): > 0 outside the
+/// cell.
 inline int displaced_side(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   return -cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]));
@@ -104,8 +104,8 @@ inline int displaced_side(const Cell_view<3>& cell, std::size_t i) {
   return cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
 }
 
-/// An order of cells that have the line ab in their boundary: as one comes to them turning counterclockwise
-/// about it, seen against its direction, from where a point of the line comes to lie when it is displaced.
+/// The counterclockwise order of cells with the line ab in their boundary, about that line and seen against
+/// its direction, starting at the direction of the displacement of displaced_side().
 /// \pre no two of the cells overlap, and the displaced point is in none of them
 template <class Kernel>
 class Turn {
@@ -134,7 +134,7 @@ class Turn {
       if (are_collinear(a_, b_, cell.point(k))) continue;
       if (first == cell.vertex_count() || turn(cell.point(first), cell.point(k)) < 0) first = k;
     }
-    // Half a turn on from the first corner signs are 0: corners in between have told which is first, unless
+    // Half a turn after the first corner signs are 0. Corners in between have determined the first one, unless
     // they came later.
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
       if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
@@ -153,10 +153,10 @@ using Star_way = boost::container::small_vector<Half_facet, 8>;
 /// which the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner
 /// side or on them.
 ///
-/// They are the candidates. Those that passable facets along the motion join are one side; there are several
-/// where it runs along walls. The sides come in an order that depends on the geometry only: first the one
-/// that b is on once it is displaced, see displaced_side(); then, turning from there about the line ab (3D),
-/// one after the other. Within the first one `start` comes first.
+/// These cells are the candidates. Candidates joined by passable facets along the motion form a side; there
+/// are several sides if the motion runs along walls. Their order depends on the geometry only: first the side
+/// on which the displaced point b lies, see displaced_side(), then counterclockwise about the line ab (3D).
+/// Within the first side `start` comes first.
 template <class Kernel, int D>
 class Star_search {
  public:
@@ -171,7 +171,7 @@ class Star_search {
 
   struct Candidate {
     std::size_t place;  ///< among the cells found
-    bool is_displaced;  ///< b lies in it once it is displaced
+    bool is_displaced;  ///< it contains the displaced point b
     int side;           ///< candidates of one side have the same number
   };
   using Candidates = boost::container::small_vector<Candidate, 4>;
