@@ -14,8 +14,8 @@
 
 namespace cellwalk {
 
-/// A set of counts: a struct of std::uint64_t, named in order by its array `names`, followed by other such sets.
-/// Sums and reports of all counts are written once, so that none can be omitted.
+/// A set of counts: a struct of std::uint64_t, named in order by its array `names`, followed by other such
+/// sets. Sums and reports of all counts are written once, so that none can be omitted.
 template <class Set>
 concept Count_set =
     std::is_trivially_copyable_v<Set> && sizeof(Set) % sizeof(std::uint64_t) == 0 && requires {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Motions in the boundary of a cell, and the ridges and vertices on their path at which walls may begin. Rule:
-// docs/walk.md, choices.
+// Motions in the boundary of a cell, and the ridges and vertices on their path at which walls may begin.
+// Rule: docs/walk.md, choices.
 #ifndef CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 #define CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 

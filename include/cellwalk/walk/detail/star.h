@@ -134,8 +134,8 @@ class Turn {
       if (are_collinear(a_, b_, cell.point(k))) continue;
       if (first == cell.vertex_count() || turn(cell.point(first), cell.point(k)) < 0) first = k;
     }
-    // Half a turn after the first corner signs are 0. Corners in between have determined the first one, unless
-    // they came later.
+    // Half a turn after the first corner signs are 0. Corners in between have determined the first one,
+    // unless they came later.
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
       if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
         first = k;
