@@ -46,21 +46,22 @@ py::dict to_dict(const Edge_counts& counts) {
 void bind_motions(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Contact_row_2, row, time, point, normal, kind, body, cell, facet);
   PYBIND11_NUMPY_DTYPE(Contact_row_3, row, time, point, normal, kind, body, cell, facet);
-  py::class_<Motions>(module, "Motions", "What became of a batch of motions, row by row.")
+  py::class_<Motions>(module, "Motions", "The results of a batch of motions, row by row.")
       .def_readonly("status", &Motions::status, "uint8 (N,): codes of Status.")
       .def_property_readonly(
           "time", [](Motions& motions) { return motions.times(); },
-          "float64 (N,): share of the motion that is free, 1 where it arrives, NaN where it was not made.")
-      .def_readonly("cells", &Motions::cells, "uint32 (N,): how many cells the moving point visited.")
+          "float64 (N,): the fraction of the motion that is free; 1 if it arrives, NaN if it was not made.")
+      .def_readonly("cells", &Motions::cells,
+                    "uint32 (N,): the number of cells that the moving point visited.")
       .def_readonly(
           "contacts", &Motions::contacts,
-          "Structured array, a row for each contact, in order of `row`: row, time, point, normal (unit, "
-          "on the free side), kind (Feature of the environment), body (Feature of what moved), cell and "
-          "facet (the wall: the cell it is seen from, and its number there).")
-      .def_readonly("counts", &Motions::counts, "What the batch did: machine-independent counts.")
+          "A structured array with a row for each contact, in the order of `row`: row, time, point, normal "
+          "(unit, on the free side), kind (Feature of the environment), body (Feature of the moving object), "
+          "cell and facet (the wall, as the number of a facet of the cell).")
+      .def_readonly("counts", &Motions::counts, "The machine-independent counts of the batch.")
       .def_property_readonly(
           "cell", [](Motions& motions) { return motions.cell_numbers(); },
-          "int32 (N,): the cell in which the motion ends, numbered as in the file; -1 where it was not made.")
+          "int32 (N,): the cell in which the motion ends, numbered as in the file; -1 if it was not made.")
       .def("__len__", &Motions::size)
       .def("__repr__", [](const Motions& motions) {
         return "<cellwalk.Motions of " + std::to_string(motions.size()) + " rows, " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Contacts of bodies, however they were found. Paper: section III.
+// Contacts of bodies, independent of the method that found them. Paper: section III.
 #ifndef CELLWALK_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_H
 
@@ -11,10 +11,10 @@
 
 namespace cellwalk {
 
-/// The feature of a body that meets a wall. Ties in time go to the first of them.
+/// The feature of a body that meets a wall. At equal times the first of them counts.
 enum class Body_feature : std::uint8_t { vertex, edge, face };
 
-/// When, where and by what the motion of a vertex p is blocked, be it itself, an edge at it or a face.
+/// A contact that blocks the motion of a vertex p: of the vertex itself, or of an edge or a face at it.
 template <int D>
 struct Contact {
   /// The share of the motion of p that is free. Exact wherever signs are: only a bisection gives a time before it, and a walk with an
@@ -41,8 +41,8 @@ Contact<D> to_contact(const Wall_contact<D>& met, const Exact_time& time, Body_f
   return {time, met.point, met.normal, met.kind, met.corner, met.facet, met.cell, body};
 }
 
-/// The order of contacts: by exact time, then vertices of the body before edges before faces, then features of the environment
-/// in that order, then by place and normal, last by half-facets.
+/// The order of contacts: by exact time, then by the feature of the body (vertices, edges, faces), then
+/// likewise by the feature of the environment, then by point and normal, and finally by half-facet.
 template <int D>
 bool is_before(const Contact<D>& a, const Contact<D>& b) {
   if (const auto order = a.time <=> b.time; order != 0) return order < 0;

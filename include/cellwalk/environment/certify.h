@@ -48,21 +48,23 @@ struct Certificate {
   std::size_t boundary_facets = 0;
   std::size_t membranes = 0;   ///< impassable facets with free cells on both sides
   std::size_t components = 0;  ///< of free space, joined through passable facets
-  std::size_t pinched_vertices =
-      0;  ///< vertices whose cells are not connected through facets that contain them
+  /// Vertices whose cells are not connected through facets that contain them.
+  std::size_t pinched_vertices = 0;
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
 };
 
 /// Certifies a snapshot:
 /// - every cell by check_cell;
-/// - the two sides of each facet match, boundary facets are walls, and walls separate solid cells from free ones;
+/// - the two sides of each facet match, boundary facets are walls, and walls separate solid cells from free
+///   ones;
 /// - no two vertices have the same coordinates, unless allow_duplicates;
 /// - cells wind exactly once around each inner ridge and at most once around each boundary ridge;
-/// - no boundary facet has the interior of another cell on its inner side, so that cells do not overlap anywhere.
+/// - no boundary facet has the interior of another cell on its inner side, so that cells do not overlap
+///   anywhere.
 ///
 /// Proof that these conditions suffice: docs/certification.md.
-/// \throw Error(not_certified) naming the cell (its index in the input), the facet (its vertices) and the reason: the
-///        lowest cell that violates the first violated condition, for any number of threads
+/// \throw Error(not_certified) naming the cell (its index in the input), the facet (its vertices) and the
+///        reason: the lowest cell that violates the first violated condition, for any number of threads
 /// Cost: about 1.3 us a tetrahedron and core; parallel. About 45 bytes a tetrahedron of working memory.
 template <int D>
 Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates = false);

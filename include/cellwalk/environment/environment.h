@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The environment: a certified convex cell complex, stored as a combinatorial map (for edits) and compiled into a
-// snapshot (for walks). This header does not include CGAL; <cellwalk/environment/map.h> gives access to the map.
+// The environment: a certified convex cell complex, stored as a combinatorial map (for edits) and compiled
+// into a snapshot (for walks). This header does not include CGAL; <cellwalk/environment/map.h> gives access
+// to the map.
 #ifndef CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 
@@ -39,20 +40,20 @@ struct Build_report {
   std::size_t merged_points = 0;  ///< duplicates merged (Duplicate_vertices::merge)
   bool flipped = false;           ///< every cell was inverted; all were flipped
   Split_report split;
-  std::vector<std::uint32_t>
-      origin;               ///< input cell of each cell if cells were split; otherwise empty (unchanged)
+  /// Input cell of each cell if cells were split; otherwise empty (unchanged).
+  std::vector<std::uint32_t> origin;
   Certificate certificate;  ///< counts, volumes, components, walls
 };
 
-/// A certified cell complex. Cells are identified by Snapshot's Cell. Their indices are those of the soup (after a split, of
-/// the split soup); point indices are those of the soup without the dropped points.
+/// A certified cell complex. Cells are identified by Snapshot's Cell. Their indices are those of the soup
+/// (after a split, of the split soup); point indices are those of the soup without the dropped points.
 template <int D>
 class Environment {
  public:
-  /// Drops unused points, merges or refuses duplicate ones, flips a mesh whose cells are all inverted, splits cells that
-  /// are not exactly convex, glues, builds the map, compiles the snapshot from it and certifies that.
-  /// Facets on the boundary and between solid and free cells become impassable. If building fails, `report` is filled up to the
-  /// point of failure.
+  /// Drops unused points, merges or refuses duplicate ones, flips a mesh whose cells are all inverted, splits
+  /// cells that are not exactly convex, glues, builds the map, compiles the snapshot from it and certifies
+  /// that. Facets on the boundary and between solid and free cells become impassable. If building fails,
+  /// `report` is filled up to the point of failure.
   /// \param report if not null, receives all changes and the counts
   /// \throw Error(input) for a malformed soup, Error(not_certified) with the cell and the reason
   /// Cost: about 2.5 us a tetrahedron on two cores (1.6 us without the map), up to twice as much if cells and
@@ -77,29 +78,32 @@ class Environment {
   /// Cost: linear.
   Cell_soup<D> soup() const;
 
-  // Edits change map and snapshot consistently; only affected cells are recompiled. An edit that throws changes nothing. It
-  // throws Error(usage) if the environment is frozen, or for a facet, point or cell that does not exist; Error(input) for a
-  // position that is not finite; Error(not_certified), with the reason, if the result would not be certified.
+  // Edits change map and snapshot consistently; only affected cells are recompiled. An edit that throws
+  // changes nothing. It throws Error(usage) if the environment is frozen, or for a facet, point or cell that
+  // does not exist; Error(input) for a position that is not finite; Error(not_certified), with the reason, if
+  // the result would not be certified.
   //
-  // Edits ignore objects that move in the environment. Each edit that changes anything raises Snapshot::epoch(), and a Body
-  // that was registered before throws Error(usage) until Body::register_again(). Locate your own particles again after
-  // move_vertex and insert_point. Do not edit while anything moves.
+  // Edits ignore objects that move in the environment. Each edit that changes anything raises
+  // Snapshot::epoch(), and a Body that was registered before throws Error(usage) until
+  // Body::register_again(). Locate your own particles again after move_vertex and insert_point. Do not edit
+  // while anything moves.
 
-  /// Makes a facet impassable or passable. Facets of the boundary, and between a solid and a free cell, cannot be made passable.
+  /// Makes a facet impassable or passable. Facets of the boundary, and between a solid and a free cell,
+  /// cannot be made passable.
   /// \param wall true: impassable
   /// Cost: constant.
   void set_impassable(Half_facet facet, bool wall);
 
-  /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar facets. Only the end
-  /// position is checked: the path of a boundary vertex may lead through other cells. Names of cells and facets are kept; the loop
-  /// of a facet may start at another vertex.
-  /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near them; the first
-  /// time linear in the number of facets.
+  /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar
+  /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
+  /// Names of cells and facets are kept; the loop of a facet may start at another vertex.
+  /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
+  /// them; the first time linear in the number of facets.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
-  /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the new cells; the first
-  /// takes the index of the old cell, the others new indices. Names of other cells and facets are kept. The name of the old cell
-  /// becomes invalid, and later edits may reuse it.
+  /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the
+  /// new cells; the first takes the index of the old cell, the others new indices. Names of other cells and
+  /// facets are kept. The name of the old cell becomes invalid, and later edits may reuse it.
   /// Cost: constant.
   std::vector<Cell> insert_point(Cell cell, const Point<D>& position);
 
@@ -117,7 +121,8 @@ class Environment {
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
-  std::unique_ptr<detail::Boundary_index<D>> boundary_;  ///< built when a vertex of the boundary first moves
+  /// Built when a vertex of the boundary first moves.
+  std::unique_ptr<detail::Boundary_index<D>> boundary_;
   bool allow_duplicates_ = false;
 };
 

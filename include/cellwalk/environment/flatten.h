@@ -20,17 +20,17 @@ struct Flat_cells {
   std::vector<Dart<D>> darts;  ///< first dart of each half-facet of the soup
 };
 
-/// All cells of a map in the order of their indices. The facets of a cell are in the order of their half-facet
-/// numbers (3D) or around the cell from the lowest (2D); a loop starts at the first dart of its half-facet. Impassable
-/// facets are marked on both sides, including those of the boundary. Directly after build_map() the result is the soup
-/// from which the map was built.
+/// All cells of a map in the order of their indices. The facets of a cell are in the order of their
+/// half-facet numbers (3D) or around the cell from the lowest (2D); a loop starts at the first dart of its
+/// half-facet. Impassable facets are marked on both sides, including those of the boundary. Directly after
+/// build_map() the result is the soup from which the map was built.
 /// Cost: about 0.4 us a tetrahedron on one core; parallel.
 template <int D>
 Flat_cells<D> flatten(const Map_storage<D>& storage);
 
-/// The cells of the given darts, one dart a cell, in that order. Facets are in breadth-first order from the dart
-/// (3D) or around the cell (2D). The gluing covers the given cells only; soup.points stays empty, and vertices are the
-/// indices of points.
+/// The cells of the given darts, one dart a cell, in that order. Facets are in breadth-first order from the
+/// dart (3D) or around the cell (2D). The gluing covers the given cells only; soup.points stays empty, and
+/// vertices are the indices of points.
 template <int D>
 Flat_cells<D> flatten_cells(Map_storage<D>& storage, std::span<const Dart<D>> cells);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The combinatorial map of an environment, which edits change and from which snapshots are compiled. Includes CGAL; users
-// link CGAL::CGAL. Walks do not need this header.
+// The combinatorial map of an environment, which edits change and from which snapshots are compiled. Includes
+// CGAL; users link CGAL::CGAL. Walks do not need this header.
 //
-// A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first of them
-// identifies it. beta_D joins the two sides of a facet, walls included: impassable facets are marked, not unglued.
+// A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first
+// of them identifies it. beta_D joins the two sides of a facet, walls included: impassable facets are marked,
+// not unglued.
 #ifndef CELLWALK_ENVIRONMENT_MAP_H
 #define CELLWALK_ENVIRONMENT_MAP_H
 
@@ -54,8 +55,9 @@ class Dart_info {
 };
 static_assert(sizeof(Dart_info) == 8);
 
-/// Darts have a Dart_info, vertices a point and the index of the point in the soup and snapshot. A pinched vertex
-/// (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with equal indices.
+/// Darts have a Dart_info, vertices a point and the index of the point in the soup and snapshot. A pinched
+/// vertex (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with
+/// equal indices.
 struct Map_items {
   template <class Complex>
   struct Dart_wrapper {
@@ -120,9 +122,9 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
   }
 }
 
-/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot replaces
-/// (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and between a solid and
-/// a free cell.
+/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot
+/// replaces (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and
+/// between a solid and a free cell.
 /// \pre gluing = glue(soup); every point is a vertex of some cell
 /// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell
 /// Cost: about 0.8 us a tetrahedron on one core, 0.5 us on two; memory 679 bytes a tetrahedron.
@@ -142,8 +144,9 @@ struct Map_counts {
   bool operator==(const Map_counts&) const = default;
 };
 
-/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each other, ends
-/// and marks agree) and that darts, half-facets, vertices and points refer to each other; counts the cells.
+/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each
+/// other, ends and marks agree) and that darts, half-facets, vertices and points refer to each other; counts
+/// the cells.
 /// \throw Error(other) naming the cell at fault: the map was damaged from outside
 template <int D>
 Map_counts check_map(const Map_storage<D>& storage);

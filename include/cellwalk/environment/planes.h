@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate for the side
-// of a point.
+// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate for
+// the side of a point.
 //
 // Frame. Points are mapped to y = scale (x - center), scale a power of two, so that the environment lies in
 // [-1,1]^D.
@@ -39,8 +39,9 @@ using Int4 = int __attribute__((vector_size(16)));
 template <int D>
 using Float_point = std::array<float, static_cast<std::size_t>(D)>;
 
-/// Four planes: the signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and offset
-/// -1, so that no point is outside them. Those of a removed cell have offset 1, so that every point is.
+/// Four planes: the signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and
+/// offset -1, so that no point is outside them. Those of a removed cell have offset 1, so that every point
+/// is.
 template <int D>
 struct alignas(D == 3 ? 64 : 16) Plane_block {
   std::array<Float4, D> normal;
@@ -98,7 +99,8 @@ inline Spread_point<D> spread(const Float_point<D>& y) {
   return lanes;
 }
 
-/// The signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
+/// The signed distances of y from four planes, each within plane_error of a positive multiple of the exact
+/// one.
 template <int D>
 inline Float4 evaluate(const Plane_block<D>& block, const Spread_point<D>& y) {
   // Two short chains instead of a long one.

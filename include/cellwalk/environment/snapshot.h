@@ -42,8 +42,9 @@ class Snapshot {
  public:
   Snapshot() = default;
 
-  /// Compiles a glued soup whose cells are convex and positively oriented. Each facet loop is rotated so
-  /// that its first D vertices span its plane or line; a facet with collinear vertices only is kept (certification refuses it).
+  /// Compiles a glued soup whose cells are convex and positively oriented. Each facet loop is rotated so that
+  /// its first D vertices span its plane or line; a facet with collinear vertices only is kept (certification
+  /// refuses it).
   /// \param slots if not null, receives the half-facet of each facet of the soup
   /// Cost: about 1 us a cell and core; O(cells) memory for the sort.
   static Snapshot compile(const Cell_soup<D>& soup, const Gluing& gluing,
@@ -56,8 +57,8 @@ class Snapshot {
   /// The cell with the given index in the input; Cell::none if it is free.
   /// \pre index < cell_slots()
   Cell cell(std::size_t index) const { return Cell{cell_of_index_[index]}; }
-  /// True if a cell of this name exists. Edits that replace cells remove names; later edits may reuse them. A removed name
-  /// behaves like a solid cell that contains no point and has only walls.
+  /// True if a cell of this name exists. Edits that replace cells remove names; later edits may reuse them. A
+  /// removed name behaves like a solid cell that contains no point and has only walls.
   bool is_cell(Cell c) const {
     return to_index(c) < shape_.size() && !(shape_[to_index(c)] & (continuation_bit | removed_bit));
   }
@@ -95,16 +96,16 @@ class Snapshot {
     static_assert(wall_bit == 1u << 31, "walls are those whose links are negative");
     return lane_mask(links_of_block < 0);
   }
-  /// True if the union of the two cells is convex, all facets they share are passable, and these facets are their whole
-  /// intersection, so that no slit lies between them.
+  /// True if the union of the two cells is convex, all facets they share are passable, and these facets are
+  /// their whole intersection, so that no slit lies between them.
   bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.
   Cell neighbor(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
-  /// The facet, seen from the first cell, through which all segments between two cells pass: the cells are a convex pair and
-  /// share no other facet. Half_facet::none if there is no such facet.
+  /// The facet, seen from the first cell, through which all segments between two cells pass: the cells are a
+  /// convex pair and share no other facet. Half_facet::none if there is no such facet.
   /// Cost: reading the links of the facets of one cell.
   Half_facet convex_passage(Cell from, Cell to) const {
     Half_facet passage = Half_facet::none;
@@ -182,16 +183,18 @@ class Snapshot {
     points_.push_back(position);
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
-  /// Recomputes the data of cells that depend on positions: the starting vertices of loops (the first D vertices must not be
-  /// collinear), planes and convex-pair bits. Half-facets keep their names.
+  /// Recomputes the data of cells that depend on positions: the starting vertices of loops (the first D
+  /// vertices must not be collinear), planes and convex-pair bits. Half-facets keep their names.
   /// \param cells all cells with a moved point
   void update_geometry(std::span<const Cell> cells);
-  /// Replaces the cells `removed` by the cells of `soup`, whose vertices are indices of this snapshot's points; soup.points is
-  /// ignored. gluing.opposite of a half-facet is a half-facet of `soup`, or no_facet. Open half-facets are matched to the facets
-  /// that the removed cells leave open; remaining ones of the latter become boundary facets.
+  /// Replaces the cells `removed` by the cells of `soup`, whose vertices are indices of this snapshot's
+  /// points; soup.points is ignored. gluing.opposite of a half-facet is a half-facet of `soup`, or no_facet.
+  /// Open half-facets are matched to the facets that the removed cells leave open; remaining ones of the
+  /// latter become boundary facets.
   ///
-  /// Returns the new cells in order. They take the indices of the removed cells first, then free and then new ones; remaining
-  /// indices become free. Storage removed by earlier calls is reused; names removed by this call are not reused by it.
+  /// Returns the new cells in order. They take the indices of the removed cells first, then free and then new
+  /// ones; remaining indices become free. Storage removed by earlier calls is reused; names removed by this
+  /// call are not reused by it.
   /// \param slots if not null, receives the half-facet of each facet of `soup`
   /// \throw Error(input) as compile(), with nothing changed
   std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
@@ -222,8 +225,8 @@ class Snapshot {
   std::size_t uncertified_planes_ = 0;
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
   std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
-  /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the first block of a
-  /// cell, existing or removed, and never into the middle of one.
+  /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the
+  /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
   Free_runs free_blocks_, free_vertices_;
   std::set<std::uint32_t> free_indices_;

@@ -19,14 +19,15 @@ struct Split_report {
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
 };
 
-/// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D: triangles).
-/// In 3D the facets of such a cell are split into triangles consistently on both sides; a valid neighbour is not split, but
-/// then has several coplanar facets. The new cells inherit solidity and walls. Points are only appended. Result cells are
-/// exactly positive, and those of one input cell do not overlap; certify() checks the whole complex. The choice of facet
-/// diagonals, and so the result, depends on the input only.
+/// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D:
+/// triangles). In 3D the facets of such a cell are split into triangles consistently on both sides; a valid
+/// neighbour is not split, but then has several coplanar facets. The new cells inherit solidity and walls.
+/// Points are only appended. Result cells are exactly positive, and those of one input cell do not overlap;
+/// certify() checks the whole complex. The choice of facet diagonals, and so the result, depends on the input
+/// only.
 /// \param origin if not null, receives the input cell of each result cell
-/// \throw Error(not_certified) naming a cell that cannot be split (the same one for any number of threads), and why; as
-///        glue, if a cell is split
+/// \throw Error(not_certified) naming a cell that cannot be split (the same one for any number of threads),
+///        and why; as glue, if a cell is split
 /// \throw Error(input) for a vertex index out of range or a coordinate that is not finite
 /// Cost: about 0.1 us a valid tetrahedron, 6 us a hexahedron that is split; parallel.
 template <int D>

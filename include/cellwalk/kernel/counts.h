@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Counts of work: machine-independent evidence of what a computation cost.
+// Counts of work: machine-independent evidence of the cost of a computation.
 #ifndef CELLWALK_KERNEL_COUNTS_H
 #define CELLWALK_KERNEL_COUNTS_H
 
@@ -14,8 +14,8 @@
 
 namespace cellwalk {
 
-/// A set of counts: a struct of std::uint64_t, whose array `names` names them in order, and after them of other such sets.
-/// What is done with all of them, sums and reports, is written once, so that no count can be left out.
+/// A set of counts: a struct of std::uint64_t, named in order by its array `names`, followed by other such
+/// sets. Sums and reports of all counts are written once, so that none can be omitted.
 template <class Set>
 concept Count_set =
     std::is_trivially_copyable_v<Set> && sizeof(Set) % sizeof(std::uint64_t) == 0 && requires {
@@ -23,7 +23,7 @@ concept Count_set =
   requires Set::names.size() <= sizeof(Set) / sizeof(std::uint64_t);
 };
 
-/// All counts of a set, those of its inner sets included, in order.
+/// All counts of a set in order, including those of its inner sets.
 template <Count_set Set>
 using Count_array = std::array<std::uint64_t, sizeof(Set) / sizeof(std::uint64_t)>;
 
@@ -33,7 +33,8 @@ constexpr bool names_all_before(std::size_t end) {
   return Set::names.size() * sizeof(std::uint64_t) == end;
 }
 
-/// Adds each count of one set to that of another. Cost: one addition a count; hot code counts in variables of its own first.
+/// Adds each count of one set to that of another.
+/// Cost: one addition a count; hot code counts in its own variables first.
 template <Count_set Set>
 Set& operator+=(Set& sum, const Set& more) {
   auto counts = std::bit_cast<Count_array<Set>>(sum);
@@ -42,7 +43,7 @@ Set& operator+=(Set& sum, const Set& more) {
   return sum = std::bit_cast<Set>(counts);
 }
 
-/// The counts of a set with their names, as reports show them; those of its inner sets are left to a call of their own.
+/// The counts of a set with their names, for reports, without those of its inner sets.
 template <Count_set Set>
 auto named_counts(const Set& set) {
   const auto counts = std::bit_cast<Count_array<Set>>(set);

@@ -17,7 +17,8 @@ enum class Error_code : int {
   outside = 5         ///< a particle or body that starts outside free space or across a wall
 };
 
-/// Thrown by every function that refuses an input. `what()` is one line: the problem, the place and the remedy.
+/// Thrown by every function that refuses an input. `what()` is one line: the problem, the place and the
+/// remedy.
 class Error : public std::runtime_error {
  public:
   Error(Error_code code, const std::string& message) : std::runtime_error(message), code_(code) {}

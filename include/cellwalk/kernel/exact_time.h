@@ -10,8 +10,8 @@ namespace cellwalk {
 
 struct Exact_fraction;  // <cellwalk/kernel/exact_value.h>
 
-/// A parameter of a motion as an exact number. A comparison needs the fractions only if both times round to the
-/// same double. Immutable and cheap to copy.
+/// A parameter of a motion as an exact number. A comparison needs the fractions only if both times round to
+/// the same double. Immutable and cheap to copy.
 class Exact_time {
  public:
   Exact_time() = default;  ///< 0

@@ -42,7 +42,8 @@ struct Ring_of<Field> {
 
 }  // namespace detail
 
-/// Ring numbers: they include all doubles; sums, differences and products are exact, and cheaper than those of rationals.
+/// Ring numbers: they include all doubles; sums, differences and products are exact, and cheaper than those
+/// of rationals.
 using Ring = detail::Ring_of<Rational>::type;
 
 /// The fraction of an Exact_time.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Exact arithmetic with unreduced fractions of ring numbers, for short chains of operations, whose numbers stay
-// short. A Rational is reduced after each operation, which costs more. Includes CGAL; users link CGAL::CGAL.
+// Exact arithmetic with unreduced fractions of ring numbers, for short chains of operations, whose numbers
+// stay short. A Rational is reduced after each operation, which costs more. Includes CGAL; users link
+// CGAL::CGAL.
 #ifndef CELLWALK_KERNEL_FRACTION_H
 #define CELLWALK_KERNEL_FRACTION_H
 
@@ -11,7 +12,8 @@
 
 namespace cellwalk {
 
-/// An unreduced quotient of ring numbers. A comparison takes two products; arithmetic adds the lengths of the numbers.
+/// An unreduced quotient of ring numbers. A comparison takes two products; arithmetic adds the lengths of the
+/// numbers.
 class Fraction {
  public:
   Fraction() : Fraction(0) {}

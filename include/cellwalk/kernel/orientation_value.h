@@ -11,7 +11,8 @@
 
 namespace cellwalk {
 
-/// The exact sign of an orientation, and bounds of its absolute value; the upper one is infinite if doubles give none.
+/// The exact sign of an orientation, and bounds of its absolute value; the upper one is infinite if doubles
+/// give none.
 struct Orientation_value {
   int sign;
   double low, high;
@@ -36,11 +37,12 @@ struct Root_bounds {
   double low = 0, high = 1;
 };
 
-/// Bounds of the root |v_0| / (|v_0| + |v_1|) in (0,1) of an affine function with the values v_0 at 0 and v_1 at 1.
+/// Bounds of the root |v_0| / (|v_0| + |v_1|) in (0,1) of an affine function with the values v_0 at 0 and v_1
+/// at 1.
 /// \pre the values have different signs
 inline Root_bounds root_bounds(const Orientation_value& at_0, const Orientation_value& at_1) {
-  // Rounding: one factor 1+u each in the bounds of the values, in their sum, in the quotient and in this product; two of
-  // them occur in the numerator and the denominator. Together they are less than 8u.
+  // Rounding: one factor 1+u each in the bounds of the values, in their sum, in the quotient and in this
+  // product; two of them occur in the numerator and the denominator. Together they are less than 8u.
   constexpr double rounding = 8 * 0x1p-53;
   // Quotients of values in the range of filtered magnitudes are far from 0 or rounded up to this.
   constexpr double smallest = 1e-290;

@@ -9,8 +9,9 @@
 
 namespace cellwalk {
 
-/// A point in D dimensions, in the units of the environment. Every coordinate is exact input and is never rounded.
-/// (The cast keeps D out of argument deduction, where int and the size type of an array would conflict.)
+/// A point in D dimensions, in the units of the environment. Every coordinate is exact input and is never
+/// rounded. (The cast keeps D out of argument deduction, where int and the size type of an array would
+/// conflict.)
 template <int D>
 using Point = std::array<double, static_cast<std::size_t>(D)>;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Number policies. Every predicate of the library is the sign of an orientation of input points, computed by one
-// of these policies:
+// Number policies. Every predicate of the library is the sign of an orientation of input points, computed by
+// one of these policies:
 //
-//   Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic: always right
-//   Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
-//   Unfiltered   rational arithmetic for every sign, without a filter: always right
-//   Double       the sign of the rounded determinant: wrong near degeneracies; for experiments only
-//   Tolerant<n>  the same, but 0 within 10^-n; for experiments only
-//   Float        the rounded sign in single precision; for experiments only
+// Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic: always
+// right Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
+// Unfiltered   rational arithmetic for every sign, without a filter: always right Double       the sign of
+// the rounded determinant: wrong near degeneracies; for experiments only Tolerant<n>  the same, but 0 within
+// 10^-n; for experiments only Float        the rounded sign in single precision; for experiments only
 //
 // Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
 //   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
@@ -77,8 +76,9 @@ inline int sign_of(T x) {
 }
 
 /// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
-/// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4
-/// in 2D. The magnitude, with which the error is compared, is rounded down by as many. 16u covers both with a margin.
+/// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in
+/// 2D. The magnitude, with which the error is compared, is rounded down by as many. 16u covers both with a
+/// margin.
 inline constexpr double orientation_error = 16 * 0x1p-53;
 /// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by
 /// 2^-1075, far less than 16u times 1e-250); above it a term may have overflowed.
@@ -131,7 +131,8 @@ struct Lazy {
   }
 };
 
-/// Exact signs in rational numbers, each computed in full. Cost: some microseconds a sign.
+/// Exact signs in rational numbers, each computed in full.
+/// Cost: some microseconds a sign.
 struct Unfiltered {
   static constexpr bool is_exact = true;
   static constexpr bool uses_certificates = false;
@@ -157,9 +158,9 @@ struct Double {
   }
 };
 
-/// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. The tolerance is
-/// 10^-Digits, in units of the area (2D) or volume (3D) of the determinant, so it depends on the scale of the input.
-/// For experiments.
+/// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. The tolerance
+/// is 10^-Digits, in units of the area (2D) or volume (3D) of the determinant, so it depends on the scale of
+/// the input. For experiments.
 template <int Digits>
 struct Tolerant {
   static_assert(Digits == 6 || Digits == 9);

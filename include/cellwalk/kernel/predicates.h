@@ -21,10 +21,10 @@ bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x);
 /// \pre the first three vertices of the polygon are not collinear
 bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x);
 
-/// The side of the line pq (2D) or the plane pqr (3D) on which a point of it lies after a displacement by (e, e^2, e^3)
-/// for arbitrarily small e > 0: the sign of orientation(p, q, x) or orientation(p, q, r, x) for the displaced point x.
-/// It is 0 only if p and q coincide (3D: if p, q and r are collinear). This symbolic perturbation chooses between the
-/// two sides of a wall if nothing else determines the side.
+/// The side of the line pq (2D) or the plane pqr (3D) on which a point of it lies after a displacement by (e,
+/// e^2, e^3) for arbitrarily small e > 0: the sign of orientation(p, q, x) or orientation(p, q, r, x) for the
+/// displaced point x. It is 0 only if p and q coincide (3D: if p, q and r are collinear). This symbolic
+/// perturbation chooses between the two sides of a wall if nothing else determines the side.
 int displaced_side(const Point<2>& p, const Point<2>& q);
 int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r);
 
@@ -36,8 +36,8 @@ double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, co
                      const Point<3>& b);
 
 /// Unit normal of the line uv (2D: on its left) or of the plane uvw (3D: on the side from which uvw is
-/// counterclockwise). Each component is within 1e-14 of the exact one, for any scale and shape of the triangle. The
-/// result is 0 if the points are collinear (2D: coincide).
+/// counterclockwise). Each component is within 1e-14 of the exact one, for any scale and shape of the
+/// triangle. The result is 0 if the points are collinear (2D: coincide).
 Vector<2> unit_normal(const Point<2>& u, const Point<2>& v);
 Vector<3> unit_normal(const Point<3>& u, const Point<3>& v, const Point<3>& w);
 

@@ -50,8 +50,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Scrambles 64 bits (the finaliser of SplitMix64): a fixed pseudo-random function, for decisions that must be equal in
-/// two places without communication.
+/// Scrambles 64 bits (the finaliser of SplitMix64): a fixed pseudo-random function, for decisions that must
+/// be equal in two places without communication.
 constexpr std::uint64_t scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -36,7 +36,8 @@ auto naming(const std::string& path, Work&& work) {
 }
 
 /// Reads a file of cells and certifies it unchanged: nothing is split, merged or flipped.
-/// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the reason
+/// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the
+///        reason
 /// Cost: that of reading and of Environment::build().
 Loaded_environment load_environment(const std::string& path, Build_options options);
 
@@ -64,10 +65,11 @@ struct Imported_environment {
   Import_report report;
 };
 
-/// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed surface is filled
-/// with tetrahedra, a planar domain with triangles.
-/// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified) with the cell and the
-///        reason, Error(usage) for obstacles without a surface, and if this build cannot mesh
+/// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
+/// surface is filled with tetrahedra, a planar domain with triangles.
+/// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
+///        with the cell and the reason, Error(usage) for obstacles without a surface, and if this build
+///        cannot mesh
 /// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe if TetGen is used.
 Imported_environment import_environment(const std::string& path, const Import_options& options);
 

@@ -21,8 +21,8 @@ struct Mesher_options {
   double cell_size = 0;  ///< Mesh_3: units of the surface; 0: its default
   double distance = 0;   ///< Mesh_3: maximal distance of the boundary from the surface; 0: its default
   bool keep_obstacles = false;
-  std::vector<std::string>
-      obstacle_names{};  ///< names of the obstacles in messages; default: "obstacle 1", ...
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
 };
 
 /// Cells, and the report of meshing, as text and as JSON.

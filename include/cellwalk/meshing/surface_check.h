@@ -27,14 +27,16 @@ struct Surface_report {
 /// One line for each change.
 std::vector<std::string> describe(const Surface_report& report);
 
-/// Checks that a surface is a closed, orientable 2-manifold without self-intersections, and returns it as triangles,
-/// oriented so that they bound a volume (nested components alternate).
-/// Merges points of equal coordinates, drops facets that collapse, splits polygons into triangles, and orients all facets.
+/// Checks that a surface is a closed, orientable 2-manifold without self-intersections, and returns it as
+/// triangles, oriented so that they bound a volume (nested components alternate). Merges points of equal
+/// coordinates, drops facets that collapse, splits polygons into triangles, and orients all facets.
 /// \param name the name of the surface in messages, such as "surface" or "obstacle 2"
-/// \throw Error(input) with the first violation of: empty, an index out of range, a coordinate not finite, open,
-///        non-manifold edges, degenerate facets, not orientable, non-manifold vertices, self-intersections; with their number,
-///        the first place (vertices and facets by their number in the input, from 0), and the remedy
-/// Degenerate cases: a facet with collinear vertices only is refused; components that touch count as self-intersections.
+/// \throw Error(input) with the first violation of: empty, an index out of range, a coordinate not finite,
+///        open, non-manifold edges, degenerate facets, not orientable, non-manifold vertices,
+///        self-intersections; with their number, the first place (vertices and facets by their number in the
+///        input, from 0), and the remedy
+/// Degenerate cases: a facet with collinear vertices only is refused; components that touch count as
+/// self-intersections.
 /// Cost: about 10 us a triangle.
 Surface_soup check_surface(const Surface_soup& soup, const std::string& name = "surface",
                            Surface_report* report = nullptr);

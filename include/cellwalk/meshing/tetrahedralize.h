@@ -14,14 +14,16 @@
 namespace cellwalk {
 
 struct Tetrahedralize_options {
-  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few tetrahedra as
-  /// possible. Points are added in the interior only, so the bound may be violated near fine parts of the surface.
+  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few
+  /// tetrahedra as possible. Points are added in the interior only, so the bound may be violated near fine
+  /// parts of the surface.
   double quality = 0;
   double largest_volume = 0;                ///< of a tetrahedron; 0: any
   std::size_t most_added_points = 1000000;  ///< refinement stops there
-  bool keep_obstacles = false;  ///< true: obstacles are kept as solid cells; false: they are omitted
-  std::vector<std::string>
-      obstacle_names{};  ///< names of the obstacles in messages; default: "obstacle 1", ...
+  /// True: obstacles are kept as solid cells; false: they are omitted
+  bool keep_obstacles = false;
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
 };
 
 struct Tetrahedralize_report {
@@ -35,10 +37,11 @@ struct Tetrahedralize_report {
 /// True if the library was built with TetGen.
 bool has_tetgen();
 
-/// Fills the interior of a closed surface, without that of the obstacles, with tetrahedra. Every triangle of a surface is a
-/// facet of the result and a wall. A point is inside if an odd number of components of the surface enclose it.
-/// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and apart from
-///        it and from the other obstacles
+/// Fills the interior of a closed surface, without that of the obstacles, with tetrahedra. Every triangle of
+/// a surface is a facet of the result and a wall. A point is inside if an odd number of components of the
+/// surface enclose it.
+/// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and
+///        apart from it and from the other obstacles
 /// \throw Error(usage) for options out of range, or if the library was built without TetGen
 /// \throw Error(not_certified) if TetGen fails, does not preserve the surface, or makes a flat tetrahedron
 /// Not thread-safe: TetGen's messages to the standard output of the process are suppressed while it runs.

@@ -23,11 +23,12 @@ struct Triangulate_report {
   std::size_t solid_cells = 0;       ///< with keep_holes
 };
 
-/// Triangulates the region enclosed by the segments of a domain, without the holes. Every segment becomes a wall; a segment with
-/// free space on both sides becomes a membrane. No point is added.
-/// \throw Error(input) if there are no segments, an index is out of range, a coordinate is not finite, two segments
-///        cross (naming them), no region is enclosed, or a hole's point lies on a segment
-/// Degenerate cases: a segment may end on another one, run through points, or overlap another one along a line.
+/// Triangulates the region enclosed by the segments of a domain, without the holes. Every segment becomes a
+/// wall; a segment with free space on both sides becomes a membrane. No point is added.
+/// \throw Error(input) if there are no segments, an index is out of range, a coordinate is not finite, two
+///        segments cross (naming them), no region is enclosed, or a hole's point lies on a segment
+/// Degenerate cases: a segment may end on another one, run through points, or overlap another one along a
+/// line.
 /// Cost: about 2 us a triangle.
 Cell_soup<2> triangulate(const Planar_domain& domain, const Triangulate_options& options = {},
                          Triangulate_report* report = nullptr);

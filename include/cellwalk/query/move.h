@@ -47,12 +47,13 @@ struct Move_options {
   Touch touch = Touch::pass;
 };
 
-/// Answers a motion from one point to another.
-/// A start on a wall with free space on several sides may belong to each of them: the side on which the motion gets furthest
-/// is chosen, in ties that with the cell of lowest index. With an exact kernel the
-/// time of a contact is exact; otherwise it is that of the walk, rounded.
+/// Answers a motion from one point to another. A start on a wall with free space on several sides may belong
+/// to each of them: the side on which the motion gets furthest is chosen, in ties that with the cell of
+/// lowest index. With an exact kernel the time of a contact is exact; otherwise it is that of the walk,
+/// rounded.
 /// \pre the locator is that of the snapshot; both points are finite; Touch::stop only with the exact kernel
-/// Cost: that of locating the start and of the walk, for each side. Thread-safe, if each thread has its own counts.
+/// Cost: that of locating the start and of the walk, for each side. Thread-safe, if each thread has its own
+/// counts.
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
                       const Point<D>& to, const Move_options& options, Edge_counts& counts);

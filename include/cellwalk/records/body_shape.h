@@ -12,8 +12,8 @@
 
 namespace cellwalk {
 
-/// The body of the paper's scenes (section IV): a cube of 8 vertices. Bit i of a vertex's index gives its side along axis i; edges
-/// join vertex v to v^1, v^2 and v^4.
+/// The body of the paper's scenes (section IV): a cube of 8 vertices. Bit i of a vertex's index gives its
+/// side along axis i; edges join vertex v to v^1, v^2 and v^4.
 struct Hexahedron_shape {
   double side = 1;
   bool faces = false;  ///< 12 triangles and their 6 diagonals as well

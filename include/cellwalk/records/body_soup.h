@@ -11,9 +11,9 @@
 
 namespace cellwalk {
 
-/// A body before it is placed in an environment. It may be open or closed, manifold or not, of one part or of several.
-/// Vertices without edges and vertices with equal coordinates are allowed. `make_body` establishes the properties of
-/// edges and faces below.
+/// A body before it is placed in an environment. It may be open or closed, manifold or not, of one part or of
+/// several. Vertices without edges and vertices with equal coordinates are allowed. `make_body` establishes
+/// the properties of edges and faces below.
 template <int D>
 struct Body_soup {
   std::vector<Point<D>> points;                     ///< in the units of the environment

@@ -19,8 +19,8 @@ namespace cellwalk {
 /// 2D: a cell is a polygon; its facets are its edges, two vertices each, in counterclockwise order around the
 /// cell.
 ///
-/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either of them
-/// is.
+/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either of
+/// them is.
 template <int D>
 struct Cell_soup {
   std::vector<Point<D>> points;

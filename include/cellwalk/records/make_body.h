@@ -33,11 +33,11 @@ struct Made_body {
 
 /// Makes a body. Points and faces keep their order, faces their orientation.
 ///
-/// In 3D a polygon is split into a fan of triangles from its corner of lowest index, so that a polygon shared by two
-/// cells is split consistently; the diagonals become edges. A polygon of two corners is an edge, one of one corner is
-/// ignored. In 2D a polygon contributes its sides only.
-/// \throw Error(input) naming the point, polygon or segment: a coordinate that is not finite, an index out of range, more
-///        points than 32-bit indices can address
+/// In 3D a polygon is split into a fan of triangles from its corner of lowest index, so that a polygon shared
+/// by two cells is split consistently; the diagonals become edges. A polygon of two corners is an edge, one
+/// of one corner is ignored. In 2D a polygon contributes its sides only.
+/// \throw Error(input) naming the point, polygon or segment: a coordinate that is not finite, an index out of
+///        range, more points than 32-bit indices can address
 /// Cost: n log n in the number of sides.
 template <int D>
 Made_body<D> make_body(Body_parts<D> parts);

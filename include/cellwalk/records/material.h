@@ -13,9 +13,11 @@ enum class Shape_mode : std::uint8_t { rigid, linear, quadratic };
 /// A material of shape matching (Mueller, Heidelberger, Teschner and Gross 2005).
 struct Shape_material {
   Shape_mode mode = Shape_mode::rigid;
-  /// The fraction of the way to its goal that a vertex is drawn in each step, in (0,1]; 1 is as stiff as the mode allows.
+  /// The fraction of the way to its goal that a vertex is drawn in each step, in (0,1]; 1 is as stiff as the
+  /// mode allows.
   double stiffness = 1;
-  /// Weight of the deformed shape against the rigid one, in [0,1]; the paper's beta. Not used by the rigid mode.
+  /// Weight of the deformed shape against the rigid one, in [0,1]; the paper's beta. Not used by the rigid
+  /// mode.
   double deformation = 0.5;
   /// Whether the linear mode preserves the volume of the shape (2D: its area). Not used by the other modes.
   bool keeps_volume = true;

@@ -14,8 +14,8 @@
 
 namespace cellwalk {
 
-/// The decision of a body's moves since the previous frame: the most expensive method that any of its vertices and edges
-/// needed.
+/// The decision of a body's moves since the previous frame: the most expensive method that any of its
+/// vertices and edges needed.
 enum class Decision : std::uint8_t {
   none,         ///< it did not move
   region,       ///< in a region free of walls, without a test
@@ -46,13 +46,13 @@ struct Motion_scene {
   std::vector<Motion_body> bodies;
   Point<3> lower{}, upper{};  ///< the bounding box of the environment
   std::vector<Point<3>> points;
-  /// Walls as loops of points, counterclockwise seen from their solid side; in 2D two points each. A wall with free space
-  /// on both sides occurs twice.
+  /// Walls as loops of points, counterclockwise seen from their solid side; in 2D two points each. A wall
+  /// with free space on both sides occurs twice.
   std::vector<std::vector<std::uint32_t>> walls;
   std::vector<std::vector<std::uint32_t>> floor;    ///< 2D only: free cells as loops of points
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< 2D only: passable edges
-  std::vector<std::array<std::uint32_t, 2>>
-      edges;  ///< of all bodies; vertices are numbered consecutively through all bodies
+  /// Of all bodies; vertices are numbered consecutively through all bodies.
+  std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::array<std::uint32_t, 3>> faces;
 
   /// The number of frames: at the start, after every `every` steps, and at the end.
@@ -68,8 +68,8 @@ struct Motion_scene {
 /// One frame: views of the caller's arrays.
 struct Motion_frame {
   std::span<const Point<3>> positions;  ///< of all moving points
-  std::span<const std::uint32_t>
-      cells;  ///< for each point a cell in whose closure it lies, by its number in the input
+  /// For each point a cell in whose closure it lies, by its number in the input.
+  std::span<const std::uint32_t> cells;
   std::span<const Decision> decisions;  ///< of each body
 };
 

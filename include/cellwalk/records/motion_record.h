@@ -16,8 +16,8 @@ template <int D>
 struct Motion_record {
   Cell_soup<D> soup;
   Point<D> from, to;
-  std::optional<std::uint32_t>
-      cell;  ///< of the soup, in which the motion starts; none: any that contains the start
+  /// Of the soup, in which the motion starts; none: any that contains the start
+  std::optional<std::uint32_t> cell;
   std::string kernel = "exact", strategy = "exit_rule";  ///< as for `cellwalk query`
   std::string note;                                      ///< a remark, for the reader
 };

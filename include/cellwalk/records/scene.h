@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The content of a scene file: an environment, the objects that move in it, and the time steps. See docs/scenes.md.
+// The content of a scene file: an environment, the objects that move in it, and the time steps. See
+// docs/scenes.md.
 #ifndef CELLWALK_RECORDS_SCENE_H
 #define CELLWALK_RECORDS_SCENE_H
 
@@ -33,7 +34,8 @@ struct Particle_start {
   Vector<D> velocity{};
 };
 
-/// Random particles or bodies, uniformly distributed in free space, with velocities of equal speed in random directions.
+/// Random particles or bodies, uniformly distributed in free space, with velocities of equal speed in random
+/// directions.
 struct Particle_cloud {
   std::uint32_t count = 0;
   double speed = 0;
@@ -44,7 +46,8 @@ struct Particle_cloud {
 template <int D>
 using Body_source = std::variant<std::string, Body_shape<D>>;
 
-/// An angular velocity in radians per unit of time: about the axis it points along, or in 2D counterclockwise.
+/// An angular velocity in radians per unit of time: about the axis it points along, or in 2D
+/// counterclockwise.
 template <int D>
 using Spin = std::array<double, D == 2 ? 1 : 3>;
 
@@ -59,8 +62,8 @@ struct Guided_motion {
 template <int D>
 struct Body_start {
   Body_source<D> source;
-  Body_placement<D>
-      placement{};       ///< of guided bodies at the first waypoint; the position of random ones is not used
+  /// Of guided bodies at the first waypoint; the position of random ones is not used.
+  Body_placement<D> placement{};
   Vector<D> velocity{};  ///< of a single thrown body
   Spin<D> spin{};
   std::optional<Particle_cloud> cloud{};     ///< copies, each with its own position and velocity
@@ -98,8 +101,8 @@ struct Picture_request {
 struct Scene_output {
   std::uint32_t frame_every = 10;          ///< steps from one VTU frame to the next; 0: none
   std::optional<Picture_request> picture;  ///< a PNG of the last step
-  /// Steps from one frame of the recording for `cellwalk view` to the next; 0: no recording; none: as required for a page of
-  /// moderate size.
+  /// Steps from one frame of the recording for `cellwalk view` to the next; 0: no recording; none: as
+  /// required for a page of moderate size.
   std::optional<std::uint32_t> motion_every;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A trace: a motion of bodies of 8 vertices in a grid of unit cubes, with the exact answer to every move, for comparisons with
-// other libraries. The file format: docs/formats.md.
+// A trace: a motion of bodies of 8 vertices in a grid of unit cubes, with the exact answer to every move, for
+// comparisons with other libraries. The file format: docs/formats.md.
 #ifndef CELLWALK_RECORDS_TRACE_H
 #define CELLWALK_RECORDS_TRACE_H
 
@@ -36,13 +36,14 @@ inline Body_soup<3> trace_body_soup(std::span<const Point<3>, trace_vertices> po
 }
 
 /// Bits of the answer to the move of one vertex: set for hits.
-constexpr std::uint8_t trace_segment_bit = 1;   ///< the segment from the position of the vertex to its target
-constexpr std::uint8_t trace_edge_bits = 0x0e;  ///< bit 1 + k: the segment from there to neighbour k
+/// The segment from the position of the vertex to its target
+constexpr std::uint8_t trace_segment_bit = 1;
+constexpr std::uint8_t trace_edge_bits = 0x0e;      ///< bit 1 + k: the segment from there to neighbour k
 constexpr std::uint8_t trace_triangle_bits = 0x70;  ///< bit 4 + k: the triangle of the motion and neighbour k
 constexpr std::uint8_t trace_all_bits = trace_segment_bit | trace_edge_bits | trace_triangle_bits;
 
-/// A trace. Cell (ix,iy,iz) of the grid is the unit cube there, its index ix + nx (iy + ny iz); the outer boundary is
-/// a wall, and so are the facets of obstacle cells. Targets may lie outside.
+/// A trace. Cell (ix,iy,iz) of the grid is the unit cube there, its index ix + nx (iy + ny iz); the outer
+/// boundary is a wall, and so are the facets of obstacle cells. Targets may lie outside.
 struct Trace {
   std::uint32_t nx = 0, ny = 0, nz = 0;
   std::uint32_t bodies = 0, steps = 0;

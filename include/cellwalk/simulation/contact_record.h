@@ -22,8 +22,9 @@ template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
   std::uint32_t particle = 0;  ///< its number in the run; meaningless for bodies
-  /// For particles, its time is the fraction of the step that had passed; for bodies, the fraction of the vertex's motion that was
-  /// free, where the rest of the motion after a contact counts as a motion of its own.
+  /// For particles, its time is the fraction of the step that had passed; for bodies, the fraction of the
+  /// vertex's motion that was free, where the rest of the motion after a contact counts as a motion of its
+  /// own.
   Contact<D> contact;
   std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
   std::optional<Met_body> body{};  ///< none: a particle

@@ -16,14 +16,15 @@ namespace cellwalk {
 
 /// A body whose vertices have equal masses and individual velocities. Its initial shape is its rest shape.
 ///
-/// A step predicts the position of each vertex, draws it towards its goal (Shape_matching) according to the stiffness, and moves
-/// it there as far as walls allow (Body::step). Velocities follow from the new positions. Contacts reverse the velocity against
-/// the wall (restitution) and reduce the velocity along it (friction); the stiff part of the response applies to the whole body.
-/// A body that meets a wall no faster than it falls in two steps does not bounce, so bodies come to rest.
+/// A step predicts the position of each vertex, draws it towards its goal (Shape_matching) according to the
+/// stiffness, and moves it there as far as walls allow (Body::step). Velocities follow from the new
+/// positions. Contacts reverse the velocity against the wall (restitution) and reduce the velocity along it
+/// (friction); the stiff part of the response applies to the whole body. A body that meets a wall no faster
+/// than it falls in two steps does not bounce, so bodies come to rest.
 ///
-/// Energy is bounded. Up to rounding, energy() never exceeds its initial value, unless a wall lifts the body while its shape
-/// recovers; without gravity kinetic_energy() never does. The energy absorbed by contacts is lost; the energy stored in a
-/// deformation can be released, and decays with the deformation.
+/// Energy is bounded. Up to rounding, energy() never exceeds its initial value, unless a wall lifts the body
+/// while its shape recovers; without gravity kinetic_energy() never does. The energy absorbed by contacts is
+/// lost; the energy stored in a deformation can be released, and decays with the deformation.
 ///
 /// All state belongs to the body: bodies can be advanced in any order, or in parallel, with the same bits.
 template <int D>
@@ -34,8 +35,8 @@ class Deformable {
   Deformable(Body<D> body, const Shape_material& material, const Vector<D>& velocity,
              const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays in place, and loses its
-  /// velocity.
+  /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays in place, and
+  /// loses its velocity.
   /// Cost: that of Shape_matching::goals and of Body::step.
   void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 

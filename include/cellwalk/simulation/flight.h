@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Rigid bodies, thrown or guided along a path. Each vertex is drawn to its place in the rigid shape as far as walls allow.
+// Rigid bodies, thrown or guided along a path. Each vertex is drawn to its place in the rigid shape as far as
+// walls allow.
 #ifndef CELLWALK_SIMULATION_FLIGHT_H
 #define CELLWALK_SIMULATION_FLIGHT_H
 
@@ -23,8 +24,8 @@ struct Flight_conditions {
   Body_options body;
 };
 
-/// A body with a rigid motion. Its shape is rigid as long as no wall is in the way; a vertex that a wall holds back is drawn
-/// towards its place again in the next step.
+/// A body with a rigid motion. Its shape is rigid as long as no wall is in the way; a vertex that a wall
+/// holds back is drawn towards its place again in the next step.
 template <int D>
 class Flight {
  public:

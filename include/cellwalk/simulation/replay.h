@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The replay of a trace: its bodies move to its targets by the answers of this library. The rule: docs/formats.md.
+// The replay of a trace: its bodies move to its targets by the answers of this library. The rule:
+// docs/formats.md.
 #ifndef CELLWALK_SIMULATION_REPLAY_H
 #define CELLWALK_SIMULATION_REPLAY_H
 
@@ -15,8 +16,8 @@ namespace cellwalk {
 /// A move that a wall blocked.
 struct Replay_contact {
   std::uint32_t step = 0, body = 0, vertex = 0;
-  Body_feature feature =
-      Body_feature::vertex;  ///< or the first of its edges that the wall blocks at the target
+  /// Or the first of its edges that the wall blocks at the target.
+  Body_feature feature = Body_feature::vertex;
   Wall_contact<3> contact;
 };
 
@@ -39,8 +40,8 @@ class Replay {
  public:
   /// Registers the bodies at their start positions.
   /// \pre the trace is one that io::read_trace accepts
-  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces: the bodies of a trace have
-  ///        no faces
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces: the bodies
+  ///        of a trace have no faces
   Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
          const Replay_options& options);
 
@@ -77,8 +78,8 @@ class Replay {
   Replay_counts counts_;
 };
 
-/// The number of answer bits that differ from those of the trace, among the bits that the sweep decides. All bits of a missing
-/// step count as different.
+/// The number of answer bits that differ from those of the trace, among the bits that the sweep decides. All
+/// bits of a missing step count as different.
 /// \pre there are not more answers than in the trace
 std::uint64_t count_mismatches(const Trace& trace, std::span<const std::uint8_t> answers, Sweep sweep);
 

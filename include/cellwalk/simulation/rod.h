@@ -20,16 +20,17 @@ template <int D>
 struct Natural_bend;
 }  // namespace detail
 
-/// A rod as a polyline of vertices, the tip first. All vertices start at the entry, where edges of length 0 wait, and leave it one
-/// after the other as the rod is pushed. A guide in front of the entry holds the base, so that the rod enters along the first
-/// piece of its path.
+/// A rod as a polyline of vertices, the tip first. All vertices start at the entry, where edges of length 0
+/// wait, and leave it one after the other as the rod is pushed. A guide in front of the entry holds the base,
+/// so that the rod enters along the first piece of its path.
 ///
-/// The rod has no inertia. A step pushes it by `advance` along its current shape, relaxes it (position-based: links keep their
-/// length, bends return to the natural curve according to the stiffness), and moves vertices and edges as far as walls
-/// allow (Body::step). A rotation of the base rotates the direction of the natural curve along the whole rod, which has no twist
-/// of its own.
+/// The rod has no inertia. A step pushes it by `advance` along its current shape, relaxes it (position-based:
+/// links keep their length, bends return to the natural curve according to the stiffness), and moves vertices
+/// and edges as far as walls allow (Body::step). A rotation of the base rotates the direction of the natural
+/// curve along the whole rod, which has no twist of its own.
 ///
-/// A link stretched by half a spacing, or a rod compressed by one spacing, holds the base back until the strain is relieved.
+/// A link stretched by half a spacing, or a rod compressed by one spacing, holds the base back until the
+/// strain is relieved.
 template <int D>
 class Rod {
  public:
@@ -38,11 +39,12 @@ class Rod {
 
   /// A catheter at its entry.
   /// \param way the waypoints
-  /// \pre the body is at_entry(catheter), registered; the waypoints begin with the entry, are at least two, and successive ones
-  ///      differ
+  /// \pre the body is at_entry(catheter), registered; the waypoints begin with the entry, are at least two,
+  ///      and successive ones differ
   Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter, std::vector<Point<D>> way);
 
-  /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are used.
+  /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are
+  /// used.
   /// Cost: about 1 us a vertex, and that of Body::step.
   void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 

@@ -9,9 +9,9 @@
 
 namespace cellwalk {
 
-/// A polyline from one particle to another whose pieces are all free: the shortest path through the centres of cells
-/// joined by passable facets, shortened wherever an exact walk proves the shortcut free. The result includes both ends; it is
-/// empty if passable facets do not connect the two cells.
+/// A polyline from one particle to another whose pieces are all free: the shortest path through the centres
+/// of cells joined by passable facets, shortened wherever an exact walk proves the shortcut free. The result
+/// includes both ends; it is empty if passable facets do not connect the two cells.
 /// Cost: that of a shortest-path search, about 1 us a cell.
 template <int D>
 std::vector<Point<D>> find_route(const Snapshot<D>& snapshot, const Particle<D>& from, const Particle<D>& to,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Goal positions of a deformed body: its rest shape, moved and deformed to match the positions of its vertices.
+// Goal positions of a deformed body: its rest shape, moved and deformed to match the positions of its
+// vertices.
 // Paper: Mueller, Heidelberger, Teschner, Gross, "Meshless deformations based on shape matching", 2005.
 #ifndef CELLWALK_SIMULATION_SHAPE_MATCHING_H
 #define CELLWALK_SIMULATION_SHAPE_MATCHING_H
@@ -13,12 +14,13 @@
 
 namespace cellwalk {
 
-/// The rest shape of a body, prepared for matching. It keeps no state between calls: equal positions give equal goals, with the
-/// same bits for every compiler.
+/// The rest shape of a body, prepared for matching. It keeps no state between calls: equal positions give
+/// equal goals, with the same bits for every compiler.
 ///
-/// Degenerate cases: a rest shape that is flat, straight or a single point is deformed within its plane or line only, and rotates
-/// with it. Positions that are flat, straight or a single point do not determine the rotation; one of the possible rotations is
-/// chosen, arbitrary but fixed, and never a reflection. Inverted positions are matched by the nearest rotation as well.
+/// Degenerate cases: a rest shape that is flat, straight or a single point is deformed within its plane or
+/// line only, and rotates with it. Positions that are flat, straight or a single point do not determine the
+/// rotation; one of the possible rotations is chosen, arbitrary but fixed, and never a reflection. Inverted
+/// positions are matched by the nearest rotation as well.
 template <int D>
 class Shape_matching {
  public:
@@ -36,7 +38,8 @@ class Shape_matching {
   void goals(std::span<const Point<D>> positions, std::span<Point<D>> result) const;
 
  private:
-  /// Monomials of a vertex: its coordinates, then (quadratic mode) their squares and products minus the means of these.
+  /// Monomials of a vertex: its coordinates, then (quadratic mode) their squares and products minus the means
+  /// of these.
   static constexpr int most_monomials = D + D * (D + 1) / 2;
   using Monomials = std::array<double, most_monomials>;
 
@@ -51,8 +54,8 @@ class Shape_matching {
   bool is_full_ = false;                             ///< the rest shape has a volume
 };
 
-/// The rotation nearest to a matrix (rows first), in the least-squares sense: its polar factor, corrected to a rotation if
-/// it is a reflection. The identity for a zero matrix or one that is not finite.
+/// The rotation nearest to a matrix (rows first), in the least-squares sense: its polar factor, corrected to
+/// a rotation if it is a reflection. The identity for a zero matrix or one that is not finite.
 template <int D>
 std::array<Vector<D>, D> nearest_rotation(const std::array<Vector<D>, D>& matrix);
 

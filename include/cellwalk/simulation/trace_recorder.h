@@ -15,9 +15,10 @@ namespace cellwalk {
 class Trace_recorder {
  public:
   /// \param snapshot the environment of the trace
-  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies; without steps
-  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one that touches a wall, or
-  ///        has all its vertices in one place
+  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies;
+  ///        without steps
+  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one
+  ///        that touches a wall, or has all its vertices in one place
   Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start);
 
   /// Moves all vertices of all bodies, in order.

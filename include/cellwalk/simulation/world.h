@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The world of a scene: free particles, bodies and a catheter among walls, advanced step by step.
 //
-// The vertices and edges of bodies and of the catheter are checked against walls. Moving objects do not meet each other.
+// The vertices and edges of bodies and of the catheter are checked against walls. Moving objects do not meet
+// each other.
 #ifndef CELLWALK_SIMULATION_WORLD_H
 #define CELLWALK_SIMULATION_WORLD_H
 
@@ -22,19 +23,21 @@
 
 namespace cellwalk {
 
-/// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the snapshot, which must
-/// outlive it and must not be edited.
+/// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
+/// snapshot, which must outlive it and must not be edited.
 template <int D>
 class World {
  public:
-  /// Places the particles and bodies of a scene. shapes[i] is the body of scene.bodies[i], before its placement.
+  /// Places the particles and bodies of a scene. shapes[i] is the body of scene.bodies[i], before its
+  /// placement.
   ///
-  /// Copies of a body (Body_start::cloud) are placed at random positions, uniformly distributed in free space, until the whole
-  /// body fits, with at most `most_tries` attempts for each.
+  /// Copies of a body (Body_start::cloud) are placed at random positions, uniformly distributed in free
+  /// space, until the whole body fits, with at most `most_tries` attempts for each.
   /// \pre every shape has vertices
-  /// \throw Error(outside) naming the scene's key if an object starts outside free space, a body's edge crosses a wall, a copy
-  ///        does not fit, or no route follows the catheter's path; Error(usage) if there are not as many shapes as
-  ///        bodies, there is no free cell for random objects, or a placement is not finite
+  /// \throw Error(outside) naming the scene's key if an object starts outside free space, a body's edge
+  ///        crosses a wall, a copy does not fit, or no route follows the catheter's path; Error(usage) if
+  ///        there are not as many shapes as bodies, there is no free cell for random objects, or a placement
+  ///        is not finite
   World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
         const Body_options& options = {});
 
@@ -56,7 +59,8 @@ class World {
   std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
   /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
-  /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
+  /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
+  /// met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
   /// The report of the last step of one body. \pre there was one
   const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
@@ -67,8 +71,8 @@ class World {
   /// The counts of one body.
   Body_counts body_counts(std::size_t body) const;
 
-  /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are refreshed first (see
-  /// Body::catch_up), which affects the counts only.
+  /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact
+  /// predicates. Bodies are refreshed first (see Body::catch_up), which affects the counts only.
   /// \throw Error(other) naming the first particle or body that violates them; Error(usage) as step()
   void validate();
 

@@ -30,12 +30,13 @@ struct Grid_options {
   }
 };
 
-/// A grid of hexahedra. Solid cells are kept, marked solid, and their facets are impassable.
-/// With `solid_share` the solid cells are drawn one by one at random from those that touch none drawn before. If this gets
-/// stuck (above about 8 % in 3D, 18 % in 2D), they are drawn on separate random layers and rows, which reaches the maximum of
-/// one in 2^D cells if all dimensions are even. Paper: section IV, figure 7.
-/// \throw Error(usage) if a dimension is 0, the grid is too large for 32-bit indices, the share cannot be reached (with the
-///        largest possible one), a solid cell is out of range, share and list are both given, or the map rounds
+/// A grid of hexahedra. Solid cells are kept, marked solid, and their facets are impassable. With
+/// `solid_share` the solid cells are drawn one by one at random from those that touch none drawn before. If
+/// this gets stuck (above about 8 % in 3D, 18 % in 2D), they are drawn on separate random layers and rows,
+/// which reaches the maximum of one in 2^D cells if all dimensions are even. Paper: section IV, figure 7.
+/// \throw Error(usage) if a dimension is 0, the grid is too large for 32-bit indices, the share cannot be
+///        reached (with the largest possible one), a solid cell is out of range, share and list are both
+///        given, or the map rounds
 /// Cost: about 0.2 us a cell.
 Cell_soup<3> hex_grid(const Grid_options<3>& options);
 

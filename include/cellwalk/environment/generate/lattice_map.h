@@ -35,8 +35,9 @@ struct Lattice_map {
 template <int D>
 Lattice_map<D> scaled(double scale);
 
-/// A rotation times 3 `scale` (3D: columns (1,2,2), (2,-2,1), (2,1,-2)) or times 5 `scale` (2D: columns (3,4), (-4,3)). No lattice
-/// plane is parallel to an axis plane, and lattice points have integer images for scale 1.
+/// A rotation times 3 `scale` (3D: columns (1,2,2), (2,-2,1), (2,1,-2)) or times 5 `scale` (2D: columns
+/// (3,4), (-4,3)). No lattice plane is parallel to an axis plane, and lattice points have integer images for
+/// scale 1.
 template <int D>
 Lattice_map<D> rotated(double scale = 1);
 
@@ -50,9 +51,9 @@ enum class Placement {
   positive  ///< cells keep their orientation: enough for simplices
 };
 
-/// Checks the images of the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places. Placement::planar requires
-/// that either no coordinate is rounded, or each coordinate depends on one axis only (then rounding moves whole lattice planes)
-/// and neighbouring planes stay separate.
+/// Checks the images of the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places.
+/// Placement::planar requires that either no coordinate is rounded, or each coordinate depends on one axis
+/// only (then rounding moves whole lattice planes) and neighbouring planes stay separate.
 /// \throw Error(usage) if the condition fails, or if the map is singular or a reflection
 template <int D>
 void check_placement(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& extent, int binary_places,

@@ -21,8 +21,8 @@ struct Room_options {
   std::uint64_t seed = 1;       ///< positions of doors and obstacles, and shapes of obstacles
 };
 
-/// Squares, and triangles around the obstacles. Walls between rooms are membranes. All rooms are connected: each obstacle
-/// lies inside its own three by three squares, with space to pass.
+/// Squares, and triangles around the obstacles. Walls between rooms are membranes. All rooms are connected:
+/// each obstacle lies inside its own three by three squares, with space to pass.
 /// \throw Error(usage) for options out of range, or if the obstacles do not fit into a room
 /// Cost: about 1 us a cell.
 Cell_soup<2> room_2d(const Room_options& options);

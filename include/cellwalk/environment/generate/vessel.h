@@ -27,8 +27,8 @@ struct Vessel_options {
   std::uint64_t seed = 1;
 };
 
-/// A branching vessel: a trunk that starts at the origin in direction z and forks into ever thinner branches, rounded at
-/// the ends. Tetrahedra, about 44,000 with the default options, in one component.
+/// A branching vessel: a trunk that starts at the origin in direction z and forks into ever thinner branches,
+/// rounded at the ends. Tetrahedra, about 44,000 with the default options, in one component.
 /// \throw Error(usage) for options out of range
 /// Cost: about 7 us a tetrahedron.
 Cell_soup<3> branching_vessel(const Vessel_options& options);
@@ -36,11 +36,12 @@ Cell_soup<3> branching_vessel(const Vessel_options& options);
 /// The centre lines of its branches, parents before children, for the paths of catheters.
 std::vector<Tube> vessel_tubes(const Vessel_options& options);
 
-/// A bent tube with a bulge on the outer side of the bend, like an aneurysm. Lengths in units of the tube's radius.
+/// A bent tube with a bulge on the outer side of the bend, like an aneurysm. Lengths in units of the tube's
+/// radius.
 struct Bulge_options {
   double length = 14;  ///< from end to end in a straight line
-  double bend =
-      0.4;  ///< height of the bend over the line between its ends, as a fraction of the length; 0 to 1
+  /// Height of the bend over the line between its ends, as a fraction of the length; 0 to 1.
+  double bend = 0.4;
   double bulge_radius = 2;  ///< of the bulge; 0: none
   double bulge_offset = 2;  ///< of its centre from the centre line, outwards
   double cell_size = 0.3;

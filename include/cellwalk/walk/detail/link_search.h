@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cells linked at a point, round a ridge or along a segment: passable facets that hold it join them. Theory: docs/sweep.md, chains.
+// The search for cells that are linked at a point, around a ridge or along a segment, by passable facets that
+// contain it. Theory: docs/sweep.md, chains.
 #ifndef CELLWALK_WALK_DETAIL_LINK_SEARCH_H
 #define CELLWALK_WALK_DETAIL_LINK_SEARCH_H
 
@@ -13,37 +14,37 @@
 
 namespace cellwalk::detail {
 
-/// Finds the cells linked with one, breadth first. The rule holds(cell, i), given with each step, tells of which facets they are to be
-/// linked through:
+/// Finds the cells linked with a start cell, breadth first. The rule holds(cell, i), given with each step,
+/// selects the facets through which cells are linked:
 ///
 ///   Link_search<D> links(snapshot, start);
 ///   while (links.next()) links.expand(holds);
 ///
-/// Cells are numbered by their places in the order in which they are found. That order is part of what walks and chains are: where
-/// several ways lead to a cell, the first one found is taken.
+/// Cells are numbered in the order in which they are found. Walks and chains depend on this order: if several
+/// paths lead to a cell, the first one found is used.
 template <int D>
 class Link_search {
  public:
   Link_search(const Snapshot<D>& snapshot, Cell start)
       : snapshot_(snapshot), found_{{start, 0, Half_facet::none}} {}
 
-  /// Visits the next cell, first the start. False if all cells found were visited.
+  /// Visits the next cell, first the start. Returns false if all cells found were visited.
   bool next() {
     if (visited_ == found_.size()) return false;
     ++visited_;
     return true;
   }
-  /// The place of the cell visited.
+  /// The number of the visited cell.
   std::size_t place() const { return visited_ - 1; }
-  /// The cell visited.
+  /// The visited cell.
   Cell cell() const { return cell(place()); }
   Cell cell(std::size_t place) const { return found_[place].cell; }
   bool contains(Cell c) const {
     return std::any_of(found_.begin(), found_.end(), [c](const Found& known) { return known.cell == c; });
   }
 
-  /// Finds the cells behind those passable facets of the cell visited that hold. The rule is asked only of passable facets of
-  /// which the cell behind is not found yet.
+  /// Finds the cells behind those passable facets of the visited cell for which the rule holds. The rule is
+  /// evaluated only for passable facets whose neighbour is not found yet.
   template <class Holds>
   void expand(const Holds& holds) {
     const Cell c = cell();
@@ -56,7 +57,8 @@ class Link_search {
     }
   }
 
-  /// The same, but the rule is asked of all facets of the cell visited, and walls that hold are passed to on_wall(cell, i, wall).
+  /// The same, but the rule is evaluated for all facets of the visited cell, and on_wall(cell, i, wall) is
+  /// called for walls for which it holds.
   template <class Holds, class On_wall>
   void expand_all(const Holds& holds, const On_wall& on_wall) {
     const Cell c = cell();
@@ -71,7 +73,8 @@ class Link_search {
     }
   }
 
-  /// Appends the facets on the way from the start to the cell at a place, each seen from the cell on the side of the start.
+  /// Appends the facets on the path from the start to the cell of the given number, each seen from the cell
+  /// on the side of the start.
   template <class Facets>
   void append_way(std::size_t place, Facets& facets) const {
     const auto end = static_cast<std::ptrdiff_t>(facets.size());

@@ -19,7 +19,7 @@ namespace cellwalk::detail {
 template <int D>
 using Spanning_corners = std::array<const Point<D>*, static_cast<std::size_t>(D)>;
 
-/// Corners that span facet i, in its order: the same ones in whatever order cells and points are listed.
+/// Corners that span facet i, in its order, independent of the order in which cells and points are listed.
 inline Spanning_corners<2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   return {&cell.point(loop[0]), &cell.point(loop[1])};
@@ -38,7 +38,7 @@ inline Spanning_corners<3> spanning_corners(const Cell_view<3>& cell, std::size_
     first = k;
     least = &p;
   }
-  // No line through its neighbours holds the least corner: the facet has an angle there.
+  // The line through its neighbours does not contain the least corner: the facet has an angle there.
   return {least, &cell.point(loop[first + 1 < n ? first + 1 : 0]),
           &cell.point(loop[first > 0 ? first - 1 : n - 1])};
 }
@@ -58,7 +58,8 @@ Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
   return inner_normal(spanning_corners(cell, i));
 }
 
-/// An order of facets by the places of their corners: the same however they are numbered. Facets that coincide are equal.
+/// An order of facets by the positions of their corners, independent of their numbering. Coincident facets
+/// are equal.
 template <int D>
 bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D>& other, std::size_t j) {
   const auto sorted_corners = [](const Cell_view<D>& of, std::size_t facet) {
@@ -91,7 +92,8 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
   return has_u && has_v;
 }
 
-/// On which side of facet i a point of its plane lies once it is displaced, see displaced_side(): > 0 outside the cell.
+/// The side of facet i on which a displaced point of its plane lies, see displaced_side(): > 0 outside the
+/// cell.
 inline int displaced_side(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   return -cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]));
@@ -102,8 +104,8 @@ inline int displaced_side(const Cell_view<3>& cell, std::size_t i) {
   return cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
 }
 
-/// An order of cells that have the line ab in their boundary: as one comes to them turning counterclockwise about it, seen against
-/// its direction, from where a point of the line comes to lie when it is displaced.
+/// The counterclockwise order of cells with the line ab in their boundary, about that line and seen against
+/// its direction, starting at the direction of the displacement of displaced_side().
 /// \pre no two of the cells overlap, and the displaced point is in none of them
 template <class Kernel>
 class Turn {
@@ -113,7 +115,8 @@ class Turn {
   bool operator()(const Cell_view<3>& x, const Cell_view<3>& y) const {
     const Point<3>&u = first_corner(x), &v = first_corner(y);
     const int u_side = cellwalk::displaced_side(a_, b_, u), v_side = cellwalk::displaced_side(a_, b_, v);
-    // Where the plane of the line and a corner has the displaced point on its right, the corner comes within half a turn.
+    // Where the plane of the line and a corner has the displaced point on its right, the corner comes within
+    // half a turn.
     return u_side != v_side ? u_side < v_side : turn(u, v) > 0;
   }
 
@@ -131,7 +134,8 @@ class Turn {
       if (are_collinear(a_, b_, cell.point(k))) continue;
       if (first == cell.vertex_count() || turn(cell.point(first), cell.point(k)) < 0) first = k;
     }
-    // Half a turn on from the first corner signs are 0: corners in between have told which is first, unless they came later.
+    // Half a turn after the first corner signs are 0. Corners in between have determined the first one,
+    // unless they came later.
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
       if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
         first = k;
@@ -142,16 +146,17 @@ class Turn {
   Walk_counts& counts_;
 };
 
-/// Facets on a way through a star.
+/// The facets on a path through a star.
 using Star_way = boost::container::small_vector<Half_facet, 8>;
 
-/// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in which the motion from
-/// a towards b continues: all their facets at the ridge or vertex have b on their inner side or on them.
+/// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in
+/// which the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner
+/// side or on them.
 ///
-/// They are the candidates. Those that passable facets along the motion join are one side; there are several where it runs along
-/// walls. The sides come in an order that depends on the geometry only: first the one that b is on once it is displaced, see
-/// displaced_side(); then, turning from there about the line ab (3D), one after the other. Within the first one `start` comes
-/// first.
+/// These cells are the candidates. Candidates joined by passable facets along the motion form a side; there
+/// are several sides if the motion runs along walls. Their order depends on the geometry only: first the side
+/// on which the displaced point b lies, see displaced_side(), then counterclockwise about the line ab (3D).
+/// Within the first side `start` comes first.
 template <class Kernel, int D>
 class Star_search {
  public:
@@ -166,29 +171,30 @@ class Star_search {
 
   struct Candidate {
     std::size_t place;  ///< among the cells found
-    bool is_displaced;  ///< b lies in it once it is displaced
+    bool is_displaced;  ///< it contains the displaced point b
     int side;           ///< candidates of one side have the same number
   };
   using Candidates = boost::container::small_vector<Candidate, 4>;
 
   const Candidates& candidates() const { return candidates_; }
   Cell cell(const Candidate& candidate) const { return links_.cell(candidate.place); }
-  /// True if there is more than one side to go on along.
+  /// True if the motion can continue on more than one side.
   bool has_choice() const {
     return std::any_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& c) { return c.side != candidates_.front().side; });
   }
-  /// The facets on the way to a candidate.
+  /// The facets on the path to a candidate.
   Star_way way(const Candidate& candidate) const {
     Star_way way;
     links_.append_way(candidate.place, way);
     return way;
   }
-  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides nothing.
+  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides
+  /// nothing.
   Half_facet wall() const { return wall_; }
 
  private:
-  /// True if the motion continues in the inside of the cell, so that there is no other.
+  /// True if the motion continues in the interior of the cell, so that there is no other candidate.
   bool visit() {
     ++counts_.star_cells;
     bool is_candidate = true, is_inside = true, is_displaced = true;
@@ -236,7 +242,7 @@ class Star_search {
     });
   }
 
-  /// Gives candidates that a passable facet along the motion joins the same number.
+  /// Numbers the sides: candidates joined by a passable facet along the motion get the same number.
   void join_sides() {
     for (const Candidate& x : candidates_) {
       const Cell_view<D> view = snapshot_.view(cell(x));
@@ -254,7 +260,7 @@ class Star_search {
     }
   }
 
-  /// True if facet i of a cell, which has the ridge or vertex, holds a further piece of the motion.
+  /// True if facet i of a cell, which contains the ridge or vertex, contains a further piece of the motion.
   bool holds_more(const Cell_view<D>& cell, std::size_t i) const {
     if (detail::side<Kernel>(cell, i, b_, counts_) != 0) return false;
     const auto loop = cell.loop(i);
