@@ -90,8 +90,8 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   Sweep_result<D> third{{}, found.chain};
   if (found.contact)
     third.contact = to_contact(*found.contact, Exact_time(found.contact->time), Body_feature::edge);
-  const Sweep_fault fault = fault_of(oracle, motion, outcomes, w.snapshot, third);
-  ++seen.faults_of_third_side[static_cast<std::size_t>(fault)];
+  const Sweep_fault of_third = fault_of(oracle, motion, outcomes, w.snapshot, third);
+  ++seen.faults_of_third_side[static_cast<std::size_t>(of_third)];
 }
 
 /// Edges of one world, one end of which is moved on and on.
