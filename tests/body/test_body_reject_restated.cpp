@@ -161,7 +161,7 @@ class Restatement {
 
   void follow(Body<D>& body, int steps) {
     Restated_body<D> restated(snapshot_, body);
-    for (const Point<D>& x : body.positions()) seen_.on_walls += locator_.locate(x).sides > 1;
+    for (const Point<D>& x : body.positions()) seen_.on_walls += locator_.locate(x).sides.size() > 1;
     seen_.in_wall_plane += is_along_walls();
     for (int step = 0; step < steps; ++step) {
       ++seen_.steps;
