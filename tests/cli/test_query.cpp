@@ -90,7 +90,7 @@ TEST_F(Query, RefusesTablesThatMakeNoSense) {
   expect_refused(3, "ax,ax,ay,az,bx,by,bz\n", {"queries.csv:1", "'ax'"});
   expect_failure(3, {"query", "env.ovm", "missing.csv", "-o", "out.csv"}, {"missing.csv"});
   succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
-  expect_refused(3, moves_header, {"queries.csv", "az", "plane"});
+  expect_refused(3, moves_header, {"queries.csv", "az", "2D"});
 }
 
 TEST_F(Query, RefusesEnvironmentsThatAreNotCertified) {

@@ -297,7 +297,7 @@ TEST_F(Query_sweep, RefusesTablesAndOptionsThatMakeNoSense) {
   make_room(2);
   expect_refused(3, "px,py,tx,ty\n", {"queries.csv", "no column 'qx'"});
   expect_refused(3, "ax,ay,bx,by\n", {"queries.csv", "no column 'px'"});
-  expect_refused(3, space, {"queries.csv", "pz", "plane"});
+  expect_refused(3, space, {"queries.csv", "pz", "2D"});
   for (const char* kernel : {"lazy", "double", "float"})
     expect_refused(2, plane, {"--kernel exact", "sweeps are exact only"}, {"--kernel", kernel});
   expect_refused(2, plane, {"--strategy needs --mode move"}, {"--strategy", "certified"});
