@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A body in a region free of walls: its vertices move without tests, and are registered when that is needed.
 #include <cellwalk/body/body.h>
+#include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 #include <cstring>
@@ -15,6 +16,21 @@ constexpr std::uint32_t least_patience = 1, most_patience = 64;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 
+[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
+  throw Error(Error_code::usage,
+              options.edges == Edge_rule::at_target
+                  ? "a step that looks at edges where their vertex goes has no contact to slide "
+                    "from: use Contact_policy::reject with Edge_rule::at_target"
+                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
+                    "to have what blocks reported");
+}
+
+void check_rule(const Body_options& options) {
+  const bool is_at_target = options.edges == Edge_rule::at_target;
+  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
+    refuse_rule(options);
+}
+
 }  // namespace
 
 /// Moves all vertices without registering them.
@@ -27,8 +43,8 @@ void Body<D>::take_all(std::span<const Point<D>> targets, Body_counts& counts) {
 
 /// Begins a step: true if all vertices could be moved without a test, and were.
 template <int D>
-bool Body<D>::moves_at_once(std::span<const Point<D>> targets, const Body_options& options,
-                            Body_counts& counts) {
+[[gnu::always_inline]] inline bool Body<D>::moves_at_once(std::span<const Point<D>> targets,
+                                                          const Body_options& options, Body_counts& counts) {
   check_epoch();
   counts.moves += targets.size();
   if (options.clearance && region_ && outside_ == 0 && region_->holds_all(targets)) [[likely]] {
@@ -55,6 +71,18 @@ template <int D>
   }
   take_all(targets, counts);
   return true;
+}
+
+/// Here, where the compiler sees the question with which most steps end.
+template <int D>
+void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
+                   Body_counts& counts) {
+  check_rule(options);
+  if (moves_at_once(targets, options, counts)) return;
+  if (options.edges == Edge_rule::at_target)
+    move_each_or_stay(targets, options, report, counts);
+  else
+    move_each(targets, options, report.contacts, counts);
 }
 
 /// Moves one vertex, if the region allows it.
@@ -187,6 +215,8 @@ void Body<D>::set_outside(std::uint32_t vertex, bool is_outside) {
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
+  template void Body<D>::step(std::span<const Point<D>>, const Body_options&, Step_report<D>&,              \
+                              Body_counts&);                                                                \
   template bool Body<D>::moves_at_once(std::span<const Point<D>>, const Body_options&, Body_counts&);       \
   template void Body<D>::take_all(std::span<const Point<D>>, Body_counts&);                                 \
   template bool Body<D>::moves_in_new_region(std::span<const Point<D>>, const Body_options&, Body_counts&); \

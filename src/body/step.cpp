@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
 #include <cellwalk/body/body.h>
-#include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 
@@ -9,36 +8,6 @@
 #include "stop_candidates.h"
 
 namespace cellwalk {
-namespace {
-
-[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
-  throw Error(Error_code::usage,
-              options.edges == Edge_rule::at_target
-                  ? "a step that looks at edges where their vertex goes has no contact to slide "
-                    "from: use Contact_policy::reject with Edge_rule::at_target"
-                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
-                    "to have what blocks reported");
-}
-
-void check_rule(const Body_options& options) {
-  const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
-    refuse_rule(options);
-}
-
-}  // namespace
-
-template <int D>
-void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
-                   Body_counts& counts) {
-  check_rule(options);
-  if (moves_at_once(targets, options, counts)) return;
-  if (options.edges == Edge_rule::at_target)
-    move_each_or_stay(targets, options, report, counts);
-  else
-    move_each(targets, options, report.contacts, counts);
-}
-
 /// Moves vertex by vertex; what edges sweep counts.
 template <int D>
 void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& options,
@@ -82,8 +51,6 @@ bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_cont
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::step(std::span<const Point<D>>, const Body_options&, Step_report<D>&,              \
-                              Body_counts&);                                                                \
   template void Body<D>::move_each(std::span<const Point<D>>, const Body_options&,                          \
                                    std::vector<Body_contact<D>>&, Body_counts&);                            \
   template bool Body<D>::stop(std::uint32_t, const Point<D>&, const Body_contact<D>&, const Sweep_options&, \
