@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
-#include <cellwalk/body/body.h>
-#include <cellwalk/kernel/error.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "slide.h"
 #include "stop_candidates.h"
+#include "vertex_move.h"
 
-namespace cellwalk {
+namespace cellwalk::detail {
 namespace {
 
 /// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
@@ -22,7 +20,7 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
   for (std::size_t i = normals.size() - 1; i-- > 0;) {
     if (dot(along, normals[i]) >= 0) continue;
-    const Vector<D> both = detail::along_both(along, last, normals[i]);
+    const Vector<D> both = along_both(along, last, normals[i]);
     const double most_into = rounding * length(both);
     const bool leads_out = std::all_of(normals.begin(), normals.end(),
                                        [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
@@ -31,45 +29,33 @@ Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   return along;
 }
 
-[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
-  throw Error(Error_code::usage,
-              options.edges == Edge_rule::at_target
-                  ? "a step that looks at edges where their vertex goes has no contact to slide "
-                    "from: use Contact_policy::reject with Edge_rule::at_target"
-                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
-                    "to have what blocks reported");
-}
-
-void check_rule(const Body_options& options) {
-  const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
-    refuse_rule(options);
+/// Moves a vertex to a verified position just before a contact, if there is one.
+template <int D>
+bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
+          const Sweep_options& options, Body_counts& counts) {
+  if (met.contact.impact == Exact_time()) return false;
+  const Point<D> from = body.positions[vertex];
+  Sweep_options tried = options;
+  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
+  return try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
+    if (x == from) return false;
+    ++counts.stop_tries;
+    return !try_move(body, body.scratch, vertex, x, tried, counts, true);
+  });
 }
 
 }  // namespace
 
 template <int D>
-void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
-                   Body_counts& counts) {
-  check_rule(options);
-  if (moves_at_once(targets, options, counts)) return;
-  if (options.edges == Edge_rule::at_target)
-    move_each_or_stay(targets, options, report, counts);
-  else
-    move_each(targets, options, report.contacts, counts);
-}
-
-/// Moves vertex by vertex; what edges sweep counts.
-template <int D>
-void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& options,
-                        std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
+void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
+               std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
   std::vector<Vector<D>> normals;
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts)) continue;
+  for (std::uint32_t v = 0; v < targets.size(); ++v) {
+    if (body.try_move_in_region(v, targets[v], counts)) continue;
     Point<D> target = targets[v];
     normals.clear();
     for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
-      const auto contact = try_move(v, target, options.sweep, counts);
+      const auto contact = try_move(body, body.scratch, v, target, options.sweep, counts);
       if (!contact) break;
       ++counts.contacts;
       contacts.push_back(*contact);
@@ -77,41 +63,20 @@ void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& o
         ++counts.held;
         break;
       }
-      counts.held += !stop(v, target, *contact, options.sweep, counts);
+      counts.held += !stop(body, v, target, *contact, options.sweep, counts);
       normals.push_back(contact->contact.normal);
-      const Vector<D> left = slide<D>(targets[v] - positions_[v], normals);
+      const Point<D>& position = body.positions[v];
+      const Vector<D> left = slide<D>(targets[v] - position, normals);
       if (!(length(left) > 0)) break;
-      target = positions_[v] + left + detail::lift<D>(positions_[v], left, normals.back());
+      target = position + left + lift<D>(position, left, normals.back());
       if (!is_finite(target)) break;
     }
   }
 }
 
-template <int D>
-bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
-                   const Sweep_options& options, Body_counts& counts) {
-  if (met.contact.impact == Exact_time()) return false;
-  const Point<D> from = positions_[vertex];
-  Sweep_options tried = options;
-  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
-  return detail::try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
-    if (x == from) return false;
-    ++counts.stop_tries;
-    return !try_move(vertex, x, tried, counts, true);
-  });
-}
+template void move_each(Body_state<2>&, std::span<const Point<2>>, const Body_options&,
+                        std::vector<Body_contact<2>>&, Body_counts&);
+template void move_each(Body_state<3>&, std::span<const Point<3>>, const Body_options&,
+                        std::vector<Body_contact<3>>&, Body_counts&);
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::step(std::span<const Point<D>>, const Body_options&, Step_report<D>&,              \
-                              Body_counts&);                                                                \
-  template void Body<D>::move_each(std::span<const Point<D>>, const Body_options&,                          \
-                                   std::vector<Body_contact<D>>&, Body_counts&);                            \
-  template bool Body<D>::stop(std::uint32_t, const Point<D>&, const Body_contact<D>&, const Sweep_options&, \
-                              Body_counts&);
-
-CELLWALK_INSTANTIATE(2)
-CELLWALK_INSTANTIATE(3)
-
-#undef CELLWALK_INSTANTIATE
-
-}  // namespace cellwalk
+}  // namespace cellwalk::detail
