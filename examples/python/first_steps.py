@@ -1,20 +1,12 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Cellwalk from Python: an environment, particles in batches, edges, and a body that falls.
-
-usage: first_steps.py [MESH]     a file of cells or a closed surface; a room is generated where none is named
-"""
-
-import sys
+"""Cellwalk from Python: an environment, particles in batches, edges, and a body that falls."""
 
 ## [environment]
+## [short]
+import cellwalk
 import numpy
 
-import cellwalk
-
-if len(sys.argv) > 1:
-    environment = cellwalk.Environment.import_mesh(sys.argv[1])
-else:
-    environment = cellwalk.Environment.generate("hexes", cells=(8, 8, 8))
+environment = cellwalk.Environment.generate("hexes", cells=(8, 8, 8))  # or .import_mesh("torus.off")
 print(environment)
 ## [environment]
 
@@ -23,12 +15,13 @@ rng = numpy.random.default_rng(1)
 low, high = environment.points.min(axis=0), environment.points.max(axis=0)
 starts = rng.uniform(low, high, size=(10_000, 3))
 
-particles = cellwalk.Particles(environment, starts)  # located once; they remember their cells
+particles = cellwalk.Particles(environment, starts)  # located once; each remembers its cell
 motions = particles.move(particles.positions + (high - low) * 0.25)
 print("in free space:", numpy.count_nonzero(motions.status != cellwalk.Status.OUTSIDE))
 print("stopped by walls:", len(motions.contacts))
 first = motions.contacts[0]
 print(f"row {first['row']}: time {first['time']:.4f}, normal {first['normal']}")
+## [short]
 ## [particles]
 
 ## [sweep]

@@ -121,7 +121,7 @@ class Sweep_trial {
     ++counts_.sweeps;
     counts_.blocked += !may_be_free;
     Edge_counts counts;
-    const Chain_result<D> triangle = sweep_triangle(scene_.snapshot, move.way(), move.q, move.before, counts);
+    const Sweep_result<D> triangle = sweep_triangle(scene_.snapshot, move.way(), move.q, move.before, counts);
     note(0, of_fault(test::fault_of(chains_, motion, outcomes, scene_.snapshot, triangle)));
     const bool is_third_free =
         !move.is_blocked &&

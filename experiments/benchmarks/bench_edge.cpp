@@ -79,17 +79,18 @@ void check_edges(benchmark::State& state, Check check) {
       crossed.clear();
       const Particle<3> from = e.p;
       move(grid(), e.p, e.targets[back], counts.walk, {Walk_strategy::certified, &visited, &crossed});
-      Chain_result<3> result;
+      const auto note = [&](auto&& result) {
+        blocked += result.contact.has_value();
+        e.chain = std::move(result.chain);
+      };
       if (check == Check::walk) {
         ++counts.edges;
-        result = find_chain(grid(), e.p, e.q, counts.walk);
+        note(find_chain(grid(), e.p, e.q, counts.walk));
       } else if (check == Check::three_segments) {
-        result = check_third_segment<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts);
+        note(check_third_segment<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts));
       } else {
-        result = sweep_triangle<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts);
+        note(sweep_triangle<3>(grid(), {from, e.p, visited, crossed}, e.q, e.chain, counts));
       }
-      blocked += result.contact.has_value();
-      e.chain = result.chain;
     }
   }
   if (blocked != 0) state.SkipWithError("an edge met a wall");

@@ -43,7 +43,7 @@ struct Move {
         !move(snapshot, to, target, counts.walk, {Walk_strategy::certified, &visited, &crossed}).contact;
     require(is_vertex_free, "face: p itself is free");
     const Way<3> way{from, to, visited, crossed};
-    const Chain_result<3> to_q = sweep_triangle<3>(snapshot, way, at_q, pq, counts),
+    const Sweep_result<3> to_q = sweep_triangle<3>(snapshot, way, at_q, pq, counts),
                           to_r = sweep_triangle<3>(snapshot, way, at_r, pr, counts);
     are_edges_free = !to_q.contact && !to_r.contact;
     require(are_edges_free, "face: the sweeps of its edges are free");
@@ -85,16 +85,15 @@ void draw_face_3d(const std::filesystem::path& folder) {
   const Snapshot<3>& snapshot = environment.snapshot();
   const Move move(snapshot, b);
   require(move.face.contact.has_value(), "face: its own sweep finds the spike");
-  const Face_contact& contact = *move.face.contact;
+  const Contact<3>& contact = *move.face.contact;
   require(contact.body == Body_feature::face && contact.kind == Contact_kind::vertex && contact.point == tip,
           "face: it is met by the tip");
-  const Point<3> stop = a + contact.time * (b - a);
-  require(!Move(snapshot, a + (contact.time * 0.5) * (b - a)).face.contact,
+  const Point<3> stop = a + contact.rounded_time() * (b - a);
+  require(!Move(snapshot, a + (contact.rounded_time() * 0.5) * (b - a)).face.contact,
           "face: free half-way to the contact");
 
   Space_plot before = plot_of("Before: p is to go from p(0) to p(1)", snapshot),
-             after =
-                 plot_of("At contact: s = " + text_of(contact.impact) + "; all edges sweep free", snapshot);
+             after = plot_of("At contact: s = " + text_of(contact.time) + "; all edges sweep free", snapshot);
   for (const Point<3>& x : {q, r}) before.triangle(a, b, x, swept_by_edges);
   add_face(before, a, face_color, colors::start);
   before.label(a, "p(0)", 12, 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All of the core in one header: environments and their generators, particles, edges, bodies, questions. Light: it includes no CGAL.
-// Not in it: the map (environment/map.h), the walk for kernels of one's own (walk/walk_impl.h), scenes (simulation/), and the
-// other components (io/, meshing/, loading/).
+// The core in one header: environments and their generators, particles, edges, bodies, queries. It does not
+// include CGAL. Not included: the map (environment/map.h), the walk for your own kernels (walk/walk_impl.h),
+// scenes (simulation/), and the other components (io/, meshing/, loading/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 

@@ -144,8 +144,9 @@ class Any_body {
       const std::lock_guard guard(*moving_);
       return counts_;
     }();
-    return py::dict("moves"_a = done.moves, "in_region"_a = done.in_region, "contacts"_a = done.contacts,
-                    "held"_a = done.held, "edges"_a = to_dict(done.edges));
+    py::dict result = to_dict(done);
+    result["edges"] = to_dict(done.edges);
+    return result;
   }
 
  private:

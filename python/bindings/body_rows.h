@@ -31,7 +31,7 @@ using Body_contact_row_3 = Body_contact_row<3>;
 template <int D>
 Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& met) {
   const Contact<D>& contact = met.contact;
-  return {contact.time,
+  return {contact.rounded_time(),
           contact.point,
           contact.normal,
           met.vertex,

@@ -55,7 +55,7 @@ Locations locate(const Shared_world& self, const py::object& points, int threads
             status[i] = static_cast<std::uint8_t>(at.status);
             dimension[i] = static_cast<std::uint8_t>(at.dimension);
             cell[i] = number_of(world.snapshot(), at.cell);
-            sides[i] = static_cast<std::uint32_t>(at.sides);
+            sides[i] = static_cast<std::uint32_t>(at.sides.size());
           }
         });
         return found;
@@ -133,22 +133,22 @@ void save(const Shared_world& self, const py::object& path) {
 }  // namespace
 
 void bind_environment(py::module_& module) {
-  py::class_<Locations>(module, "Locations", "Where points are, row by row.")
+  py::class_<Locations>(module, "Locations", "The locations of points, row by row.")
       .def_readonly("status", &Locations::status, "uint8 (N,): codes of Place.")
       .def_readonly(
           "cell", &Locations::cell,
-          "int32 (N,): the free cell of lowest number whose closure holds the point; -1 if there is none.")
-      .def_readonly("dimension", &Locations::dimension,
-                    "uint8 (N,): of the lowest cell of the complex that the point lies on; 0: a vertex.")
+          "int32 (N,): the free cell of lowest number whose closure contains the point; -1 if there is none.")
+      .def_readonly(
+          "dimension", &Locations::dimension,
+          "uint8 (N,): the dimension of the lowest cell of the complex that contains the point; 0: a vertex.")
       .def_readonly(
           "sides", &Locations::sides,
-          "uint32 (N,): on how many sides of walls there is free space at the point; 1 off membranes.")
+          "uint32 (N,): the number of sides of walls with free space at the point; 1 off membranes.")
       .def("__len__", [](const Locations& self) { return self.status.size(); });
 
   py::class_<Shared_world> environment(module, "Environment",
                                        "A certified complex of convex cells, some of whose facets are walls. "
-                                       "Never changes, so that it can be shared by "
-                                       "threads.");
+                                       "It never changes, so threads can share it.");
   bind_makers(environment);
   environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
       .def_property_readonly(
@@ -157,17 +157,16 @@ void bind_environment(py::module_& module) {
             return std::visit([](const auto& world) { return world.snapshot().cell_count(); }, *self.world);
           },
           "Number of cells, solid ones included.")
-      .def_property_readonly("points", points,
-                             "float64 (N, dimension): the vertices; a read-only view, no copy.")
+      .def_property_readonly("points", points, "float64 (N, dimension): the vertices, as a read-only view.")
       .def_property_readonly(
           "certificate",
           [](const Shared_world& self) {
             return from_json(to_json(self.certificate, self.dimension()).dump());
           },
-          "What certification found: counts, volumes, walls, components.")
+          "The counts, volumes, walls and components found by certification.")
       .def_property_readonly(
           "report", [](const Shared_world& self) { return from_json(self.report); },
-          "What was read, meshed and changed to make it, as `cellwalk import --json` writes it.")
+          "The report of reading, meshing and changes, as written by `cellwalk import --json`.")
       .def("save", save, py::arg("path"), "Writes an .ovm file, which every command of the program reads.")
       .def(
           "locate",
@@ -176,13 +175,13 @@ void bind_environment(py::module_& module) {
             return locate(self, points, threads);
           },
           py::arg("points"), py::kw_only(), py::arg("threads") = 0,
-          "Finds the cells that hold points, exactly. Rows that are not finite are outside.")
+          "Finds the cells that contain points, exactly. Rows that are not finite are outside.")
       .def("walk", walk_points, py::arg("starts"), py::arg("targets"), py::kw_only(),
            py::arg("touch") = "pass", py::arg("kernel") = "exact", py::arg("threads") = 0,
-           "Answers motions of points from starts[i] to targets[i]: located, then walked. Points that go on "
-           "moving are "
-           "faster as Particles, which remember their cells.\n\n"
-           "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
+           "Answers motions of points from starts[i] to targets[i]: locates the starts, then walks. For "
+           "points "
+           "that move repeatedly, Particles are faster, since they remember their cells.\n\n"
+           "touch: \"pass\": walls may be touched; \"stop\": touches are contacts.\n"
            "kernel: \"exact\", \"lazy\"; \"double\" and \"float\" may miss walls and are for experiments.\n"
            "threads: 0: all cores. The answers do not depend on it.")
       .def(
@@ -191,15 +190,14 @@ void bind_environment(py::module_& module) {
           py::arg("search_cells") = "flooded", py::arg("tolerance") = 0x1p-20,
           py::arg("search_limit") = "below", py::arg("threads") = 0,
           "Answers motions of edges: the end p[i] moves to targets[i] while the end q[i] stands still.\n\n"
-          "sweep: \"triangle\": all that the edge sweeps; \"three_segments\": the way of p, then the edge, "
-          "as in the "
-          "paper; \"faces\": the same as triangle, since an edge has no face.\n"
-          "touch: \"pass\": a wall may be touched; \"stop\": that is a contact.\n"
-          "search: how a contact is located: \"exact\", \"dichotomic\" (within tolerance), "
-          "\"dichotomic_segment\" (the paper's, which may be late) or \"exhaustive\" (among the obstacles of "
-          "the cells that search_cells says: \"flooded\" or \"traversed\"; search_limit: computing with "
-          "those "
-          "\"below\" the edge at its end, or \"none\": with all, which finds the same).\n"
+          "sweep: \"triangle\": the whole swept triangle; \"three_segments\": the path of p, then the edge, "
+          "as "
+          "in the paper; \"faces\": the same as triangle, since an edge has no face.\n"
+          "touch: \"pass\": walls may be touched; \"stop\": touches are contacts.\n"
+          "search: the method that locates a contact: \"exact\", \"dichotomic\" (within tolerance), "
+          "\"dichotomic_segment\" (the paper's, which may be late) or \"exhaustive\".\n"
+          "search_cells, search_limit: of the exhaustive search: obstacles in the cells that are \"flooded\" "
+          "or \"traversed\", \"below\" the edge at its end, or \"none\" for no limit, with the same result.\n"
           "threads: 0: all cores. The answers do not depend on it.")
       .def("__repr__", [](const Shared_world& self) {
         return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", self.dimension(),

@@ -59,8 +59,8 @@ Shared_world of_arrays(const py::object& points, const py::object& cells, const 
       D == 2 ? table.columns >= 3 : (table.columns >= 4 && table.columns <= 6) || table.columns == 8;
   if (!is_known)
     throw py::value_error(fmt::format("cells has {} columns: {}", table.columns,
-                                      D == 2 ? "cells of the plane are polygons of at least 3 points"
-                                             : "cells of space are tetrahedra (4), pyramids (5), prisms (6) "
+                                      D == 2 ? "2D cells are polygons of at least 3 points"
+                                             : "3D cells are tetrahedra (4), pyramids (5), prisms (6) "
                                                "or hexahedra (8), in the order of VTK"));
   Cell_soup<D> soup;
   soup.points.assign(given.begin(), given.end());
@@ -116,28 +116,28 @@ Shared_world generate_environment(const std::string& kind, const py::kwargs& giv
 
 void bind_makers(py::class_<Shared_world>& environment) {
   environment
-      .def(py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(),
-           py::arg("split") = true, py::arg("duplicates") = "refuse",
-           "Makes an environment of arrays: points float64 (N, 3) with cells integer (M, 4), (M, 5), (M, 6) "
-           "or (M, 8) "
-           "(tetrahedra, pyramids, prisms, hexahedra, in the order of VTK), or points (N, 2) with polygons "
-           "(M, k), "
-           "counterclockwise. Its boundary is wall.\n\n"
-           "split: cells that are not exactly convex are split; otherwise they are refused.\n"
-           "duplicates: points in the same place: \"refuse\", \"merge\" or \"keep\" apart (a slit).")
+      .def(
+          py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(), py::arg("split") = true,
+          py::arg("duplicates") = "refuse",
+          "Makes an environment from arrays: points float64 (N, 3) with cells integer (M, 4), (M, 5), (M, 6) "
+          "or (M, 8) "
+          "(tetrahedra, pyramids, prisms, hexahedra, in the order of VTK), or points (N, 2) with polygons "
+          "(M, k), "
+          "counterclockwise. Its boundary facets are walls.\n\n"
+          "split: cells that are not exactly convex are split; otherwise they are refused.\n"
+          "duplicates: points with equal coordinates: \"refuse\", \"merge\", or \"keep\" apart (as a slit).")
       .def_static("load", &load, py::arg("path"), py::kw_only(), py::arg("duplicates") = "refuse",
-                  "Reads a file of cells and certifies it as it stands.")
-      .def_static(
-          "import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
-          py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
-          py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen", py::arg("quality") = 0.0,
-          py::arg("cell_size") = 0.0, py::arg("distance") = 0.0, py::arg("keep_obstacles") = false,
-          "Makes an environment of any mesh file, as `cellwalk import` does: cells are split where they must "
-          "be, "
-          "a closed surface is filled with tetrahedra less the obstacles, a planar domain with triangles. "
-          "`report` says everything that was changed.")
+                  "Reads a file of cells and certifies it unchanged.")
+      .def_static("import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
+                  py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
+                  py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen", py::arg("quality") = 0.0,
+                  py::arg("cell_size") = 0.0, py::arg("distance") = 0.0, py::arg("keep_obstacles") = false,
+                  "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
+                  "necessary, a "
+                  "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
+                  "triangles. `report` lists all changes.")
       .def_static("generate", &generate_environment, py::arg("kind"),
-                  "Makes an environment that needs no file. Kinds and options are those of `cellwalk "
+                  "Generates an environment. Kinds and options are those of `cellwalk "
                   "generate`, with _ for "
                   "-: generate(\"hexes\", cells=(10, 10, 10), solid=0.05). One number stands for all axes.");
 }

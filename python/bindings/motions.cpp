@@ -31,38 +31,37 @@ const py::object& Motions::times() {
   return time = std::move(all);
 }
 
-py::dict to_dict(const Walk_counts& c) {
-  using namespace py::literals;
-  return py::dict("walks"_a = c.walks, "stays"_a = c.stays, "crossings"_a = c.crossings,
-                  "star_searches"_a = c.star_searches, "signs"_a = c.predicates.orientations,
-                  "exact_fallbacks"_a = c.predicates.fallbacks);
+py::dict to_dict(const Walk_counts& counts) {
+  py::dict result = to_dict<Walk_counts>(counts);
+  for (const auto& [name, count] : named_counts(counts.predicates)) result[py::str(name)] = count;
+  return result;
 }
 
-py::dict to_dict(const Edge_counts& c) {
-  using namespace py::literals;
-  return py::dict("edges"_a = c.edges, "same_cell"_a = c.same_cell, "convex_pair"_a = c.convex_pair,
-                  "same_chain"_a = c.same_chain, "changed"_a = c.changed, "event_sweeps"_a = c.event_sweeps,
-                  "clear"_a = c.clear, "walk"_a = to_dict(c.walk));
+py::dict to_dict(const Edge_counts& counts) {
+  py::dict result = to_dict<Edge_counts>(counts);
+  result["walk"] = to_dict(counts.walk);
+  return result;
 }
 
 void bind_motions(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Contact_row_2, row, time, point, normal, kind, body, cell, facet);
   PYBIND11_NUMPY_DTYPE(Contact_row_3, row, time, point, normal, kind, body, cell, facet);
-  py::class_<Motions>(module, "Motions", "What became of a batch of motions, row by row.")
+  py::class_<Motions>(module, "Motions", "The results of a batch of motions, row by row.")
       .def_readonly("status", &Motions::status, "uint8 (N,): codes of Status.")
       .def_property_readonly(
           "time", [](Motions& motions) { return motions.times(); },
-          "float64 (N,): share of the motion that is free, 1 where it arrives, NaN where it was not made.")
-      .def_readonly("cells", &Motions::cells, "uint32 (N,): how many cells the moving point visited.")
+          "float64 (N,): the fraction of the motion that is free; 1 if it arrives, NaN if it was not made.")
+      .def_readonly("cells", &Motions::cells,
+                    "uint32 (N,): the number of cells that the moving point visited.")
       .def_readonly(
           "contacts", &Motions::contacts,
-          "Structured array, a row for each contact, in order of `row`: row, time, point, normal (unit, "
-          "on the free side), kind (Feature of the environment), body (Feature of what moved), cell and "
-          "facet (the wall: the cell it is seen from, and its number there).")
-      .def_readonly("counts", &Motions::counts, "What the batch did: machine-independent counts.")
+          "A structured array with a row for each contact, in the order of `row`: row, time, point, normal "
+          "(unit, on the free side), kind (Feature of the environment), body (Feature of the moving object), "
+          "cell and facet (the wall, as the number of a facet of the cell).")
+      .def_readonly("counts", &Motions::counts, "The machine-independent counts of the batch.")
       .def_property_readonly(
           "cell", [](Motions& motions) { return motions.cell_numbers(); },
-          "int32 (N,): the cell in which the motion ends, numbered as in the file; -1 where it was not made.")
+          "int32 (N,): the cell in which the motion ends, numbered as in the file; -1 if it was not made.")
       .def("__len__", &Motions::size)
       .def("__repr__", [](const Motions& motions) {
         return "<cellwalk.Motions of " + std::to_string(motions.size()) + " rows, " +

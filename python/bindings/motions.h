@@ -77,7 +77,7 @@ struct Motion_rows {
   void arrive(std::size_t row, Cell cell, std::uint32_t visited) const {
     set(row, Motion_status::free, cell, visited);
   }
-  void meet(std::size_t row, const Wall_contact<D>& contact, std::uint32_t visited) const {
+  void meet(std::size_t row, const Contact<D>& contact, std::uint32_t visited) const {
     set(row, Motion_status::contact, contact.cell, visited);
   }
   /// Outside, invalid or lost.
@@ -97,14 +97,21 @@ struct Chunk {
   std::vector<Contact_row<D>> contacts;
   Counts counts;
 
-  void add(const Snapshot<D>& snapshot, std::size_t row, const Wall_contact<D>& contact, Body_feature body) {
-    contacts.push_back({contact.time, contact.point, contact.normal, static_cast<std::uint32_t>(row),
-                        number_of(snapshot, snapshot.cell_of(contact.facet)),
+  void add(const Snapshot<D>& snapshot, std::size_t row, const Contact<D>& contact) {
+    contacts.push_back({contact.rounded_time(), contact.point, contact.normal,
+                        static_cast<std::uint32_t>(row), number_of(snapshot, snapshot.cell_of(contact.facet)),
                         static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
-                        static_cast<std::uint16_t>(contact.kind), static_cast<std::uint16_t>(body)});
+                        static_cast<std::uint16_t>(contact.kind), static_cast<std::uint16_t>(contact.body)});
   }
 };
 
+/// The counts of a set by the names that reports give them, without those of its inner sets.
+template <Count_set Set>
+py::dict to_dict(const Set& counts) {
+  py::dict result;
+  for (const auto& [name, count] : named_counts(counts)) result[py::str(name)] = count;
+  return result;
+}
 py::dict to_dict(const Walk_counts& counts);
 py::dict to_dict(const Edge_counts& counts);
 
@@ -148,7 +155,7 @@ Motions run_questions(const std::shared_ptr<const Any_world>& world, std::size_t
           const Answer<D> answer = answer_row(row, chunk.counts);
           if (answer.contact) {
             out.meet(row, *answer.contact, answer.cells);
-            chunk.add(snapshot, row, *answer.contact, answer.contact->body);
+            chunk.add(snapshot, row, *answer.contact);
           } else if (answer.status == Motion_status::free) {
             out.arrive(row, answer.cell, answer.cells);
           } else {

@@ -109,9 +109,11 @@ class Particles {
               out.arrive(row, result.cell, result.cells);
               continue;
             }
-            out.meet(row, *result.contact, result.cells);
-            chunk.add(snapshot, row, *result.contact, Body_feature::vertex);
-            if constexpr (stops) stop_at_contact(snapshot, particle, target, *result.contact, counts);
+            const Contact<D> contact =
+                vertex_contact(snapshot, particle.position, target, *result.contact, counts);
+            out.meet(row, contact, result.cells);
+            chunk.add(snapshot, row, contact);
+            if constexpr (stops) stop_at_contact(snapshot, particle, target, contact, counts);
           }
           chunk.counts = counts;
         });
@@ -127,24 +129,22 @@ class Particles {
 void bind_particles(py::module_& module) {
   py::class_<Particles>(
       module, "Particles",
-      "Points that remember the cells they are in: a small move costs a few nanoseconds, whatever the "
-      "size of the environment. Their positions always lie in their cells, in free space.")
-      .def(
-          py::init<const Shared_world&, const py::object&, int>(), py::arg("environment"), py::arg("points"),
-          py::kw_only(), py::arg("threads") = 0,
-          "Locates the points (N, dimension). Those that are not in free space get no cell, and do not move.")
+      "Points that remember their cells: a small move costs a few nanoseconds, for any size of the "
+      "environment. Their positions always lie in their cells, in free space.")
+      .def(py::init<const Shared_world&, const py::object&, int>(), py::arg("environment"), py::arg("points"),
+           py::kw_only(), py::arg("threads") = 0,
+           "Locates the points (N, dimension). Points outside free space get no cell, and do not move.")
       .def("__len__", &Particles::size)
       .def_property_readonly(
           "positions", [](const py::object& self) { return self.cast<const Particles&>().positions(self); },
-          "float64 (N, dimension): where they are; a read-only view, no copy: it changes as they move.")
+          "float64 (N, dimension): their positions, as a read-only view that changes as they move.")
       .def_property_readonly("cells", &Particles::cells,
                              "int32 (N,): their cells, numbered as in the file; -1 for none.")
       .def("move", &Particles::move, py::arg("targets"), py::kw_only(), py::arg("at_contact") = "stay",
            py::arg("threads") = 0,
-           "Moves each particle to its target, or reports the wall that blocks it. A wall may be touched.\n\n"
-           "at_contact: \"stay\": a blocked particle stays where it was; \"stop\": it moves up to the wall, "
-           "to a position "
-           "from which its whole way is free.\n"
+           "Moves each particle to its target, or reports the wall that blocks it. Walls may be touched.\n\n"
+           "at_contact: \"stay\": a blocked particle stays in place; \"stop\": it moves up to the wall, to a "
+           "position to which its whole path is free.\n"
            "threads: 0: all cores. The results do not depend on it.")
       .def("__repr__",
            [](const Particles& self) { return "<cellwalk.Particles, " + std::to_string(self.size()) + ">"; });

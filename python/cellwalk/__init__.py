@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Cellwalk: exact and fast contact detection among walls, for points, edges and deformable bodies.
+"""Cellwalk: exact and fast detection of contacts of points, edges and deformable bodies with walls.
 
 >>> import cellwalk, numpy
 >>> environment = cellwalk.Environment.generate("hexes", cells=(4, 2, 2))
@@ -8,8 +8,8 @@
 >>> motions.contacts["time"], motions.contacts["normal"]
 (array([0.7]), array([[-1.,  0.,  0.]]))
 
-Points are C-contiguous float64 arrays of shape (N, 3) or (N, 2); they are read where they lie, and anything else is a
-TypeError. Batches run without the interpreter lock, on as many threads as `threads` says; results do not depend on it.
+Points are C-contiguous float64 arrays of shape (N, 3) or (N, 2). They are read in place; other arrays raise a TypeError.
+Batches run without the interpreter lock, on `threads` threads; the results do not depend on their number.
 """
 
 from ._cellwalk import (

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the numbers in arrays mean. They compare with arrays: ``motions.status == Status.CONTACT``."""
+"""The codes in arrays. They compare with arrays: ``motions.status == Status.CONTACT``."""
 
 import enum
 
 
 class Status(enum.IntEnum):
-    """What became of a motion (Motions.status)."""
+    """The status of a motion (Motions.status)."""
 
     FREE = 0
     CONTACT = 1
@@ -15,7 +15,7 @@ class Status(enum.IntEnum):
 
 
 class Place(enum.IntEnum):
-    """Where a point is (Locations.status): in free space, only in solid cells, or in no cell."""
+    """The location of a point (Locations.status): in free space, only in solid cells, or in no cell."""
 
     FREE = 0
     SOLID = 1
@@ -23,7 +23,7 @@ class Place(enum.IntEnum):
 
 
 class Feature(enum.IntEnum):
-    """Features: `kind` of the environment (VERTEX, EDGE, FACET), `body` of what moves (VERTEX, EDGE, FACE)."""
+    """Features: `kind` of the environment (VERTEX, EDGE, FACET), `body` of the moving object (VERTEX, EDGE, FACE)."""
 
     VERTEX = 0
     EDGE = 1

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The exceptions of the library. Each has the code with which the program `cellwalk` ends for the same reason."""
+"""The exceptions of the library. Each has the exit code of the program `cellwalk` for the same error."""
 
 
 class Error(Exception):
-    """The library refused something; the message says what is wrong, where, and what to do."""
+    """The library refused an input; the message gives the problem, the place and the remedy."""
 
     code = 1
 
 
 class UsageError(Error, ValueError):
-    """A call that makes no sense, such as a word that is no option."""
+    """An invalid call, such as one with an unknown option."""
 
     code = 2
 
@@ -21,7 +21,7 @@ class InputError(Error, ValueError):
 
 
 class NotCertifiedError(Error, ValueError):
-    """Cells that are not an environment; the message names the cell and the reason."""
+    """Cells that cannot be certified; the message names the cell and the reason."""
 
     code = 4
 

@@ -13,22 +13,6 @@
 #include "vertex_move.h"
 
 namespace cellwalk {
-
-Body_counts& Body_counts::operator+=(const Body_counts& other) {
-  moves += other.moves;
-  in_region += other.in_region;
-  regions += other.regions;
-  no_region += other.no_region;
-  region_cells += other.region_cells;
-  catch_ups += other.catch_ups;
-  contacts += other.contacts;
-  stop_tries += other.stop_tries;
-  held += other.held;
-  edges += other.edges;
-  faces += other.faces;
-  return *this;
-}
-
 namespace {
 
 [[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {

@@ -47,21 +47,18 @@ class Registration {
 
   /// A particle for each side of the walls at a vertex. If `first` holds the vertex, its side comes first.
   Sides sides(std::uint32_t v, const Locator<D>& locator, Cell first) {
-    Sides result = locator.particles_at(soup_.points[v]);
-    const auto location = [&] { return locator.locate(soup_.points[v]); };
-    if (result.empty())
+    Location<D> here = locator.locate(soup_.points[v]);
+    if (here.sides.empty())
       throw Error(
           Error_code::outside,
-          fmt::format(
-              "vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
-              location().status == Location_status::solid ? "in a solid cell" : "outside the environment"));
-    if (result.size() == 1 || first == Cell::none) return result;
-    const Location<D> here = location();
-    const auto kept = std::find(here.cells.begin(), here.cells.end(), first);
-    if (kept == here.cells.end()) return result;
-    const auto side = result.begin() + here.side_of_cell[static_cast<std::size_t>(kept - here.cells.begin())];
-    std::rotate(result.begin(), side, side + 1);
-    return result;
+          fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
+                      here.status == Location_status::solid ? "in a solid cell" : "outside the environment"));
+    if (const auto kept = std::find(here.cells.begin(), here.cells.end(), first); kept != here.cells.end()) {
+      const auto side =
+          here.sides.begin() + here.side_of_cell[static_cast<std::size_t>(kept - here.cells.begin())];
+      std::rotate(here.sides.begin(), side, side + 1);
+    }
+    return std::move(here.sides);
   }
 
   /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were dropped; none at

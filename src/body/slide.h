@@ -5,6 +5,9 @@
 
 #include <cellwalk/kernel/point.h>
 
+#include <algorithm>
+#include <span>
+
 #include "stop_candidates.h"
 
 namespace cellwalk::detail {
@@ -26,6 +29,26 @@ inline Vector<3> along_both(const Vector<3>& v, const Vector<3>& n, const Vector
   const Vector<3> edge = cross(n, m);
   const double square = dot(edge, edge);
   return square > 0 ? (dot(v, edge) / square) * edge : Vector<3>{};
+}
+
+/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
+constexpr double rounding = 0x1p-40;
+
+/// What is left of a motion that met walls with these normals, the last of them just now: its part along the last one; where that
+/// leads into another, its part along both; nothing where that leads into a third.
+template <int D>
+Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
+  const Vector<D>& last = normals.back();
+  const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
+  for (std::size_t i = normals.size() - 1; i-- > 0;) {
+    if (dot(along, normals[i]) >= 0) continue;
+    const Vector<D> both = along_both(along, last, normals[i]);
+    const double most_into = rounding * length(both);
+    const bool leads_out = std::all_of(normals.begin(), normals.end(),
+                                       [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
+    return leads_out ? both : Vector<D>{};
+  }
+  return along;
 }
 
 }  // namespace cellwalk::detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
 #include <algorithm>
-#include <cmath>
 
 #include "slide.h"
 #include "stop_candidates.h"
@@ -10,30 +9,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
-constexpr double rounding = 0x1p-40;
-
-/// What is left of a motion that met walls, the last of them just now.
-template <int D>
-Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
-  const Vector<D>& last = normals.back();
-  const Vector<D> along = motion - std::min(0.0, dot(motion, last)) * last;
-  for (std::size_t i = normals.size() - 1; i-- > 0;) {
-    if (dot(along, normals[i]) >= 0) continue;
-    const Vector<D> both = along_both(along, last, normals[i]);
-    const double most_into = rounding * length(both);
-    const bool leads_out = std::all_of(normals.begin(), normals.end(),
-                                       [&](const Vector<D>& n) { return dot(both, n) >= -most_into; });
-    return leads_out ? both : Vector<D>{};
-  }
-  return along;
-}
-
 /// Moves a vertex to a verified position just before a contact, if there is one.
 template <int D>
 bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
           const Sweep_options& options, Body_counts& counts) {
-  if (met.contact.impact == Exact_time()) return false;
+  if (met.contact.time == Exact_time()) return false;
   const Point<D> from = body.positions[vertex];
   Sweep_options tried = options;
   tried.search = Contact_search::exact;  // whether there is a contact matters, not where

@@ -7,6 +7,17 @@
 #include "vertex_move.h"
 
 namespace cellwalk::detail {
+namespace {
+
+/// The wall that is touched, as walks report walls.
+template <int D>
+std::optional<Wall_contact<D>> touched_wall(const std::optional<Contact<D>>& touch) {
+  if (!touch) return {};
+  return Wall_contact<D>{touch->rounded_time(), touch->point,  touch->normal, touch->kind,
+                         touch->facet,          touch->corner, touch->cell};
+}
+
+}  // namespace
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
@@ -143,7 +154,7 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
 
 /// True if an edge certainly meets no wall where it is.
 template <int D>
-bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q) {
+inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q) {
   Edge_counts& edges = counts_.edges;
   if (sweep_.certificates.same_cell && q.cell == p.cell)
     ++edges.same_cell;
@@ -158,7 +169,8 @@ bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& 
 /// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
 /// ends inside of them, so that there is but one chain from one to the other.
 template <int D>
-bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q) {
+inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
+                                              const Particle<D>& q) {
   if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
   Edge_counts& edges = counts_.edges;
   if (sweep_.certificates.same_cell && q.cell == to.cell)
@@ -231,7 +243,7 @@ Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>
     if (const auto touch =
             closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
       answer.is_vertex_blocked = true;
-      answer.contact = *touch;
+      answer.contact = touched_wall(touch);
       return answer;
     }
   const Way<D> way{from, to, scratch.visited, scratch.crossed, false, is_apart};
@@ -275,8 +287,8 @@ bool Target_step<D>::meets_at_end(const Way<D>& way, const Corner& corner, Block
   std::optional<Wall_contact<D>> contact = walked.contact;
   if (!contact || contact->kind != Contact_kind::facet) {
     if (stops)
-      contact =
-          closed_meeting<D>(snapshot(), way.to.cell, {way.to.position, q.position, way.to.position}, edges);
+      contact = touched_wall(
+          closed_meeting<D>(snapshot(), way.to.cell, {way.to.position, q.position, way.to.position}, edges));
     else
       contact = find_any_chain(snapshot(), way.to, q, edges.walk).contact;
   }
@@ -317,7 +329,7 @@ bool Target_step<D>::sweep_meets_at_end(const Way<D>& way, std::size_t number, c
   if (stops && !is_crossed) {
     const bool is_plain = way.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      anew.contact = meeting(way.to.cell, {way.to.position, q.position, way.to.position});
+      anew.contact = touched_wall(meeting(way.to.cell, {way.to.position, q.position, way.to.position}));
       if (!anew.contact) anew = find_any_chain(snapshot(), way.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {

@@ -2,7 +2,7 @@
 #include <cellwalk/body/verified_stop.h>
 
 #include <algorithm>
-#include <cmath>
+#include <span>
 
 #include "slide.h"
 #include "stop_candidates.h"
@@ -10,56 +10,34 @@
 namespace cellwalk {
 namespace {
 
-constexpr int largest_shift = 1024;  // ulp
-constexpr int shrink_steps = 20;
+/// The velocity after contacts with walls, the last of them just now.
 template <int D>
-bool try_move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
-              Walk_counts& counts) {
-  return is_finite(target) && move<Exact>(snapshot, particle, target, counts).status == Walk_status::arrived;
-}
-
-/// The velocity after a contact with a wall, given the normals of the walls met before in the same step.
-template <int D>
-Vector<D> respond(const Vector<D>& v, const Vector<D>& normal, const std::vector<Met_contact<D>>& met,
-                  std::size_t first, const Wall_response& response) {
+Vector<D> respond(const Vector<D>& v, std::span<const Vector<D>> normals, const Wall_response& response) {
+  const double kept = 1 - response.friction;
+  if (!(response.restitution > 0)) return kept * detail::slide<D>(v, normals);
+  const Vector<D>& normal = normals.back();
   const double into = std::min(0.0, dot(v, normal));
-  const Vector<D> along = v - into * normal;
-  const Vector<D> after = (1 - response.friction) * along - (response.restitution * into) * normal;
-  if (response.restitution > 0) return after;
-  // A slide must not lead back into a wall that was met before.
-  for (std::size_t i = met.size() - 1; i-- > first;) {
-    const Vector<D>& other = met[i].contact.normal;
-    if (dot(after, other) >= 0) continue;
-    const Vector<D> both = detail::along_both(after, normal, other);
-    for (std::size_t j = first; j + 1 < met.size(); ++j)
-      if (j != i && dot(both, met[j].contact.normal) < 0) return {};
-    return both;
-  }
-  return after;
+  return kept * (v - into * normal) - (response.restitution * into) * normal;
 }
 
 }  // namespace
 
 template <int D>
 bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
-                     const Wall_contact<D>& contact, Walk_counts& counts) {
+                     const Contact<D>& contact, Walk_counts& counts) {
+  if (contact.time == Exact_time()) return false;
   const Point<D> from = particle.position;
-  if (contact.time == 0) return false;
-  if (try_move(snapshot, particle, contact.point, counts)) return particle.position != from;
-  const double unit = detail::ulp<D>(contact.point == Point<D>{} ? from : contact.point);
-  for (int shift = 1; shift <= largest_shift; shift *= 2)
-    if (try_move(snapshot, particle, contact.point + (shift * unit) * contact.normal, counts)) return true;
-  for (int k = shrink_steps; k >= 1; --k) {
-    const double time = contact.time * (1 - std::ldexp(1.0, -k));
-    if (try_move(snapshot, particle, from + time * (target - from), counts)) return particle.position != from;
-  }
-  return false;
+  Walk_options options;
+  options.locates_contact = false;  // whether there is one matters, not where
+  return detail::try_stops<D>(from, target, contact, [&](const Point<D>& x) {
+    return x != from && move<Exact>(snapshot, particle, x, counts, options).status == Walk_status::arrived;
+  });
 }
 
 template <int D>
 Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> velocity,
-                  const Wall_response& response, std::vector<Met_contact<D>>& met, Walk_counts& counts) {
-  const std::size_t first = met.size();
+                  const Wall_response& response, std::vector<Contact<D>>& met, Walk_counts& counts) {
+  std::vector<Vector<D>> normals;
   double passed = 0;
   Vector<D> lift{};
   for (;;) {
@@ -67,23 +45,26 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
     if (!is_finite(target)) return {};
     const Walk_result<D> result = move<Exact>(snapshot, particle, target, counts);
     if (result.status == Walk_status::arrived) return velocity;
-    met.push_back({passed + result.contact->time * (1 - passed), *result.contact});
-    stop_at_contact(snapshot, particle, target, *result.contact, counts);
-    passed = std::min(1.0, met.back().time);
-    velocity = respond(velocity, result.contact->normal, met, first, response);
-    if (met.size() - first >= static_cast<std::size_t>(response.most_contacts)) return velocity;
+    Contact<D> contact = vertex_contact(snapshot, particle.position, target, *result.contact, counts);
+    stop_at_contact(snapshot, particle, target, contact, counts);
+    if (passed > 0) contact.time = Exact_time(passed + contact.rounded_time() * (1 - passed));
+    met.push_back(contact);
+    normals.push_back(contact.normal);
+    passed = std::min(1.0, contact.rounded_time());
+    velocity = respond<D>(velocity, normals, response);
+    if (normals.size() >= static_cast<std::size_t>(response.most_contacts)) return velocity;
     if (!(length(velocity) > 0)) return velocity;
-    lift = detail::lift<D>(particle.position, (1 - passed) * velocity, result.contact->normal);
+    lift = detail::lift<D>(particle.position, (1 - passed) * velocity, contact.normal);
   }
 }
 
-template bool stop_at_contact<2>(const Snapshot<2>&, Particle<2>&, const Point<2>&, const Wall_contact<2>&,
+template bool stop_at_contact<2>(const Snapshot<2>&, Particle<2>&, const Point<2>&, const Contact<2>&,
                                  Walk_counts&);
-template bool stop_at_contact<3>(const Snapshot<3>&, Particle<3>&, const Point<3>&, const Wall_contact<3>&,
+template bool stop_at_contact<3>(const Snapshot<3>&, Particle<3>&, const Point<3>&, const Contact<3>&,
                                  Walk_counts&);
 template Vector<2> advance<2>(const Snapshot<2>&, Particle<2>&, Vector<2>, const Wall_response&,
-                              std::vector<Met_contact<2>>&, Walk_counts&);
+                              std::vector<Contact<2>>&, Walk_counts&);
 template Vector<3> advance<3>(const Snapshot<3>&, Particle<3>&, Vector<3>, const Wall_response&,
-                              std::vector<Met_contact<3>>&, Walk_counts&);
+                              std::vector<Contact<3>>&, Walk_counts&);
 
 }  // namespace cellwalk

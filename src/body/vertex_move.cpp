@@ -9,7 +9,7 @@ namespace {
 /// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {
-  if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
+  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
   return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
 }
 
@@ -49,7 +49,8 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
   const Way<D> way{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
   std::optional<Body_contact<D>> first;
   if (walked.contact)
-    first = {vertex_contact(snapshot, way, *walked.contact, counts.edges.walk), vertex, vertex};
+    first = {vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex,
+             vertex};
   else if (options.touch == Touch::stop)
     if (const auto touch = first_touch(snapshot, from, target, counts.edges))
       first = {*touch, vertex, vertex};

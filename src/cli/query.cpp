@@ -84,7 +84,7 @@ void check_row(const Query_options& options, const std::vector<Query_row<D, N>>&
   if (options.row && (*options.row >= rows.size() || !rows[*options.row].invalid.empty()))
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
   if (D == 3 && !options.picture.empty())
-    throw Error(Error_code::usage, "--picture draws motions of the plane, and the environment is in space");
+    throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
 }
 
 /// Draws the row that is wanted.

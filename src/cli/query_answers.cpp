@@ -42,7 +42,7 @@ void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
       time = 1;
       end = fields(rows[row].points[1]);
     } else if (const auto& contact = answer.contact) {
-      time = contact->time;
+      time = contact->rounded_time();
       end = fields(contact->point);
       normal = fields(contact->normal);
       kind = kind_names[static_cast<std::size_t>(contact->kind)];

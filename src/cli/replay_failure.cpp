@@ -44,7 +44,7 @@ std::vector<Cell> start_cells(const Motion_record<D>& record, const Snapshot<D>&
     return {cell};
   }
   if (start.cells.empty()) throw Error(Error_code::outside, "the motion starts in no free cell");
-  if (start.sides == 1) return {start.cell};
+  if (start.sides.size() == 1) return {start.cell};
   return start.cells;
 }
 

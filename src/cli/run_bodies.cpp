@@ -108,17 +108,11 @@ ordered_json shares_json(const Edge_counts& c) {
 }
 
 ordered_json to_json(const Body_counts& c) {
-  ordered_json result{
-      {"moves", c.moves},         {"in_region", c.in_region},       {"regions", c.regions},
-      {"no_region", c.no_region}, {"region_cells", c.region_cells}, {"catch_ups", c.catch_ups},
-      {"contacts", c.contacts},   {"stop_tries", c.stop_tries},     {"held", c.held}};
+  ordered_json result = to_json<Body_counts>(c);
   result["edges"] = to_json(c.edges);
   result["shares"] = {{"in_region", share(c.in_region, c.moves)}};
   result["shares"].update(shares_json(c.edges));
-  const Face_counts& f = c.faces;
-  if (f.faces > 0)
-    result["faces"] = {{"swept", f.faces}, {"clear", f.clear},     {"flooded_cells", f.flooded_cells},
-                       {"walls", f.walls}, {"clipped", f.clipped}, {"flat", f.flat}};
+  if (c.faces.faces > 0) result["faces"] = to_json(c.faces);
   result["walks"] = to_json(c.edges.walk);
   return result;
 }

@@ -76,7 +76,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
   }
   Integers met(grid.cell_count(), 0);
   for (const Contact_record<D>& c : contacts)
-    if (c.body) ++met[begin[c.body->body][static_cast<std::size_t>(c.body->feature)] + c.body->number];
+    if (c.body) ++met[begin[c.body->body][static_cast<std::size_t>(c.contact.body)] + c.body->number];
   grid.point_data.push_back({"body", 1, std::move(body_of_point)});
   grid.point_data.push_back({"vertex", 1, std::move(vertex_of_point)});
   grid.point_data.push_back({"velocity", 3, std::move(velocity)});
@@ -95,16 +95,16 @@ io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>& contacts) {
   std::vector<double> normal;
   for (const Contact_record<D>& c : contacts) {
     const std::uint32_t point[] = {static_cast<std::uint32_t>(grid.points.size())};
-    grid.points.push_back(in_space(c.point));
+    grid.points.push_back(in_space(c.contact.point));
     grid.add_cell(io::Vtu_cell::vertex, point);
     step.push_back(c.step);
     particle.push_back(c.body ? none : c.particle);
-    kind.push_back(static_cast<std::int64_t>(c.kind));
+    kind.push_back(static_cast<std::int64_t>(c.contact.kind));
     body.push_back(c.body ? c.body->body : none);
     vertex.push_back(c.body ? c.body->vertex : none);
-    feature.push_back(c.body ? static_cast<std::int64_t>(c.body->feature) : none);
+    feature.push_back(c.body ? static_cast<std::int64_t>(c.contact.body) : none);
     number.push_back(c.body ? c.body->number : none);
-    append_vector<D>(normal, c.normal);
+    append_vector<D>(normal, c.contact.normal);
   }
   grid.point_data.push_back({"step", 1, std::move(step)});
   grid.point_data.push_back({"particle", 1, std::move(particle)});

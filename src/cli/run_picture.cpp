@@ -65,7 +65,7 @@ std::vector<Contact_record<D>> thinned(const std::vector<Contact_record<D>>& con
   std::vector<Contact_record<D>> result;
   for (const Contact_record<D>& c : contacts) {
     std::array<std::int64_t, D> cube;
-    for (std::size_t i = 0; i < D; ++i) cube[i] = std::llround(c.point[i] / grid);
+    for (std::size_t i = 0; i < D; ++i) cube[i] = std::llround(c.contact.point[i] / grid);
     if (seen.insert(cube).second) result.push_back(c);
   }
   return result;
@@ -189,7 +189,7 @@ Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.particles().s
 template <int D>
 void Run_picture<D>::record(const World<D>& world) {
   for (const Contact_record<D>& c : world.contacts())
-    if (!c.body) trails_[c.particle].push_back(c.point);
+    if (!c.body) trails_[c.particle].push_back(c.contact.point);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     auto& trail = trails_[i];
     trail.push_back(world.particles()[i].position);
@@ -236,8 +236,9 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
   const auto draw_contacts = [&](const std::vector<Contact_record<D>>& contacts, double factor) {
     const double scale = factor * unit;
     for (const Contact_record<D>& c : thinned<D>(contacts, contact_grid * unit)) {
-      draw_dot(drawing, c.point, contact_size * scale, layer(7), m.contact);
-      draw_arrow(drawing, c.point, c.normal, arrow_length * scale, arrow_size * scale, layer(8), m.contact);
+      draw_dot(drawing, c.contact.point, contact_size * scale, layer(7), m.contact);
+      draw_arrow(drawing, c.contact.point, c.contact.normal, arrow_length * scale, arrow_size * scale,
+                 layer(8), m.contact);
     }
   };
   draw_contacts(catheter_contacts_, 1);

@@ -65,7 +65,7 @@ void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& sh
     throw Error(Error_code::input, fmt::format("{}: {}: {}", scene_name, key, what));
   };
   if constexpr (D == 2) {
-    refuse("dimension", "a trace holds bodies of space: record a scene of dimension 3");
+    refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
   } else {
     const auto* recipe = std::get_if<Recipe>(&scene.environment);
     if (!recipe || recipe->generator != "hexes")

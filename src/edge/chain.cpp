@@ -31,27 +31,6 @@ Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& ar
 
 }  // namespace
 
-Edge_counts& Edge_counts::operator+=(const Edge_counts& other) {
-  edges += other.edges;
-  same_cell += other.same_cell;
-  convex_pair += other.convex_pair;
-  same_chain += other.same_chain;
-  chain_facets += other.chain_facets;
-  changed += other.changed;
-  event_sweeps += other.event_sweeps;
-  floods += other.floods;
-  flooded_cells += other.flooded_cells;
-  clear += other.clear;
-  pierced += other.pierced;
-  searches += other.searches;
-  search_sweeps += other.search_sweeps;
-  search_walks += other.search_walks;
-  search_walls += other.search_walls;
-  search_misses += other.search_misses;
-  walk += other.walk;
-  return *this;
-}
-
 template <int D>
 Chain_result<D> find_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                            Walk_counts& counts, bool locates_contact) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "chain_side.h"
 
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <algorithm>
@@ -22,8 +23,10 @@ Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Fract
 }  // namespace
 
 std::optional<Span> Exact_edge::in_facet(Half_facet f) const {
-  const Cell_view<3> cell = snapshot_.view(snapshot_.cell_of(f));
-  const std::size_t i = snapshot_.facet_of(f);
+  return in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
+}
+
+std::optional<Span> Exact_edge::in_facet(const Cell_view<3>& cell, std::size_t i) const {
   if (is_apart(cell, i)) return {};
   Walk_counts counts;
   if (side<Exact>(cell, i, from_, counts) * side<Exact>(cell, i, to_, counts) > 0) return {};
@@ -43,19 +46,11 @@ bool Exact_edge::is_apart(const Cell_view<3>& cell, std::size_t i) const {
 }
 
 std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t) {
-  std::vector<Cell> found{cell_at(edge, start, chain, t)};
-  for (std::size_t head = 0; head < found.size(); ++head) {
-    const Cell c = found[head];
-    for (std::size_t i = 0; i < edge.snapshot().facet_count(c); ++i) {
-      const Half_facet f = Snapshot<3>::half_facet(c, i);
-      if (edge.snapshot().is_impassable(f)) continue;
-      const Cell next = edge.snapshot().neighbor(f);
-      if (std::find(found.begin(), found.end(), next) != found.end()) continue;
-      const std::optional<Span> met = edge.in_facet(f);
-      if (met && met->low <= t && t <= met->high) found.push_back(next);
-    }
-  }
-  return found;
+  return linked_cells(edge.snapshot(), cell_at(edge, start, chain, t),
+                      [&](const Cell_view<3>& cell, std::size_t i) {
+                        const std::optional<Span> met = edge.in_facet(cell, i);
+                        return met && met->low <= t && t <= met->high;
+                      });
 }
 
 }  // namespace cellwalk::detail

@@ -20,6 +20,7 @@ class Exact_edge {
 
   /// Its part in a closed facet. Cost: some comparisons and two signs where they show that there is none.
   std::optional<Span> in_facet(Half_facet f) const;
+  std::optional<Span> in_facet(const Cell_view<3>& cell, std::size_t i) const;
   const Snapshot<3>& snapshot() const { return snapshot_; }
 
  private:

@@ -2,6 +2,7 @@
 #include "contact_search.h"
 
 #include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/star.h>
 
 #include <cmath>
@@ -21,36 +22,26 @@ namespace {
 template <int D>
 Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t vertex) {
   Vector<D> sum{};
-  Flooded found{start};
-  for (std::size_t head = 0; head < found.size(); ++head) {
-    const Cell_view<D> cell = snapshot.view(found[head]);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!facet_contains(cell, i, vertex, vertex)) continue;
-      const Half_facet f = Snapshot<D>::half_facet(found[head], i);
-      if (snapshot.is_impassable(f)) {
-        sum = sum + inner_normal(cell, i);
-      } else if (const Cell next = snapshot.neighbor(f);
-                 std::find(found.begin(), found.end(), next) == found.end()) {
-        found.push_back(next);
-      }
-    }
-  }
+  Link_search<D> links(snapshot, start);
+  const auto is_at_vertex = [vertex](const Cell_view<D>& cell, std::size_t i) {
+    return facet_contains(cell, i, vertex, vertex);
+  };
+  const auto add_normal = [&sum](const Cell_view<D>& cell, std::size_t i, Half_facet) {
+    sum = sum + inner_normal(cell, i);
+  };
+  while (links.next()) links.expand_all(is_at_vertex, add_normal);
   const double size = length(sum);
   return size > 0 ? (1 / size) * sum : sum;
 }
 
 /// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the motion.
 template <int D>
-Contact<D> bisected(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& met, double time,
+Contact<D> bisected(const Snapshot<D>& snapshot, const Way<D>& way, Contact<D> contact, double time,
                     std::size_t corner) {
-  Contact<D> contact;
-  static_cast<Wall_contact<D>&>(contact) = met;
-  contact.body = Body_feature::edge;
-  contact.impact = Exact_time(time);
-  contact.time = time;
-  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(met.facet));
-  const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(met.facet))[corner]);
-  const Vector<D> normal = mean_normal(snapshot, snapshot.cell_of(met.facet), vertex);
+  contact.time = Exact_time(time);
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
+  const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(contact.facet))[corner]);
+  const Vector<D> normal = mean_normal(snapshot, snapshot.cell_of(contact.facet), vertex);
   if (dot(normal, way.from.position - way.to.position) > 0) contact.normal = normal;
   return contact;
 }
@@ -91,10 +82,10 @@ template <int D>
 Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                              const Chain& before, double tolerance, Edge_counts& counts) {
   ++counts.searches;
-  std::optional<Wall_contact<D>> last;
+  std::optional<Contact<D>> last;
   const auto is_free_until = [&](std::optional<double> time) {
     ++counts.search_sweeps;
-    const Chain_result<D> sweep = follow_events(snapshot, way, q, before, counts.walk, time);
+    const Sweep_result<D> sweep = follow_events(snapshot, way, q, before, counts.walk, time);
     if (sweep.contact) last = sweep.contact;
     return !sweep.contact;
   };
@@ -144,9 +135,9 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<
     ++counts.search_misses;
     return {};
   }
-  last->time = low;
-  last->normal = edge_normal(snapshot, {a, b, q.position}, *last, last->normal);
-  return bisected(snapshot, way, *last, low, nearest_corner(snapshot, last->facet, last->point));
+  Contact<D> contact = to_contact(*last, Exact_time(low), Body_feature::edge);
+  contact.normal = edge_normal(snapshot, {a, b, q.position}, contact, contact.normal);
+  return bisected(snapshot, way, contact, low, nearest_corner(snapshot, contact.facet, contact.point));
 }
 
 template <int D>

@@ -6,12 +6,13 @@
 namespace cellwalk::detail {
 
 template <int D>
-Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
-                             const Exact_point<D>& x) {
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
+                        const Exact_point<D>& x) {
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
-  Wall_contact<D> contact;
-  contact.time = time.rounded();
+  Contact<D> contact;
+  contact.time = time;
+  contact.body = Body_feature::edge;
   contact.facet = wall;
   contact.cell = snapshot.cell_of(wall);
   contact.normal = inner_normal(cell, i);
@@ -22,9 +23,7 @@ Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time
   return contact;
 }
 
-template Wall_contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet,
-                                         const Exact_point<2>&);
-template Wall_contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet,
-                                         const Exact_point<3>&);
+template Contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet, const Exact_point<2>&);
+template Contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet, const Exact_point<3>&);
 
 }  // namespace cellwalk::detail

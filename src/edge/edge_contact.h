@@ -3,16 +3,16 @@
 #ifndef CELLWALK_EDGE_EDGE_CONTACT_H
 #define CELLWALK_EDGE_EDGE_CONTACT_H
 
-#include <cellwalk/kernel/exact_time.h>
+#include <cellwalk/edge/contact.h>
 
 #include "rational_segment.h"
 
 namespace cellwalk::detail {
 
-/// x is a point of the wall.
+/// x is a point of the wall. The normal is that of the wall.
 template <int D>
-Wall_contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
-                             const Exact_point<D>& x);
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
+                        const Exact_point<D>& x);
 
 }  // namespace cellwalk::detail
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "equal_chains.h"
 
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/star.h>
 
 #include <algorithm>
@@ -13,46 +14,31 @@ namespace {
 template <int D>
 class Linked {
  public:
-  /// A cell, the one it was found from (by its place among the found ones), and the facet between.
-  struct Found {
-    Cell cell;
-    std::size_t parent;
-    Half_facet facet;
-  };
-
   /// Searches from a cell that holds the point at t until `to` is found.
   Linked(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
          const Fraction& t)
-      : found_{{from, 0, Half_facet::none}} {
-    const auto is_found = [&](Cell c) {
-      return std::any_of(found_.begin(), found_.end(), [c](const Found& f) { return f.cell == c; });
-    };
-    for (std::size_t head = 0; head < found_.size() && !reached_; ++head) {
-      const Cell c = found_[head].cell;
-      reached_ = c == to;
-      place_ = head;
-      const Cell_view<D> cell = snapshot.view(c);
-      for (std::size_t i = 0; i < cell.facet_count() && !reached_; ++i) {
-        const Half_facet f = Snapshot<D>::half_facet(c, i);
-        const std::optional<Span> met = segment.in_facet(cell, i);
-        if (!met || met->low > t) continue;
-        const bool is_wall = snapshot.is_impassable(f);
-        if (met->high < t) {
-          if (!is_wall) last_before = std::max<Fraction>(last_before, met->high);
-          continue;
-        }
-        if (is_wall) {
-          if (wall == Half_facet::none ||
-              is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
-            wall = f;
-          continue;
-        }
-        const Cell next = snapshot.neighbor(f);
-        if (is_found(next)) continue;
-        found_.push_back({next, head, f});
+      : links_(snapshot, from) {
+    const auto holds_point = [&](const Cell_view<D>& cell, std::size_t i) {
+      const std::optional<Span> met = segment.in_facet(cell, i);
+      if (!met || met->low > t) return false;
+      const Half_facet f = Snapshot<D>::half_facet(links_.cell(), i);
+      const bool is_wall = snapshot.is_impassable(f);
+      if (met->high < t) {
+        if (!is_wall) last_before = std::max<Fraction>(last_before, met->high);
+        return false;
+      }
+      if (!is_wall && !links_.contains(snapshot.neighbor(f))) {
         part.low = std::max<Fraction>(part.low, met->low);
         part.high = std::min<Fraction>(part.high, met->high);
       }
+      return true;
+    };
+    const auto note = [&](const Cell_view<D>&, std::size_t, Half_facet f) {
+      wall = first_placed(snapshot, wall, f);
+    };
+    while (!reached_ && links_.next()) {
+      reached_ = links_.cell() == to;
+      if (!reached_) links_.expand_all(holds_point, note);
     }
   }
 
@@ -62,8 +48,7 @@ class Linked {
   /// The facets on the way to it. \pre it is linked
   std::vector<Half_facet> way() const {
     std::vector<Half_facet> facets;
-    for (std::size_t i = place_; i != 0; i = found_[i].parent) facets.push_back(found_[i].facet);
-    std::reverse(facets.begin(), facets.end());
+    links_.append_way(links_.place(), facets);
     return facets;
   }
 
@@ -72,8 +57,7 @@ class Linked {
   Fraction last_before = 0;            ///< the last end of a passable facet of theirs before the point
 
  private:
-  std::vector<Found> found_;
-  std::size_t place_ = 0;  ///< of the last cell looked at
+  Link_search<D> links_;  ///< at the other cell, if that is linked
   bool reached_ = false;
 };
 

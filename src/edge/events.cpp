@@ -42,8 +42,8 @@ class Events {
     if (!limit_ || blocked < *limit_) limit_ = blocked;
   }
 
-  Chain_result<D> run(const Chain& before) {
-    Chain_result<D> result{before, {}, {}};
+  Sweep_result<D> run(const Chain& before) {
+    Sweep_result<D> result{{}, before};
     Chain& chain = result.chain;
     Moment<D> time;
     for (auto step = steps_.begin(); !limit_ || time < *limit_;) {
@@ -76,8 +76,7 @@ class Events {
         chain = walk.chain();
       } else {
         chain.clear();
-        result.impact = to_time(time.value());
-        result.contact = contact(result.impact, line, exact_segment(),
+        result.contact = contact(to_time(time.value()), line, exact_segment(),
                                  walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }
@@ -135,8 +134,8 @@ class Events {
     return end;
   }
 
-  Wall_contact<D> contact(const Exact_time& time, const Moving_line<D>& line,
-                          const Rational_segment<D>& segment, Half_facet wall) const {
+  Contact<D> contact(const Exact_time& time, const Moving_line<D>& line, const Rational_segment<D>& segment,
+                     Half_facet wall) const {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(wall));
     const std::size_t i = snapshot_.facet_of(wall);
     std::optional<Fraction> at;
@@ -172,7 +171,7 @@ class Events {
 }  // namespace
 
 template <int D>
-Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts, std::optional<double> until) {
   if (are_collinear(way.from.position, way.to.position, q.position))
     return sweep_in_line(snapshot, way, q, before, counts, until);
@@ -180,7 +179,7 @@ Chain_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, co
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                    \
-  template Chain_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
                                             const Chain&, Walk_counts&, std::optional<double>);
 
 CELLWALK_INSTANTIATE(2)

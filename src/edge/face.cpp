@@ -27,7 +27,7 @@ class Face_sweep {
   Face_sweep(const Snapshot<3>& snapshot, const Corners& corners, Face_counts& counts)
       : snapshot_(snapshot), corners_(corners), tetrahedron_(corners, counts), counts_(counts) {}
 
-  std::optional<Face_contact> first_contact(const Near_walls& near, const Face_rests& rests) {
+  std::optional<Contact<3>> first_contact(const Near_walls& near, const Face_rests& rests) {
     for (const Half_facet rest : rests)
       if (side(rest, corners_[1]) > 0) note(rest);
     for (const Half_facet wall : near.walls)
@@ -72,10 +72,9 @@ class Face_sweep {
     wall_ = wall;
   }
 
-  Face_contact contact() const {
-    Face_contact contact;
-    contact.impact = to_time(first_.time);
-    contact.time = contact.impact.rounded();
+  Contact<3> contact() const {
+    Contact<3> contact;
+    contact.time = to_time(first_.time);
     contact.point = first_.point.rounded();
     contact.kind = first_.feature.kind;
     contact.corner = first_.feature.corner;
@@ -97,15 +96,14 @@ class Face_sweep {
 };
 
 /// The contact of a face of which an edge lies on the other side of a wall.
-Face_contact astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
-  Face_contact contact;
+Face_result astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
+  Contact<3> contact;
   contact.point = start;
   contact.body = Body_feature::edge;
-  contact.is_edge_astray = true;
   contact.facet = wall;
   contact.cell = snapshot.cell_of(wall);
   contact.normal = detail::inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
-  return contact;
+  return {{}, contact, true};
 }
 
 /// Rests of a face that moved in its plane, or was put there.
@@ -118,17 +116,6 @@ Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, co
 }
 
 }  // namespace
-
-Face_counts& Face_counts::operator+=(const Face_counts& other) {
-  faces += other.faces;
-  flooded_cells += other.flooded_cells;
-  clear += other.clear;
-  walls += other.walls;
-  clipped += other.clipped;
-  flat += other.flat;
-  walk += other.walk;
-  return *this;
-}
 
 Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
                        const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
@@ -149,7 +136,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
     ++counts.flat;
     const Face_registration end =
         standing(snapshot, way.to, q, r, chains, near, rests, detail::Known::binding, counts);
-    if (end.piercing != Half_facet::none) return {{}, astray(snapshot, end.piercing, corners[0])};
+    if (end.piercing != Half_facet::none) return astray(snapshot, end.piercing, corners[0]);
     result.rests = end.rests;
   } else {
     Face_sweep sweep(snapshot, corners, counts);
@@ -157,7 +144,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
     if (result.contact && way.blocked) {
       const Cell last = way.visited.back();
       const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
-      if (result.contact->impact >= to_time(blocked.value())) result.contact.reset();
+      if (result.contact->time >= to_time(blocked.value())) result.contact.reset();
     }
     if (result.contact || !is_made) return result;
     result.rests = sweep.rests_at_end(near);
@@ -166,7 +153,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Par
   const Half_facet wall =
       detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near, counts.walk);
   if (wall == Half_facet::none) return result;
-  return {{}, astray(snapshot, wall, corners[0])};
+  return astray(snapshot, wall, corners[0]);
 }
 
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,

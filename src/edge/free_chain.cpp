@@ -13,9 +13,9 @@ template <int D>
 std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Way<D>& way,
                                           const Particle<D>& q, const Chain& before, Edge_counts& counts) {
   ++counts.event_sweeps;
-  const Chain_result<D> result = detail::follow_events(snapshot, way, q, before, counts.walk);
+  Sweep_result<D> result = detail::follow_events(snapshot, way, q, before, counts.walk);
   if (result.contact) return {};
-  return Free_chain{result.chain};
+  return Free_chain{std::move(result.chain)};
 }
 
 /// What the walls near a swept triangle prove of it.

@@ -10,10 +10,10 @@
 namespace cellwalk {
 
 template <int D>
-Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                       const Chain& before, Walk_counts& counts, std::optional<double> until) {
   const Point<D>&a = way.from.position, &b = way.to.position;
-  Chain_result<D> result{before, {}, {}};
+  Sweep_result<D> result{{}, before};
   int axis = 0;
   while (axis + 1 < D && a[axis] == b[axis]) ++axis;
   const bool shrinks =
@@ -40,8 +40,8 @@ Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>&
   const auto walked = pieces_of<D>(snapshot, line, way.from.cell, way.crossed, end);
   if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
     result.chain.clear();
-    result.impact = to_time(parting->at * Fraction(whole, way_of_p));
-    result.contact = edge_contact<D>(snapshot, result.impact, parting->wall, line.at(parting->at));
+    const Exact_time time = to_time(parting->at * Fraction(whole, way_of_p));
+    result.contact = edge_contact<D>(snapshot, time, parting->wall, line.at(parting->at));
     return result;
   }
   std::size_t i = 0;
@@ -61,7 +61,7 @@ Chain_result<D> detail::sweep_in_line(const Snapshot<D>& snapshot, const Way<D>&
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                            \
-  template Chain_result<D> detail::sweep_in_line<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+  template Sweep_result<D> detail::sweep_in_line<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
                                                     const Chain&, Walk_counts&, std::optional<double>);
 
 CELLWALK_INSTANTIATE(2)

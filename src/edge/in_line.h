@@ -12,7 +12,7 @@ namespace cellwalk::detail {
 /// sweep_triangle() where a, b and q lie on one line. The edge gets longer and is free; or shorter, and then p must stay on
 /// the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
 template <int D>
-Chain_result<D> sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> sweep_in_line(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts, std::optional<double> until);
 
 }  // namespace cellwalk::detail

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cells linked at a point. Theory: docs/sweep.md.
+// The way between cells that are linked at a point. Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_LINK_H
 #define CELLWALK_EDGE_LINK_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/signs.h>
 #include <cellwalk/walk/detail/star.h>
-
-#include <algorithm>
 
 namespace cellwalk::detail {
 
@@ -23,35 +22,18 @@ bool lies_in(const Cell_view<D>& cell, std::size_t i, const Point<D>& x, Walk_co
 template <int D>
 Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
                        Walk_counts& counts) {
-  struct Found {
-    Cell cell;
-    std::size_t parent;
-    Half_facet facet;  ///< of the parent
-  };
-  boost::container::small_vector<Found, 16> queue{{from, 0, Half_facet::none}};
   Half_facet wall = Half_facet::none;
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const Cell c = queue[head].cell;
-    if (c == to) {
-      const std::size_t end = chain.size();
-      for (std::size_t i = head; i != 0; i = queue[i].parent) chain.push_back(queue[i].facet);
-      std::reverse(chain.begin() + static_cast<std::ptrdiff_t>(end), chain.end());
+  const auto holds = [&](const Cell_view<D>& cell, std::size_t i) { return lies_in(cell, i, x, counts); };
+  const auto note = [&](const Cell_view<D>&, std::size_t, Half_facet f) {
+    wall = first_placed(snapshot, wall, f);
+  };
+  Link_search<D> links(snapshot, from);
+  while (links.next()) {
+    if (links.cell() == to) {
+      links.append_way(links.place(), chain);
       return Half_facet::none;
     }
-    const Cell_view<D> cell = snapshot.view(c);
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!lies_in(cell, i, x, counts)) continue;
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (snapshot.is_impassable(f)) {
-        if (wall == Half_facet::none ||
-            is_placed_before(cell, i, snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
-          wall = f;
-        continue;
-      }
-      const Cell next = snapshot.neighbor(f);
-      const auto is_next = [next](const Found& known) { return known.cell == next; };
-      if (std::none_of(queue.begin(), queue.end(), is_next)) queue.push_back({next, head, f});
-    }
+    links.expand_all(holds, note);
   }
   if (wall == Half_facet::none && !snapshot.is_cell(to)) refuse_removed_cell();
   return wall;

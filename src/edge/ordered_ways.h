@@ -4,6 +4,7 @@
 #define CELLWALK_EDGE_ORDERED_WAYS_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/star.h>
 
 #include <algorithm>
@@ -42,11 +43,8 @@ class Ordered_ways {
   const Chain& chain() const { return chain_; }
 
  private:
-  /// A cell linked with the one that the segment is in, and what it needs to be gone on in.
+  /// What a cell linked with the one that the segment is in needs to be gone on in.
   struct Place {
-    Cell cell;
-    std::size_t parent;
-    Half_facet facet;  ///< of the parent
     bool holds_more = true, is_displaced = true;
     Fraction end{1};  ///< up to there the cell meets the segment in the same facets
     std::size_t end_facet = 0;
@@ -56,58 +54,58 @@ class Ordered_ways {
   /// Goes on from a cell in which the segment is at t. Ways to the same place are as good as each other.
   bool from(Cell c, const Fraction& t, const Fraction& limit) {
     if (rule_.is_wrong(chain_, limit) || !seen_.emplace(c, t).second) return false;
-    std::vector<Place> places = linked(c, t);
+    Link_search<D> links(snapshot_, c);
+    const std::vector<Place> places = find_places(links, t);
     const bool is_end = t == Fraction(1);
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < places.size(); ++k)
-      if (is_end ? places[k].cell == q_.cell : places[k].holds_more) order.push_back(k);
+      if (is_end ? links.cell(k) == q_.cell : places[k].holds_more) order.push_back(k);
     if (!is_end)
       std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
         if (places[x].is_displaced != places[y].is_displaced) return places[x].is_displaced;
         return !places[x].is_displaced &&
-               rule_.comes_before(snapshot_.view(places[x].cell), snapshot_.view(places[y].cell));
+               rule_.comes_before(snapshot_.view(links.cell(x)), snapshot_.view(links.cell(y)));
       });
     for (const std::size_t k : order) {
       const std::size_t before = chain_.size();
-      append_way(places, k);
-      if (is_end ? rule_.is_accepted(chain_) : goes_on(places[k])) return true;
+      links.append_way(k, chain_);
+      if (is_end ? rule_.is_accepted(chain_) : goes_on(links.cell(k), places[k])) return true;
       chain_.resize(before);
     }
     return false;
   }
 
-  bool goes_on(const Place& place) {
-    const Fraction limit =
-        place.end_border < 0 ? Fraction(1)
-                             : rule_.limit_of(snapshot_.view(place.cell), place.end_facet, place.end_border);
-    return from(place.cell, place.end, limit);
+  bool goes_on(Cell c, const Place& place) {
+    const Fraction limit = place.end_border < 0
+                               ? Fraction(1)
+                               : rule_.limit_of(snapshot_.view(c), place.end_facet, place.end_border);
+    return from(c, place.end, limit);
   }
 
-  std::vector<Place> linked(Cell c, const Fraction& t) {
-    std::vector<Place> places{{c, 0, Half_facet::none}};
-    for (std::size_t head = 0; head < places.size(); ++head) {
-      const Cell_view<D> cell = snapshot_.view(places[head].cell);
-      for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-        if (is_apart(cell, i)) continue;
-        const std::optional<Span> met = segment_.in_facet(cell, i);
-        if (!met) continue;
-        for (const auto& [end, border] :
-             {std::pair(met->low, met->low_border), {met->high, met->high_border}}) {
-          if (!(t < end && end < places[head].end)) continue;
-          places[head].end = end;
-          places[head].end_facet = i;
-          places[head].end_border = border;
-        }
-        if (t < met->low || met->high < t) continue;
-        const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
-        places[head].holds_more &= side_of_q <= 0;
-        places[head].is_displaced &= side_of_q < 0 || (side_of_q == 0 && displaced_side(cell, i) < 0);
-        const Half_facet f = Snapshot<D>::half_facet(places[head].cell, i);
-        if (snapshot_.is_impassable(f)) continue;
-        const Cell next = snapshot_.neighbor(f);
-        if (std::none_of(places.begin(), places.end(), [next](const Place& p) { return p.cell == next; }))
-          places.push_back({next, head, f});
+  /// Finds the cells linked with one where the segment is at t.
+  std::vector<Place> find_places(Link_search<D>& links, const Fraction& t) {
+    std::vector<Place> places;
+    const auto holds = [&](const Cell_view<D>& cell, std::size_t i) {
+      if (is_apart(cell, i)) return false;
+      const std::optional<Span> met = segment_.in_facet(cell, i);
+      if (!met) return false;
+      Place& place = places.back();
+      for (const auto& [end, border] :
+           {std::pair(met->low, met->low_border), {met->high, met->high_border}}) {
+        if (!(t < end && end < place.end)) continue;
+        place.end = end;
+        place.end_facet = i;
+        place.end_border = border;
       }
+      if (t < met->low || met->high < t) return false;
+      const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
+      place.holds_more &= side_of_q <= 0;
+      place.is_displaced &= side_of_q < 0 || (side_of_q == 0 && displaced_side(cell, i) < 0);
+      return true;
+    };
+    while (links.next()) {
+      places.emplace_back();
+      links.expand_all(holds, [](const Cell_view<D>&, std::size_t, Half_facet) {});
     }
     return places;
   }
@@ -122,12 +120,6 @@ class Ordered_ways {
         return true;
     }
     return false;
-  }
-
-  void append_way(const std::vector<Place>& places, std::size_t k) {
-    const std::size_t end = chain_.size();
-    for (; k != 0; k = places[k].parent) chain_.push_back(places[k].facet);
-    std::reverse(chain_.begin() + static_cast<std::ptrdiff_t>(end), chain_.end());
   }
 
   const Snapshot<D>& snapshot_;

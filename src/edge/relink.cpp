@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "relink.h"
 
+#include <cellwalk/walk/detail/link_search.h>
+
 #include <algorithm>
 
 #include "equal_chains.h"
@@ -30,10 +32,12 @@ class Relinking {
         q_(q),
         chain_(chain),
         now_(at(line.time().value())),
-        pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)) {}
+        pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)),
+        cells_(linked_cells(snapshot, start, [&](const Cell_view<D>& cell, std::size_t i) {
+          return now_.in_facet(cell, i).has_value();
+        })) {}
 
   std::optional<Relinked<D>> run() {
-    find_cells();
     if (!lies_in_plane()) return {};
     const Moment<D> end = next_root();
     const Rational_segment<D> after = at(middle(line_.time().value(), end.value()));
@@ -61,21 +65,6 @@ class Relinking {
  private:
   Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
 
-  /// All cells linked with the chain somewhere on the edge.
-  void find_cells() {
-    cells_.push_back(start_);
-    for (std::size_t head = 0; head < cells_.size(); ++head) {
-      const Cell_view<D> cell = snapshot_.view(cells_[head]);
-      for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-        const Half_facet f = Snapshot<D>::half_facet(cells_[head], i);
-        if (snapshot_.is_impassable(f)) continue;
-        const Cell next = snapshot_.neighbor(f);
-        if (std::find(cells_.begin(), cells_.end(), next) == cells_.end() && now_.in_facet(cell, i))
-          cells_.push_back(next);
-      }
-    }
-  }
-
   bool lies_in_plane() const {
     return std::any_of(cells_.begin(), cells_.end(),
                        [&](Cell c) { return holds_triangle(snapshot_, line_, c); });
@@ -101,7 +90,7 @@ class Relinking {
   const Chain& chain_;
   const Rational_segment<D> now_;
   const std::vector<Piece> pieces_;  ///< of the chain
-  std::vector<Cell> cells_;
+  const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
 };
 
 /// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the triangle.

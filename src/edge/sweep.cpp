@@ -2,6 +2,7 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/edge/three_segments.h>
 
+#include <utility>
 #include <vector>
 
 #include "contact_search.h"
@@ -22,17 +23,6 @@ Swept_triangle<D> triangle_of(const Way<D>& way, const Particle<D>& q) {
 template <int D>
 void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>>& other) {
   if (other && (!first || is_before(*other, *first))) first = other;
-}
-
-template <int D>
-Contact<D> edge_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                        const Chain_result<D>& found) {
-  Contact<D> contact;
-  static_cast<Wall_contact<D>&>(contact) = *found.contact;
-  contact.body = Body_feature::edge;
-  contact.impact = found.impact;
-  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), contact, contact.normal);
-  return contact;
 }
 
 /// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
@@ -60,19 +50,21 @@ bool is_free_where_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const
 
 /// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
 template <int D>
-Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                        const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
-  Chain_result<D> result{before, {}, {}};
   if (way.blocked) {
     ++counts.edges;
     ++counts.changed;
-    walk_start(snapshot, result.chain, way.crossed);
-    if (is_free_where_blocked(snapshot, way, q, counts.walk)) return result;
+    if (is_free_where_blocked(snapshot, way, q, counts.walk)) {
+      Sweep_result<D> result{{}, before};
+      walk_start(snapshot, result.chain, way.crossed);
+      return result;
+    }
   } else {
-    result = check_third_segment(snapshot, way, q, before, counts, options.certificates);
-    if (!result.contact && !result.has_choice) return result;
+    Chain_result<D> found = check_third_segment(snapshot, way, q, before, counts, options.certificates);
+    if (!found.contact && !found.has_choice) return {{}, std::move(found.chain)};
   }
   // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
   // goes on, is for the events to say.
@@ -82,7 +74,7 @@ Chain_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Par
 
 template <int D>
 Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
-                  const Chain_result<D>& found, const Sweep_options& options, Edge_counts& counts) {
+                  const Contact<D>& first, const Sweep_options& options, Edge_counts& counts) {
   switch (options.search) {
     case Contact_search::exact:
       break;
@@ -98,7 +90,9 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
         return *contact;
       break;
   }
-  return edge_contact(snapshot, way, q, found);
+  Contact<D> contact = first;
+  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), first, first.normal);
+  return contact;
 }
 
 }  // namespace
@@ -106,24 +100,18 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                  const Chain& before, const Sweep_options& options, Edge_counts& counts) {
-  Sweep_result<D> result;
-  const Chain_result<D> found = detect(snapshot, way, q, before, options, counts);
-  result.chain = found.chain;
-  if (found.contact) result.contact = locate(snapshot, way, q, before, found, options, counts);
+  Sweep_result<D> result = detect(snapshot, way, q, before, options, counts);
+  if (result.contact) result.contact = locate(snapshot, way, q, before, *result.contact, options, counts);
   if (options.touch == Touch::stop)
     keep_first(result.contact, detail::first_touch(snapshot, way.from.cell, triangle_of(way, q), counts));
   return result;
 }
 
 template <int D>
-Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Way<D>& way, const Wall_contact<D>& contact,
-                          Walk_counts& counts) {
-  Contact<D> result;
-  static_cast<Wall_contact<D>&>(result) = contact;
-  const Cell_view<D> last = snapshot.view(way.visited.back());
-  result.impact = to_time(detail::exit_time<D>(last, way.from.position, way.to.position, counts).value());
-  result.time = result.impact.rounded();
-  return result;
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
+                          const Wall_contact<D>& met, Walk_counts& counts) {
+  const detail::Moment<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
+  return to_contact(met, to_time(time.value()), Body_feature::vertex);
 }
 
 template <int D>
@@ -135,17 +123,11 @@ std::optional<Contact<D>> closed_meeting(const Snapshot<D>& snapshot, Cell start
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
                                       const Point<D>& target, Edge_counts& counts) {
-  std::vector<Cell> visited;
-  Walk_options options;
-  options.visited = &visited;
-  const Walk_result<D> walked = walk(snapshot, p, target, counts.walk, options);
+  const Walk_result<D> walked = walk(snapshot, p, target, counts.walk);
   std::optional<Contact<D>> first =
       detail::first_touch<D>(snapshot, p.cell, {p.position, target, p.position}, counts);
-  if (walked.contact) {
-    Way<D> way{p, p, visited, {}, true};
-    way.to.position = target;
-    keep_first<D>(first, vertex_contact(snapshot, way, *walked.contact, counts.walk));
-  }
+  if (walked.contact)
+    keep_first<D>(first, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
   return first;
 }
 
@@ -163,7 +145,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
   const Way<D> way{p, moved, visited, crossed, walked.contact.has_value()};
   Sweep_result<D> result = sweep_edge_along(snapshot, way, q, before, options, counts);
   if (walked.contact)
-    keep_first<D>(result.contact, vertex_contact(snapshot, way, *walked.contact, counts.walk));
+    keep_first<D>(result.contact, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
   result.cells = walked.cells;
   result.p = result.contact ? p : moved;
   if (result.contact) result.chain = before;
@@ -173,8 +155,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 #define CELLWALK_INSTANTIATE(D)                                                                              \
   template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,        \
                                                const Chain&, const Sweep_options&, Edge_counts&);            \
-  template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Way<D>&, const Wall_contact<D>&,           \
-                                        Walk_counts&);                                                       \
+  template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&,                \
+                                        const Wall_contact<D>&, Walk_counts&);                               \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \
                                                     Edge_counts&);                                           \
   template std::optional<Contact<D>> closed_meeting<D>(const Snapshot<D>&, Cell, const Swept_triangle<D>&,   \

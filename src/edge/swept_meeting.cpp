@@ -139,11 +139,11 @@ Vector<D> across(const Vector<D>& v, const Vector<D>& along) {
 
 /// A direction at right angles to the edge and the feature that it meets, as long as the sine of the angle between the two. All
 /// directions given are unit vectors, so that nothing depends on the scale.
-Vector<2> perpendicular(const Snapshot<2>&, const Wall_contact<2>&, const Vector<2>& edge, const Vector<2>&) {
+Vector<2> perpendicular(const Snapshot<2>&, const Contact<2>&, const Vector<2>& edge, const Vector<2>&) {
   return {-edge[1], edge[0]};
 }
 
-Vector<3> perpendicular(const Snapshot<3>& snapshot, const Wall_contact<3>& contact, const Vector<3>& edge,
+Vector<3> perpendicular(const Snapshot<3>& snapshot, const Contact<3>& contact, const Vector<3>& edge,
                         const Vector<3>& back) {
   if (contact.kind == Contact_kind::vertex) return across<3>(back, edge);
   const Cell_view<3> cell = snapshot.view(snapshot.cell_of(contact.facet));
@@ -184,9 +184,9 @@ Vector<D> vertex_normal(const Swept_triangle<D>& triangle, const Vector<D>& of_w
 
 template <int D>
 Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
-                      const Wall_contact<D>& contact, const Vector<D>& of_wall) {
+                      const Contact<D>& contact, const Vector<D>& of_wall) {
   const Vector<D> back = unit<D>(triangle.a - triangle.b);
-  const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.time));
+  const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.rounded_time()));
   if (contact.kind == Contact_kind::facet) {
     // The wall may be one that the edge would come out of: then it is met from its other side.
     const Vector<D> behind = -1.0 * of_wall + Vector<D>{};
@@ -210,8 +210,7 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   const Cell_view<D> cell = snapshot.view(c);
   const std::size_t i = snapshot.facet_of(wall);
   Contact<D> contact;
-  contact.impact = to_time(meeting.time);
-  contact.time = contact.impact.rounded();
+  contact.time = to_time(meeting.time);
   contact.point = meeting.point.rounded();
   const Facet_feature feature = lowest_feature<D>(cell, i, meeting.point);
   contact.kind = feature.kind;
@@ -225,14 +224,14 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   return contact;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                           \
-  template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&, const Half_spaces<D>&);   \
-  template std::optional<Meeting<D>> first_closed_meeting<D>(const Swept_triangle<D>&,                    \
-                                                             const Half_spaces<D>&);                      \
-  template Vector<D> vertex_normal<D>(const Swept_triangle<D>&, const Vector<D>&);                        \
-  template Vector<D> edge_normal<D>(const Snapshot<D>&, const Swept_triangle<D>&, const Wall_contact<D>&, \
-                                    const Vector<D>&);                                                    \
-  template Contact<D> contact_with<D>(const Snapshot<D>&, const Swept_triangle<D>&, Half_facet,           \
+#define CELLWALK_INSTANTIATE(D)                                                                         \
+  template std::optional<Meeting<D>> first_meeting<D>(const Swept_triangle<D>&, const Half_spaces<D>&); \
+  template std::optional<Meeting<D>> first_closed_meeting<D>(const Swept_triangle<D>&,                  \
+                                                             const Half_spaces<D>&);                    \
+  template Vector<D> vertex_normal<D>(const Swept_triangle<D>&, const Vector<D>&);                      \
+  template Vector<D> edge_normal<D>(const Snapshot<D>&, const Swept_triangle<D>&, const Contact<D>&,    \
+                                    const Vector<D>&);                                                  \
+  template Contact<D> contact_with<D>(const Snapshot<D>&, const Swept_triangle<D>&, Half_facet,         \
                                       const Meeting<D>&);
 
 CELLWALK_INSTANTIATE(2)

@@ -46,7 +46,7 @@ Vector<D> vertex_normal(const Swept_triangle<D>& triangle, const Vector<D>& of_w
 /// Always against the motion, and a function of directions only: it does not depend on the scale.
 template <int D>
 Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
-                      const Wall_contact<D>& contact, const Vector<D>& of_wall);
+                      const Contact<D>& contact, const Vector<D>& of_wall);
 
 }  // namespace cellwalk::detail
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/triangle.h>
 
+#include <utility>
+
 #include "confirm.h"
 #include "events.h"
 
 namespace cellwalk {
 template <int D>
-Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates) {
   if (way.blocked) {
@@ -16,25 +18,25 @@ Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, c
     ++counts.event_sweeps;
     return detail::follow_events(snapshot, way, q, before, counts.walk);
   }
-  Chain_result<D> result;
   if (way.from.position == way.to.position) {
     // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
     ++counts.edges;
     ++counts.same_chain;
-    result.chain = before;
-    return result;
+    return {{}, before};
   }
-  if (detail::is_confirmed(snapshot, way, q, before, certificates, result, counts)) return result;
+  Chain_result<D> found;
+  if (detail::is_confirmed(snapshot, way, q, before, certificates, found, counts))
+    return {{}, std::move(found.chain)};
   ++counts.changed;
   const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  if (certificates.flood && !result.contact && is_clear(snapshot, way.from.cell, triangle, counts))
-    return result;
+  if (certificates.flood && !found.contact && is_clear(snapshot, way.from.cell, triangle, counts))
+    return {{}, std::move(found.chain)};
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, way, q, before, counts.walk);
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                     \
-  template Chain_result<D> sweep_triangle<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+  template Sweep_result<D> sweep_triangle<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
                                              const Chain&, Edge_counts&, const Edge_certificates&);
 
 CELLWALK_INSTANTIATE(2)

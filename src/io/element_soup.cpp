@@ -23,7 +23,7 @@ Mesh_file surface_or_plane(Surface_soup surface, Read_report report) {
   for (const auto& polygon : surface.facets) add_polygon(cells, polygon);
   report.cells = cells.cell_count();
   report.facets = cells.facet_count();
-  report.notes.push_back("every z is zero: the polygons are cells of the plane");
+  report.notes.push_back("every z is zero: the polygons are 2D cells");
   return {std::move(cells), std::move(report)};
 }
 

@@ -193,7 +193,7 @@ class Ovm_reader {
 
   Mesh_file spatial() {
     if (raw_.cell_count() == 0)
-      fail(in_.file(), "holds no polyhedra, and is no environment of the plane (z is not zero throughout)");
+      fail(in_.file(), "holds no polyhedra, and is no 2D environment (z is not zero throughout)");
     check_sides();
     if (!raw_.edge_impassable.empty() || !raw_.face_solid.empty())
       report_.notes.push_back("'EProp impassable' and 'FProp solid' have no meaning in 3D: ignored");

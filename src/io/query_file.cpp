@@ -17,8 +17,7 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
       columns[i][k] = table.column(fmt::format("{}{}", prefixes[i], axes[k]));
     const std::string z = fmt::format("{}z", prefixes[i]);
     if (D == 2 && table.find_column(z))
-      fail(table.name(),
-           fmt::format("has a column '{}', and the environment is one of the plane: leave z out", z));
+      fail(table.name(), fmt::format("has a column '{}', and the environment is 2D: leave z out", z));
   }
   std::vector<Query_row<D, N>> rows(table.row_count());
   for (std::size_t r = 0; r < rows.size(); ++r) {

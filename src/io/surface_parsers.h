@@ -36,7 +36,7 @@ Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Sur
 template <class Reader>
 void check_planar(const Reader& in, const Body_elements* body, const Point<3>& p) {
   if (body && body->planar && p[2] != 0)
-    in.fail(fmt::format("z is {}, in a body of the plane: make every z zero, or use it in space", p[2]));
+    in.fail(fmt::format("z is {}, in a 2D body: make every z zero, or use it in 3D", p[2]));
 }
 
 }  // namespace cellwalk::io

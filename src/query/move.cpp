@@ -18,13 +18,11 @@ Motion_status to_status(Walk_status status) {
   return Motion_status::lost;
 }
 
-/// `is_compared`: the exact time of a contact is wanted, not only its rounding.
 template <class Kernel, int D>
 Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& to,
-                    const Move_options& options, bool is_compared, Edge_counts& counts) {
-  std::vector<Cell> visited;
-  const Walk_result<D> result = walk<Kernel>(snapshot, particle, to, counts.walk,
-                                             {options.strategy, is_compared ? &visited : nullptr, nullptr});
+                    const Move_options& options, Edge_counts& counts) {
+  const Walk_result<D> result =
+      walk<Kernel>(snapshot, particle, to, counts.walk, {options.strategy, nullptr, nullptr});
   Answer<D> answer{to_status(result.status), result.cells, result.cell, {}};
   if (options.touch == Touch::stop) {
     answer.contact = first_touch(snapshot, particle, to, counts);
@@ -33,12 +31,10 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
       answer.cell = answer.contact->cell;
     }
   } else if (result.contact) {
-    answer.contact = Contact<D>{*result.contact, Body_feature::vertex, Exact_time(result.contact->time)};
-    if (is_compared && Kernel::is_exact) {
-      Way<D> way{particle, particle, visited, {}, true};
-      way.to.position = to;
-      answer.contact->impact = vertex_contact(snapshot, way, *result.contact, counts.walk).impact;
-    }
+    if constexpr (Kernel::is_exact)
+      answer.contact = vertex_contact(snapshot, particle.position, to, *result.contact, counts.walk);
+    else
+      answer.contact = to_contact(*result.contact, Exact_time(result.contact->time), Body_feature::vertex);
   }
   return answer;
 }
@@ -50,9 +46,9 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const P
   Answer<D> best;
   best.status = Motion_status::outside;
   for (const Particle<D>& start : starts) {
-    const Answer<D> result = move_from<Kernel>(snapshot, start, to, options, starts.size() > 1, counts);
+    const Answer<D> result = move_from<Kernel>(snapshot, start, to, options, counts);
     const bool further = result.status == Motion_status::free ||
-                         (result.contact && best.contact && result.contact->impact > best.contact->impact);
+                         (result.contact && best.contact && result.contact->time > best.contact->time);
     if (best.status == Motion_status::outside || further) best = result;
     if (best.status == Motion_status::free) break;
   }

@@ -62,7 +62,7 @@ Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, c
   const Start<D>* best_start = nullptr;
   for (const Start<D>& start : all) {
     const Answer<D> result = sweep(start, exact);
-    if (best_start && result.contact && result.contact->impact <= best.contact->impact) continue;
+    if (best_start && result.contact && result.contact->time <= best.contact->time) continue;
     best = result;
     best_start = &start;
     if (best.status == Motion_status::free) return best;

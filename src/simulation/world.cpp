@@ -23,16 +23,10 @@ void World<D>::step() {
 
 template <int D>
 void World<D>::record_contacts(std::size_t particle) {
-  for (const Met_contact<D>& m : met_) {
-    const Vector<D> normal = m.contact.normal + Vector<D>{};  // no negative zeros for readers of tables
-    contacts_.push_back({steps_done_,
-                         static_cast<std::uint32_t>(particle),
-                         m.time,
-                         m.contact.point,
-                         normal,
-                         m.contact.kind,
-                         snapshot_.index(m.contact.cell),
-                         {}});
+  for (Contact<D>& met : met_) {
+    met.normal = met.normal + Vector<D>{};  // no negative zeros for readers of tables
+    contacts_.push_back(
+        {steps_done_, static_cast<std::uint32_t>(particle), met, snapshot_.index(met.cell), {}});
   }
   met_.clear();
 }
@@ -62,10 +56,10 @@ void World<D>::step_bodies() {
                     });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
     for (const Body_contact<D>& met : body_steps_[i].report.contacts) {
-      const Contact<D>& c = met.contact;
-      const Vector<D> normal = c.normal + Vector<D>{};
-      contacts_.push_back({steps_done_, 0, c.time, c.point, normal, c.kind, snapshot_.index(c.cell),
-                           Met_body{i, met.vertex, c.body, met.feature}});
+      Contact<D> contact = met.contact;
+      contact.normal = contact.normal + Vector<D>{};
+      contacts_.push_back(
+          {steps_done_, 0, contact, snapshot_.index(contact.cell), Met_body{i, met.vertex, met.feature}});
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/signs.h>
 #include <cellwalk/walk/detail/star.h>
 #include <cellwalk/walk/locate.h>
@@ -76,29 +77,32 @@ Locator<D>& Locator<D>::operator=(Locator&&) noexcept = default;
 
 namespace {
 
-/// A cell whose closure holds a point, and the class of those linked with it there.
+constexpr std::size_t no_side = ~std::size_t{0};
+
+/// A cell whose closure holds a point.
 template <int D>
 struct Found {
   Cell cell;
-  std::size_t side;
   std::vector<std::size_t> facets;  ///< those whose planes hold the point
+  std::size_t side = no_side;       ///< the class of those linked with it there
 };
 
-/// Classes of cells joined by passable facets that contain p. All cells that contain p are given.
+/// Finds the sides: classes of cells linked at p. All cells that contain p are given.
 template <int D>
-void join_sides(const Snapshot<D>& s, std::vector<Found<D>>& found, const Point<D>& p) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Cell_view<D> cell = s.view(found[i].cell);
-    for (const std::size_t f : found[i].facets) {
-      const Half_facet facet = Snapshot<D>::half_facet(found[i].cell, f);
-      // The neighbour holds p too if this facet does, but may share several coplanar facets.
-      if (s.is_impassable(facet) || !detail::in_facet(cell, f, p)) continue;
-      const auto other = std::find_if(found.begin(), found.end(),
-                                      [next = s.neighbor(facet)](const auto& x) { return x.cell == next; });
-      if (other == found.end()) continue;
-      const std::size_t from = other->side, to = found[i].side;
-      for (Found<D>& x : found)
-        if (x.side == from) x.side = to;
+void find_sides(const Snapshot<D>& s, std::vector<Found<D>>& found, const Point<D>& p) {
+  for (std::size_t side = 0; side < found.size(); ++side) {
+    if (found[side].side != no_side) continue;
+    detail::Link_search<D> links(s, found[side].cell);
+    while (links.next()) {
+      const auto here = std::find_if(found.begin(), found.end(),
+                                     [c = links.cell()](const Found<D>& x) { return x.cell == c; });
+      if (here == found.end()) continue;
+      here->side = side;
+      links.expand([&](const Cell_view<D>& cell, std::size_t i) {
+        // A cell may have several facets in one plane.
+        return std::find(here->facets.begin(), here->facets.end(), i) != here->facets.end() &&
+               detail::in_facet(cell, i, p);
+      });
     }
   }
 }
@@ -171,42 +175,39 @@ Location<D> Locator<D>::locate(const Point<D>& p) const {
     if (s.is_solid(c))
       in_solid = true;
     else
-      found.push_back({c, found.size(), std::move(on)});
+      found.push_back({c, std::move(on)});
   }
   if (found.empty()) {
     if (in_solid) location.status = Location_status::solid;
     return location;
   }
   location.status = Location_status::free;
-  if (found.size() > 1) join_sides(s, found, p);
+  find_sides(s, found, p);
   for (const Side_rank<D>& rank : ordered_sides(s, found)) {
+    const std::size_t first = location.cells.size();
     for (const Found<D>& x : found) {
       if (x.side != rank.side) continue;
       location.cells.push_back(x.cell);
-      location.side_of_cell.push_back(location.sides);
+      location.side_of_cell.push_back(static_cast<int>(location.sides.size()));
     }
-    ++location.sides;
+    const Cell cell = location.cells[first];
+    location.sides.push_back({p, cell, dimension_at(s, cell, p), 0});
   }
-  location.cell = location.cells.front();
-  location.dimension = dimension_at(s, location.cell, p);
+  location.cell = location.sides.front().cell;
+  location.dimension = location.sides.front().dimension;
   return location;
 }
 
 template <int D>
 std::optional<Particle<D>> Locator<D>::particle_at(const Point<D>& p) const {
   const Location<D> location = locate(p);
-  if (location.status != Location_status::free) return {};
-  return Particle<D>{p, location.cell, location.dimension, 0};
+  if (location.sides.empty()) return {};
+  return location.sides.front();
 }
 
 template <int D>
 std::vector<Particle<D>> Locator<D>::particles_at(const Point<D>& p) const {
-  const Location<D> location = locate(p);
-  std::vector<Particle<D>> particles;
-  for (std::size_t i = 0; i < location.cells.size(); ++i)
-    if (static_cast<int>(particles.size()) == location.side_of_cell[i])
-      particles.push_back({p, location.cells[i], dimension_at(index_->snapshot, location.cells[i], p), 0});
-  return particles;
+  return locate(p).sides;
 }
 
 template class Locator<2>;

@@ -6,21 +6,6 @@
 
 namespace cellwalk {
 
-Walk_counts& Walk_counts::operator+=(const Walk_counts& other) {
-  walks += other.walks;
-  stays += other.stays;
-  crossings += other.crossings;
-  plane_blocks += other.plane_blocks;
-  uncertain_lanes += other.uncertain_lanes;
-  side_tests += other.side_tests;
-  along_tests += other.along_tests;
-  turns += other.turns;
-  star_searches += other.star_searches;
-  star_cells += other.star_cells;
-  predicates += other.predicates;
-  return *this;
-}
-
 void detail::refuse_removed_cell() {
   throw Error(Error_code::usage,
               "a particle is in a cell that is not there: locate it again after cells were replaced");

@@ -44,7 +44,7 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const Contact<D>&x = of_a[i].contact, &y = of_b[i].contact;
     if (of_a[i].vertex != of_b[i].vertex) return "the vertex of a contact";
-    if (x.impact != y.impact) return "the time of a contact";
+    if (x.time != y.time) return "the time of a contact";
     if (x.body != y.body || x.kind != y.kind || of_a[i].feature != of_b[i].feature)
       return "the feature of a contact";
   }

@@ -111,7 +111,7 @@ class Body_in_orders {
   }
 
   void follow(std::vector<Body<D>>& bodies, int steps) {
-    for (const Point<D>& x : bodies[0].positions()) seen_.on_walls += locators_[0].locate(x).sides > 1;
+    for (const Point<D>& x : bodies[0].positions()) seen_.on_walls += locators_[0].locate(x).sides.size() > 1;
     for (int step = 0; step < steps; ++step) {
       std::vector<Point<D>> to(bodies[0].positions().begin(), bodies[0].positions().end());
       for (Point<D>& x : to)
@@ -172,7 +172,7 @@ class Body_in_orders {
     for (std::size_t c = 0; c < some.size(); ++c) {
       const Contact<D>&x = some[c].contact, &y = others[c].contact;
       if (some[c].vertex != others[c].vertex) return ": the vertex of a contact";
-      if (x.impact != y.impact) return ": the time of a contact";
+      if (x.time != y.time) return ": the time of a contact";
       if (x.body != y.body || some[c].feature != others[c].feature) return ": what of the body is met";
       if (x.kind != y.kind ||
           oracle::feature_of(worlds_[0]->snapshot, x) != oracle::feature_of(worlds_[order]->snapshot, y))

@@ -108,7 +108,7 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
   EXPECT_EQ(contact->vertex, 0u);
   EXPECT_EQ(contact->contact.kind, Contact_kind::edge);
   // The edge meets (2, 1.25, 1): on a line with (4.5, 1.25, 2.5), p is then at height 0.1.
-  EXPECT_NEAR(contact->contact.time, 2.4 / 2.45, 1e-12);
+  EXPECT_NEAR(contact->contact.rounded_time(), 2.4 / 2.45, 1e-12);
   EXPECT_EQ(contact->contact.point[1], 1.25);
   EXPECT_EQ(body.positions()[0], (Point<3>{0.5, 1.25, 2.5})) << "nothing moves where there is a contact";
 }

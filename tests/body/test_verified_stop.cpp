@@ -12,6 +12,14 @@ namespace {
 
 using test::rooms;
 
+/// What is in the way of a particle.
+template <int D>
+Contact<D> contact_of(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
+                      Walk_counts& counts) {
+  const Walk_result<D> result = walk<Exact>(snapshot, particle, target, counts);
+  return vertex_contact(snapshot, particle.position, target, result.contact.value(), counts);
+}
+
 template <int D>
 Particle<D> particle_at(const Snapshot<D>& snapshot, const Point<D>& p) {
   return Locator<D>(snapshot).particle_at(p).value();
@@ -22,9 +30,8 @@ TEST(VerifiedStop, StopsInTheWallPlaneWhereThatIsADouble) {
   auto particle = particle_at<3>(snapshot, {0.5, 0.5, 0.5});
   Walk_counts counts;
   const Point<3> target{3.5, 0.5, 0.5};
-  const auto result = move<Exact>(snapshot, particle, target, counts);
-  ASSERT_EQ(result.status, Walk_status::contact);
-  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, *result.contact, counts));
+  const Contact<3> contact = contact_of(snapshot, particle, target, counts);
+  EXPECT_TRUE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<3>{2, 0.5, 0.5}));
   EXPECT_EQ(particle.cell, snapshot.cell(1));
 }
@@ -49,7 +56,8 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
     const auto result = move<Exact>(snapshot, particle, target, counts);
     if (result.status != Walk_status::contact) continue;
     ++stops;
-    if (!stop_at_contact(snapshot, particle, target, *result.contact, counts)) ++stuck;
+    const Contact<3> contact = contact_of(snapshot, particle, target, counts);
+    if (!stop_at_contact(snapshot, particle, target, contact, counts)) ++stuck;
     at_the_point += particle.position == result.contact->point;
     EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
     EXPECT_LT(length(particle.position - result.contact->point), 1e-12);
@@ -65,15 +73,16 @@ TEST(VerifiedStop, GoesBackOnTheWayWhereNothingNearTheContactIsFree) {
   auto particle = particle_at<2>(snapshot, {1, 0.5});
   Walk_counts counts;
   const Point<2> target{3, 0.5};
-  auto contact = walk<Exact>(snapshot, particle, target, counts).contact.value();
-  contact.point[0] += 1e-9;  // behind the wall, and the normal leads further away
+  Contact<2> contact = contact_of(snapshot, particle, target, counts);
+  EXPECT_EQ(contact.rounded_time(), 0.5);
+  contact.time = Exact_time(0.5 + 0x1p-30);  // behind the wall, and the normal leads further away
   contact.normal = {1, 0};
   EXPECT_TRUE(stop_at_contact(snapshot, particle, target, contact, counts));
-  EXPECT_EQ(particle.position, (Point<2>{2 - 0x1p-20, 0.5}));
+  EXPECT_EQ(particle.position, (Point<2>{1 + 2 * ((0.5 + 0x1p-30) * (1 - 0x1p-20)), 0.5}));
   // Where it stands on the wall already, it stays.
   particle = particle_at<2>(snapshot, {2, 0.5});
-  contact = walk<Exact>(snapshot, particle, target, counts).contact.value();
-  EXPECT_EQ(contact.time, 0);
+  contact = contact_of(snapshot, particle, target, counts);
+  EXPECT_EQ(contact.time, Exact_time());
   EXPECT_FALSE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<2>{2, 0.5}));
 }
@@ -83,12 +92,12 @@ TEST(Advance, ReflectsWithRestitutionAndFriction) {
   const auto start = particle_at<2>(snapshot, {3, 2});
   const auto run = [&](double restitution, double friction) {
     auto particle = start;
-    std::vector<Met_contact<2>> met;
+    std::vector<Contact<2>> met;
     Walk_counts counts;
     const auto v = advance(snapshot, particle, Vector<2>{2, 0.5}, {restitution, friction}, met, counts);
     EXPECT_EQ(met.size(), 1u);
-    EXPECT_EQ(met.at(0).time, 0.5);
-    EXPECT_EQ(met.at(0).contact.normal, (Vector<2>{-1, 0}));
+    EXPECT_EQ(met.at(0).time, Exact_time(0.5));
+    EXPECT_EQ(met.at(0).normal, (Vector<2>{-1, 0}));
     return std::pair(particle.position, v);
   };
   const auto expect_near = [](const Point<2>& a, const Point<2>& b) { EXPECT_LT(length(a - b), 1e-13); };
@@ -109,7 +118,7 @@ TEST(Advance, ReflectsWithRestitutionAndFriction) {
 TEST(Advance, SlidesAlongTheEdgeOfTwoWallsAndRestsInACorner) {
   const auto snapshot = rooms<3>({4, 4, 4});
   auto particle = particle_at<3>(snapshot, {3, 3, 1});
-  std::vector<Met_contact<3>> met;
+  std::vector<Contact<3>> met;
   Walk_counts counts;
   auto v = advance(snapshot, particle, Vector<3>{2, 1.5, 1}, {}, met, counts);
   EXPECT_LT(length(particle.position - Point<3>{4, 4, 2}), 1e-13);
@@ -130,7 +139,7 @@ TEST(Advance, KeepsTheSpeedOfAParticleThatBouncesInAWedge) {
   add_polygon(soup, triangle);
   const auto snapshot = test::compile(soup);
   auto particle = particle_at<2>(snapshot, {6, 0.4});
-  std::vector<Met_contact<2>> met;
+  std::vector<Contact<2>> met;
   Walk_counts counts;
   const Wall_response elastic{1, 0, 200};
   const auto v = advance(snapshot, particle, Vector<2>{-20, 0.3}, elastic, met, counts);

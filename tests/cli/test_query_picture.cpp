@@ -54,7 +54,7 @@ TEST_F(Query_picture, RefusesRowsThatAreNotThereAndSpace) {
   succeed({"generate", "hexes", "--cells", "2", "-o", "space.ovm"});
   write_text(path("space.csv"), "ax,ay,az,bx,by,bz\n0.5,0.5,0.5,1.5,0.5,0.5\n");
   expect_failure(2, {"query", "space.ovm", "space.csv", "-o", "out.csv", "--picture", "p.png", "--row", "0"},
-                 {"draws motions of the plane"});
+                 {"draws 2D motions"});
 }
 
 }  // namespace

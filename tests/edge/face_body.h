@@ -16,7 +16,8 @@ class Face_body {
  public:
   /// What came of a move. It is made if nothing is in its way.
   struct Outcome {
-    std::optional<Wall_contact<3>> vertex, edge;  ///< of p; of an edge, if p is free
+    std::optional<Wall_contact<3>> vertex;  ///< of p
+    std::optional<Contact<3>> edge;         ///< of an edge, if p is free
     Face_result face;
     bool is_made() const { return !vertex && !edge && !face.contact; }
     bool is_face_only() const { return !vertex && !edge && face.contact; }
@@ -56,8 +57,8 @@ class Face_body {
     const Way<3> way{corners_[k], p, visited, crossed, outcome.vertex.has_value()};
     Chain next = chains_[k], last = reversed(snapshot_, chains_[i]);  // from p to the others
     if (!outcome.vertex) {
-      const Chain_result<3> to_next = sweep_triangle<3>(snapshot_, way, corners_[j], next, edge_counts);
-      const Chain_result<3> to_last = sweep_triangle<3>(snapshot_, way, corners_[i], last, edge_counts);
+      const Sweep_result<3> to_next = sweep_triangle<3>(snapshot_, way, corners_[j], next, edge_counts);
+      const Sweep_result<3> to_last = sweep_triangle<3>(snapshot_, way, corners_[i], last, edge_counts);
       outcome.edge = to_next.contact ? to_next.contact : to_last.contact;
       next = to_next.chain;
       last = to_last.chain;

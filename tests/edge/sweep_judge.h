@@ -75,10 +75,11 @@ oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& sn
 template <int D>
 Sweep_fault fault_of(const oracle::Chain_oracle<D>& oracle, const oracle::Edge_motion<D>& motion,
                      const oracle::Outcomes& outcomes, const Snapshot<D>& snapshot,
-                     const Chain_result<D>& result) {
+                     const Sweep_result<D>& result) {
   if (result.contact) {
     if (outcomes.blocks.empty()) return Sweep_fault::false_block;
-    return outcomes.may_be_blocked_at(result.contact->time) ? Sweep_fault::none : Sweep_fault::wrong_time;
+    return outcomes.may_be_blocked_at(result.contact->rounded_time()) ? Sweep_fault::none
+                                                                      : Sweep_fault::wrong_time;
   }
   if (!outcomes.may_be_free()) return Sweep_fault::false_free;
   return oracle.is_end(motion, outcomes, soup_chain(oracle.soup(), snapshot, result.chain))

@@ -46,7 +46,7 @@ class Scene {
   struct Judged {
     oracle::Edge_motion<D> motion;
     oracle::Outcomes outcomes;
-    Chain_result<D> result;  ///< of the library, which must be right
+    Sweep_result<D> result;  ///< of the library, which must be right
   };
 
   Judged judge(const Case<D>& c) const {
@@ -286,18 +286,18 @@ TEST(ChainOracle, BrokenSweepsAreCaught) {
   };
   auto wrong = blocked.result;
   for (const double toward : {0.0, 1.0}) {
-    wrong.contact->time = std::nextafter(0.5, toward);
+    wrong.contact->time = Exact_time(std::nextafter(0.5, toward));
     EXPECT_EQ(fault(scene, blocked, wrong), Sweep_fault::wrong_time);
   }
-  wrong = {scene.chain({4, 0}), {}};
+  wrong = {{}, scene.chain({4, 0})};
   EXPECT_EQ(fault(scene, blocked, wrong), Sweep_fault::false_free);
   // A membrane with a way round it at both ends: the chain must stay on its side.
   const Scene<2> membrane(make_squares(2, 3), {{2, 3}});
   const auto free = membrane.judge({{1, 2.5}, {1, 2.75}, {1, 0.25}, {4, 2, 0}});
-  EXPECT_EQ(fault(membrane, free, Chain_result<2>{membrane.chain({4, 5, 3, 1, 0}), {}}),
+  EXPECT_EQ(fault(membrane, free, Sweep_result<2>{{}, membrane.chain({4, 5, 3, 1, 0})}),
             Sweep_fault::wrong_chain);
-  EXPECT_EQ(fault(membrane, free, Chain_result<2>{membrane.chain({4}), {}}), Sweep_fault::wrong_chain);
-  EXPECT_EQ(fault(membrane, free, Chain_result<2>{{}, Wall_contact<2>{}}), Sweep_fault::false_block);
+  EXPECT_EQ(fault(membrane, free, Sweep_result<2>{{}, membrane.chain({4})}), Sweep_fault::wrong_chain);
+  EXPECT_EQ(fault(membrane, free, Sweep_result<2>{Contact<2>{}, {}}), Sweep_fault::false_block);
   // The oracle itself does not begin with what is no chain.
   EXPECT_THROW(membrane.judge({{0.5, 2.5}, {0.5, 2.75}, {0.5, 0.25}, {4, 5, 3, 1, 0}}),
                std::invalid_argument);

@@ -70,7 +70,7 @@ void check_membrane(const Triangle& t, std::span<const Point<3>> inside, Membran
   // At each corner a particle passes from one side to the other: free space goes round the rim.
   const Point<3> lower_pole = snapshot.point(4);
   for (const Point<3>& corner : t) {
-    EXPECT_EQ(locator.locate(corner).sides, 1);
+    EXPECT_EQ(locator.locate(corner).sides.size(), 1);
     Particle<3> particle{corner, above, 0, 0};
     EXPECT_EQ(move(snapshot, particle, lower_pole, counts).status, Walk_status::arrived);
   }

@@ -31,16 +31,16 @@ void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<
   Particle<D> to = from;
   to.position = target;
   to.cell = visited.back();
-  const Chain_result<D> edge =
+  const Sweep_result<D> edge =
       sweep_triangle<D>(w.snapshot, {from, to, visited, crossed, true}, q, chain, seen.counts);
   const auto hit = w.walls.first_hit(from.position, target, q.position);
   constexpr double rounding = 0x1p-50;  // of all three times
   ++seen.blocked;
   if (edge.contact) {
     ++seen.edge_first;
-    EXPECT_LE(edge.contact->time, blocked.time + rounding);
+    EXPECT_LE(edge.contact->rounded_time(), blocked.time + rounding);
     if (generic) {
-      EXPECT_TRUE(hit && std::abs(*hit - edge.contact->time) <= rounding) << w.world.name;
+      EXPECT_TRUE(hit && std::abs(*hit - edge.contact->rounded_time()) <= rounding) << w.world.name;
     }
   } else if (hit) {
     EXPECT_GE(*hit, blocked.time - rounding) << w.world.name << ": an edge hit before its end is missed";
@@ -62,7 +62,9 @@ Triangle_seen sweep_triangles(bool generic) {
       if (p.cell == Cell::none) continue;
       const Particle<D> q = w.end(p);
       if (q.cell == Cell::none) continue;
-      Chain_result<D> edge = find_chain(w.snapshot, p, q, seen.counts.walk);
+      const Chain_result<D> start = find_chain(w.snapshot, p, q, seen.counts.walk);
+      if (start.contact) continue;
+      Sweep_result<D> edge{{}, start.chain};
       for (int step = 0; step < 6 && !edge.contact; ++step) {
         const Particle<D> from = p;
         std::vector<Cell> visited;
@@ -95,12 +97,12 @@ Triangle_seen sweep_triangles(bool generic) {
         }
         if (!hit && edge.contact) {
           ++seen.only_blocked;
-          EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->time;
+          EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->rounded_time();
         }
         if (hit && edge.contact) {
           // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a side.
           constexpr double rounding = 0x1p-52;  // of both times
-          const double early = *hit - edge.contact->time;
+          const double early = *hit - edge.contact->rounded_time();
           seen.wrong_times += early < 0 || (generic && early > rounding);
           EXPECT_GE(early, 0) << w.world.name;
           if (generic) {

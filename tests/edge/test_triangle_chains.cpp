@@ -60,7 +60,7 @@ std::string describe(const oracle::Edge_motion<D>& motion) {
 /// A sweep, and what is said of it.
 template <int D>
 void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const Way<D>& way,
-           const Particle<D>& q, const Chain& before, const Chain_result<D>& result, Chains_seen& seen) {
+           const Particle<D>& q, const Chain& before, const Sweep_result<D>& result, Chains_seen& seen) {
   const auto motion = motion_of(w.world.soup, w.snapshot, way, q, before);
   const oracle::Outcomes outcomes = oracle.judge(motion);
   const auto fault = fault_of(oracle, motion, outcomes, w.snapshot, result);
@@ -83,12 +83,15 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   seen.long_chains += before.size() >= 8;
   if (way.blocked) return;
   seen.only_together += result.contact && !w.walls.is_crossed(motion.a, motion.b, motion.q);
-  seen.at_once += result.contact && result.contact->time == 0;
+  seen.at_once += result.contact && result.contact->rounded_time() == 0;
   // A weaker sweep must not satisfy the oracle.
   Walk_counts counts;
-  const auto third =
-      fault_of(oracle, motion, outcomes, w.snapshot, find_chain(w.snapshot, way.to, q, counts));
-  ++seen.faults_of_third_side[static_cast<std::size_t>(third)];
+  const Chain_result<D> found = find_chain(w.snapshot, way.to, q, counts);
+  Sweep_result<D> third{{}, found.chain};
+  if (found.contact)
+    third.contact = to_contact(*found.contact, Exact_time(found.contact->time), Body_feature::edge);
+  const Sweep_fault of_third = fault_of(oracle, motion, outcomes, w.snapshot, third);
+  ++seen.faults_of_third_side[static_cast<std::size_t>(of_third)];
 }
 
 /// Edges of one world, one end of which is moved on and on.
@@ -100,7 +103,9 @@ void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
     if (p.cell == Cell::none) continue;
     const Particle<D> q = w.end(p);
     if (q.cell == Cell::none) continue;
-    Chain_result<D> edge = find_chain(w.snapshot, p, q, seen.counts.walk);
+    const Chain_result<D> start = find_chain(w.snapshot, p, q, seen.counts.walk);
+    if (start.contact) continue;
+    Sweep_result<D> edge{{}, start.chain};
     for (int step = 0; step < 6 && !edge.contact; ++step) {
       const Particle<D> from = p;
       std::vector<Cell> visited;
@@ -116,7 +121,7 @@ void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
         to.cell = visited.back();
       }
       const Way<D> way{from, to, visited, crossed, blocked};
-      const Chain_result<D> result = sweep_triangle<D>(w.snapshot, way, q, edge.chain, seen.counts);
+      const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, way, q, edge.chain, seen.counts);
       judge(w, oracle, way, q, edge.chain, result, seen);
       if (!blocked) edge = result;
     }

@@ -65,8 +65,9 @@ class Mover {
       };
       const bool is_well_placed = cells.empty() || is_right_dimension(cells.front());
       std::sort(cells.begin(), cells.end());
-      demand(cells == place.free_cells && here.sides == place.sides && is_well_placed,
-             "a point is located wrongly");
+      demand(
+          cells == place.free_cells && static_cast<int>(here.sides.size()) == place.sides && is_well_placed,
+          "a point is located wrongly");
       ++totals.places;
     }
     if (here.status != Location_status::free) return std::nullopt;
@@ -123,7 +124,8 @@ class Mover {
     options.cells = in.flag() ? Search_cells::traversed : Search_cells::flooded;
     const Sweep_result<D> result = sweep_edge(snapshot_, p, to, q, edge.chain, options, counts);
     if (result.contact)
-      demand(0 <= result.contact->time && result.contact->time <= 1, "a contact has no time in [0,1]");
+      demand(Exact_time() <= result.contact->time && result.contact->time <= Exact_time(1),
+             "a contact has no time in [0,1]");
     else
       demand(result.p.position == to, "an edge that is free is not where it went");
     demand_chain(result.p, q, result.chain);
@@ -144,7 +146,7 @@ class Mover {
       to.cell = visited.back();
     }
     const Way<D> way{from, to, visited, crossed, blocked};
-    const Chain_result<D> result = sweep_triangle<D>(snapshot_, way, q, before, counts, certificates);
+    const Sweep_result<D> result = sweep_triangle<D>(snapshot_, way, q, before, counts, certificates);
     if (!blocked && !result.contact) demand_chain(to, q, result.chain);
     if (!sweeps_ || !has_few_digits(from.position) || !has_few_digits(target) || !has_few_digits(q.position))
       return;

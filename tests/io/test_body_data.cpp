@@ -27,7 +27,7 @@ TEST(PublicBodies, AreClosedSurfaces) {
     EXPECT_EQ(b.points + b.polygons + 2 * b.handles, file.body.edges.size() + 2);
     const std::string message =
         refusal([&] { read_body<2>(std::filesystem::path(CELLWALK_TEST_DATA) / "body" / b.file); });
-    EXPECT_NE(message.find(", in a body of the plane: "), std::string::npos) << message;
+    EXPECT_NE(message.find(", in a 2D body: "), std::string::npos) << message;
   }
 }
 

@@ -86,7 +86,7 @@ TEST(BodyFile, ReadsFlatFilesInThePlane) {
 }
 
 TEST(BodyFile, RefusesAHeightInThePlaneWithItsLine) {
-  const std::string what = ": z is 0.5, in a body of the plane: make every z zero, or use it in space";
+  const std::string what = ": z is 0.5, in a 2D body: make every z zero, or use it in 3D";
   EXPECT_EQ(said_of<2>("b.off", with(flag_off, "0 3 0", "0 3 0.5")), "b.off:6" + what);
   EXPECT_EQ(said_of<2>("b.obj", with(flag_obj, "0 3 0", "0 3 0.5")), "b.obj:6" + what);
   EXPECT_EQ(said_of<2>("b.ply", with(flag_ply, "0 3 0", "0 3 0.5")), "b.ply:17" + what);
@@ -210,7 +210,7 @@ TEST(BodyFile, RefusesWithFileAndLine) {
     EXPECT_EQ(said_of<3>(c.name, c.text), c.message);
   }
   EXPECT_EQ(said_of<2>("b.csv", "x,y,z\n0,0,0\n"),
-            "b.csv: has a column 'z', and the environment is one of the plane: leave z out");
+            "b.csv: has a column 'z', and the environment is 2D: leave z out");
   EXPECT_TRUE(said_of<3>("b.xyz", "0 0 0\n")
                   .starts_with("b.xyz: the format is not known, neither by its content nor by its extension; "
                                "bodies are read from .csv, "));

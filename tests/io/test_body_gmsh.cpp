@@ -64,16 +64,15 @@ TEST(BodyGmsh, ReadsVolumesWithAllTheirEdgesAndFacets) {
 TEST(BodyGmsh, RefusesAHeightInThePlane) {
   const Folder folder;
   const auto path = folder.write("b.msh", msh("2\n1 0 0 0\n2 1 0 3\n", "1\n1 1 2 0 1 1 2\n"));
-  EXPECT_EQ(
-      refusal([&] { read_body<2>(path); }),
-      path.string() + ": vertex 1: z is 3, in a body of the plane: make every z zero, or use it in space");
+  EXPECT_EQ(refusal([&] { read_body<2>(path); }),
+            path.string() + ": vertex 1: z is 3, in a 2D body: make every z zero, or use it in 3D");
 }
 
 TEST(BodyGmsh, LeavesLinesOutOfMeshes) {
   const Folder folder;
   const auto path = folder.write("b.msh", msh(square, "2\n1 3 2 0 1 1 2 3 4\n2 1 2 0 1 1 2\n"));
-  EXPECT_EQ(read_mesh(path).report.notes, (Notes{"1 point and line elements ignored",
-                                                 "every z is zero: the polygons are cells of the plane"}));
+  EXPECT_EQ(read_mesh(path).report.notes,
+            (Notes{"1 point and line elements ignored", "every z is zero: the polygons are 2D cells"}));
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ TEST(Ovm, TellsThePlaneFromSpaceWithoutAPropertyToo) {
       "4\nPolyhedra\n0\n";
   EXPECT_EQ(std::get<Cell_soup<2>>(parse_ovm("t.ovm", square).mesh).cell_count(), 1u);
   EXPECT_EQ(refusal([&] { parse_ovm("t.ovm", with(square, "-0", "1")); }),
-            "t.ovm: holds no polyhedra, and is no environment of the plane (z is not zero throughout)");
+            "t.ovm: holds no polyhedra, and is no 2D environment (z is not zero throughout)");
   EXPECT_EQ(refusal([&] { parse_ovm("t.ovm", with(square, "-0", "1") + "MProp int \"dimension\"\n2\n"); }),
             "t.ovm: is said to be of dimension 2, yet has polyhedra or z that are not zero: correct either");
 }

@@ -149,8 +149,7 @@ TEST(MeshFile, FlatSurfacesAreCellsOfThePlane) {
   const auto& soup = std::get<Cell_soup<2>>(file.mesh);
   EXPECT_EQ(soup.cell_count(), 2u);
   EXPECT_EQ(soup.facet(4)[1], 2u);
-  EXPECT_EQ(file.report.notes,
-            (std::vector<std::string>{"every z is zero: the polygons are cells of the plane"}));
+  EXPECT_EQ(file.report.notes, (std::vector<std::string>{"every z is zero: the polygons are 2D cells"}));
 }
 
 TEST(MeshFile, TheContentDecidesWhereItTells) {

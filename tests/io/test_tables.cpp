@@ -101,7 +101,7 @@ TEST(Queries, TheDimensionMustFit) {
   EXPECT_EQ(refusal([&] { read_moves<3>(plane); }),
             plane.string() + ": has no column 'az': its header names ax,ay,bx,by");
   EXPECT_EQ(refusal([&] { read_moves<2>(space); }),
-            space.string() + ": has a column 'az', and the environment is one of the plane: leave z out");
+            space.string() + ": has a column 'az', and the environment is 2D: leave z out");
   EXPECT_TRUE(read_moves<3>(space).empty());
 }
 
@@ -117,7 +117,7 @@ TEST(Queries, SweepsHaveAnEndThatMovesAndOneThatStands) {
             plane.string() + ": has no column 'ax': its header names qx,qy,px,py,tx,ty");
   const auto mixed = folder.write("m.csv", "px,py,tx,ty,qx,qy,qz\n1,2,3,4,5,6,7\n");
   EXPECT_EQ(refusal([&] { read_sweeps<2>(mixed); }),
-            mixed.string() + ": has a column 'qz', and the environment is one of the plane: leave z out");
+            mixed.string() + ": has a column 'qz', and the environment is 2D: leave z out");
 }
 
 TEST(Json, IsWrittenInOrder) {

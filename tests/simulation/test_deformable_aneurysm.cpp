@@ -51,7 +51,7 @@ TEST(DeformableInAnAneurysm, KeepsItsInvariants) {
   for (int i = 0; i < 300; ++i) {
     world.step();
     contacts += world.contacts().size();
-    for (const auto& c : world.contacts()) of_edges += c.body->feature == Body_feature::edge;
+    for (const auto& c : world.contacts()) of_edges += c.contact.body == Body_feature::edge;
     if (i % 5 == 0) world.validate();
   }
   EXPECT_GT(contacts, 300u);
@@ -81,7 +81,7 @@ TEST(RodInAnAneurysm, GoesThroughIt) {
   std::size_t of_edges = 0;
   for (int i = 0; i < 800 && !world.catheter()->has_arrived(); ++i) {
     world.step();
-    for (const auto& c : world.contacts()) of_edges += c.body->feature == Body_feature::edge;
+    for (const auto& c : world.contacts()) of_edges += c.contact.body == Body_feature::edge;
     if (i % 10 == 0) world.validate();
   }
   world.validate();

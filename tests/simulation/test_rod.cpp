@@ -45,7 +45,7 @@ Pushed push(World<D>& world, int steps, double spacing) {
     pushed.contacts += world.contacts().size();
     for (const auto& c : world.contacts()) {
       EXPECT_EQ(c.body->body, 0u);
-      pushed.of_edges += c.body->feature == Body_feature::edge;
+      pushed.of_edges += c.contact.body == Body_feature::edge;
     }
     const auto x = world.catheter()->body().positions();
     for (std::size_t k = 0; k + 1 < x.size(); ++k)

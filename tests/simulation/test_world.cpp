@@ -38,12 +38,12 @@ std::array<std::size_t, 3> run_checked(const Snapshot<D>& snapshot, World<D>& wo
       EXPECT_TRUE(test::is_where_it_says(locator, world.particles()[k]))
           << "particle " << k << ", step " << i;
     for (const Contact_record<D>& c : world.contacts()) {
-      EXPECT_TRUE(test::lies_in_a_wall(snapshot, c.point, c.normal, 1e-9))
+      EXPECT_TRUE(test::lies_in_a_wall(snapshot, c.contact.point, c.contact.normal, 1e-9))
           << "particle " << c.particle << ", step " << i;
-      EXPECT_NEAR(length(c.normal), 1, 1e-15);
-      EXPECT_TRUE(c.time >= 0 && c.time <= 1);
+      EXPECT_NEAR(length(c.contact.normal), 1, 1e-15);
+      EXPECT_TRUE(Exact_time() <= c.contact.time && c.contact.time <= Exact_time(1));
       EXPECT_EQ(c.step, world.steps_done());
-      ++kinds[static_cast<std::size_t>(c.kind)];
+      ++kinds[static_cast<std::size_t>(c.contact.kind)];
     }
   }
   return kinds;

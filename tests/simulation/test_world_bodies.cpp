@@ -55,19 +55,19 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
     }
     for (const Contact_record<D>& c : world.contacts()) {
       EXPECT_EQ(c.step, world.steps_done());
-      EXPECT_NEAR(length(c.normal), 1, 1e-14);
-      EXPECT_TRUE(c.time >= 0 && c.time <= 1);
+      EXPECT_NEAR(length(c.contact.normal), 1, 1e-14);
+      EXPECT_TRUE(Exact_time() <= c.contact.time && c.contact.time <= Exact_time(1));
       if (!c.body) {
         ++seen.of_particles;
         continue;
       }
       const Body<D>& body = world.bodies()[c.body->body].body();
       ASSERT_LT(c.body->vertex, body.vertex_count());
-      if (c.body->feature == Body_feature::vertex) {
+      if (c.contact.body == Body_feature::vertex) {
         EXPECT_EQ(c.body->number, c.body->vertex);
         ++seen.by_vertex;
       } else {
-        ASSERT_EQ(c.body->feature, Body_feature::edge);
+        ASSERT_EQ(c.contact.body, Body_feature::edge);
         ASSERT_LT(c.body->number, body.edges().size());
         const auto [u, v] = body.edges()[c.body->number];
         EXPECT_TRUE(u == c.body->vertex || v == c.body->vertex);
@@ -75,7 +75,7 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
       }
       // All walls of these worlds are parallel to the axes: a coordinate of the point is whole.
       bool is_whole = false;
-      for (const double x : c.point) is_whole = is_whole || std::abs(x - std::round(x)) < 1e-9;
+      for (const double x : c.contact.point) is_whole = is_whole || std::abs(x - std::round(x)) < 1e-9;
       EXPECT_TRUE(is_whole);
     }
   }
@@ -144,7 +144,7 @@ TEST(WorldBodies, AnyNumberOfThreadsGivesTheSameBits) {
       world.step();
       h = hash_of(world, h);
       for (const auto& c : world.contacts()) {
-        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.time) ^ c.body->body);
+        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.contact.rounded_time()) ^ c.body->body);
         ++contacts;
       }
     }
@@ -196,8 +196,8 @@ TEST(WorldBodies, AGuidedBodyIsStoppedByAWallAndSlidesAlongIt) {
     world.validate();
     for (const auto& c : world.contacts()) {
       ++contacts;
-      EXPECT_EQ(c.normal, (Vector<2>{-1, 0}));
-      EXPECT_NEAR(c.point[0], 4, 1e-12);
+      EXPECT_EQ(c.contact.normal, (Vector<2>{-1, 0}));
+      EXPECT_NEAR(c.contact.point[0], 4, 1e-12);
     }
     if (i < 63 || i >= 101)
       continue;  // from (4.1, 1.05) on: the right side is held at the wall, the left one is not

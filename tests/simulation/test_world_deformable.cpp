@@ -48,7 +48,7 @@ void expect_hexahedra_bounce(const Shape_material& material, int steps) {
   std::size_t by_vertex = 0, by_edge = 0;
   for (int i = 0; i < steps; ++i) {
     world.step();
-    for (const auto& c : world.contacts()) ++(c.body->feature == Body_feature::vertex ? by_vertex : by_edge);
+    for (const auto& c : world.contacts()) ++(c.contact.body == Body_feature::vertex ? by_vertex : by_edge);
     for (std::size_t b = 0; b < energy.size(); ++b)
       EXPECT_LE(world.bodies()[b].as<Deformable<3>>()->kinetic_energy(), energy[b] * (1 + 1e-14));
     if (i % 20 == 0) world.validate();

@@ -104,8 +104,9 @@ class Reordered_world {
 };
 
 /// Where a contact is on the environment, in coordinates: a vertex, the two ends of an edge, or all corners of a facet.
-template <int D>
-std::vector<Point<D>> feature_of(const Snapshot<D>& snapshot, const Wall_contact<D>& contact) {
+/// Any struct that names it as Wall_contact does.
+template <int D, class Met>
+std::vector<Point<D>> feature_of(const Snapshot<D>& snapshot, const Met& contact) {
   const std::vector<std::uint32_t> loop = snapshot.loop(contact.facet);
   std::vector<Point<D>> feature;
   const auto add = [&](std::size_t i) { feature.push_back(snapshot.point(loop[i % loop.size()])); };

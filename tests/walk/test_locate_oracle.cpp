@@ -56,7 +56,7 @@ void compare(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Locator
   const int dimension = place.dimensions[static_cast<std::size_t>(number)];
   ASSERT_EQ(location.dimension, dimension);
   ASSERT_EQ(particle.dimension, dimension);
-  ASSERT_EQ(location.sides, place.sides);
+  ASSERT_EQ(location.sides.size(), static_cast<std::size_t>(place.sides));
   ++(place.sides == 1 ? tally.one_side : place.sides == 2 ? tally.two_sides : tally.more_sides);
   ++tally.by_dimension[place.dimension];
   tally.most_cells = std::max(tally.most_cells, cells.size());

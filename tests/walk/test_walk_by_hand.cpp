@@ -167,7 +167,7 @@ TEST(WalkByHand, MeetsPinchedVerticesAsWalls) {
   EXPECT_EQ(contact.kind, Contact_kind::vertex);
   const Location<2> pinch = scene.locate({1, 1});
   EXPECT_EQ(pinch.cells.size(), 2u);
-  EXPECT_EQ(pinch.sides, 2);
+  EXPECT_EQ(pinch.sides.size(), 2);
   EXPECT_EQ(pinch.dimension, 0);
 }
 
@@ -213,13 +213,13 @@ TEST(LocateByHand, KnowsSolidOutsideAndDisconnectedSpace) {
   EXPECT_EQ(scene.locate({-0x1p-1074, 0.5}).status, Location_status::outside);
   const Location<2> left = scene.locate({2, 0.5}), right = scene.locate({3, 1});
   EXPECT_EQ(scene.snapshot().index(left.cell), 1u);
-  EXPECT_EQ(left.sides, 1);
+  EXPECT_EQ(left.sides.size(), 1);
   EXPECT_EQ(left.dimension, 1);
   EXPECT_EQ(scene.snapshot().index(right.cell), 3u);
   EXPECT_EQ(right.dimension, 0);
   const Location<2> between = scene.locate({1, 0.5});
   EXPECT_EQ(between.cells.size(), 2u);
-  EXPECT_EQ(between.sides, 1);
+  EXPECT_EQ(between.sides.size(), 1);
 }
 
 }  // namespace

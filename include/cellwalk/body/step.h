@@ -6,8 +6,11 @@
 #include <cellwalk/edge/face.h>
 #include <cellwalk/edge/sweep.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace cellwalk {
@@ -99,8 +102,11 @@ struct Body_counts {
   Edge_counts edges;
   Face_counts faces;
 
-  Body_counts& operator+=(const Body_counts& other);
+  static constexpr std::array<std::string_view, 9> names{"moves",     "in_region",    "regions",
+                                                         "no_region", "region_cells", "catch_ups",
+                                                         "contacts",  "stop_tries",   "held"};
 };
+static_assert(names_all_before<Body_counts>(offsetof(Body_counts, edges)));
 
 }  // namespace cellwalk
 

@@ -3,21 +3,21 @@
 #ifndef CELLWALK_BODY_VERIFIED_STOP_H
 #define CELLWALK_BODY_VERIFIED_STOP_H
 
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/edge/sweep.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace cellwalk {
 
 /// Moves a particle to a point near a contact for which the complete move from where it stands is found free. Tried in
-/// this order: the rounded contact point; that point shifted along the normal by 1, 2, 4 .. 1024 ulp of its largest
-/// coordinate; points on the way at time (1 - 2^-k) of the contact's, k = 20 .. 1; where it stands.
-/// \pre contact is what moving this particle to `target` reported
-/// Returns true if the particle moved. Cost: usually one walk, at most 32.
+/// this order, which is that of bodies: the exact contact point with each coordinate rounded up or down, towards where the particle
+/// stands first; that point shifted along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at time
+/// (1 - 2^-k) of the contact's, k = 20 .. 1; where it stands.
+/// \pre contact is that of moving this particle to `target`, see vertex_contact()
+/// Returns true if the particle moved. Cost: usually one to three walks and some rational arithmetic, at most 39 walks.
 template <int D>
 bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
-                     const Wall_contact<D>& contact, Walk_counts& counts);
+                     const Contact<D>& contact, Walk_counts& counts);
 
 /// How walls answer.
 struct Wall_response {
@@ -27,21 +27,15 @@ struct Wall_response {
       8;  ///< contacts of one particle in one step; where there are more it rests until the next step
 };
 
-/// A contact met on the way, and the share of the motion that had passed.
-template <int D>
-struct Met_contact {
-  double time = 0;
-  Wall_contact<D> contact;
-};
-
 /// Moves a particle by `velocity` for a unit of time. At each contact it stops (stop_at_contact), its velocity is
 /// reflected or made to slide along the wall, and what remains of the time is a new move, lifted off the wall by a few
 /// ulp. A particle that slides into a corner goes on along the edge between the two walls, or rests.
-/// Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are appended to `met`.
+/// Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are appended to `met`,
+/// their times as shares of the unit of time: the first is exact, those after it follow from positions that are rounded.
 /// \pre velocity is finite, response is in range
 template <int D>
 Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> velocity,
-                  const Wall_response& response, std::vector<Met_contact<D>>& met, Walk_counts& counts);
+                  const Wall_response& response, std::vector<Contact<D>>& met, Walk_counts& counts);
 
 }  // namespace cellwalk
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Contacts of bodies, however they were found. Paper: section III.
+// Contacts of bodies, independent of the method that found them. Paper: section III.
 #ifndef CELLWALK_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_H
 
@@ -11,26 +11,41 @@
 
 namespace cellwalk {
 
-/// The feature of a body that meets a wall. Ties in time go to the first of them.
+/// The feature of a body that meets a wall. At equal times the first of them counts.
 enum class Body_feature : std::uint8_t { vertex, edge, face };
 
-/// When, where and by what the motion of a vertex p is blocked, be it itself, an edge at it or a face.
-///
-/// time: share of the motion of p that is free, never later than the contact; impact is the same before rounding, where the
-/// search is exact. point: rounded. normal: unit, on the free side. If the vertex is blocked, or an edge by the inside of a
-/// facet, that of the wall; if an edge is blocked by an edge or vertex, the direction that is perpendicular to both. Always
-/// against the motion: docs/bodies.md says what it is where that asks for another. kind, facet, corner: of the environment.
+/// A contact that blocks the motion of a vertex p: of the vertex itself, or of an edge or a face at it.
 template <int D>
-struct Contact : Wall_contact<D> {
+struct Contact {
+  /// The share of the motion of p that is free. Exact wherever signs are: only a bisection gives a time before it, and a walk with an
+  /// inexact kernel one that is computed in doubles.
+  Exact_time time;
+  Point<D> point{};  ///< where the wall is met, rounded
+  /// Unit, on the free side. If the vertex is blocked, or an edge by the inside of a facet, that of the wall; if an edge is blocked
+  /// by an edge or vertex, the direction that is perpendicular to both. Always against the motion: docs/bodies.md says what it is
+  /// where that asks for another.
+  Vector<D> normal{};
+  Contact_kind kind = Contact_kind::facet;  ///< what of the wall is met
+  std::uint16_t corner = 0;                 ///< which vertex or edge of it, see Wall_contact
+  Half_facet facet = Half_facet::none;      ///< the wall seen from the free side; names its dart
+  Cell cell = Cell::none;                   ///< in which the motion ends
   Body_feature body = Body_feature::vertex;
-  Exact_time impact;
+
+  /// The time as it is reported: the greatest double that is not later.
+  double rounded_time() const { return time.rounded(); }
 };
 
-/// The order of contacts: by exact time, then vertices of the body before edges before faces, then features of the environment
-/// in that order, then by place and normal, last by half-facets.
+/// The contact at a time with the wall that a walk met.
+template <int D>
+Contact<D> to_contact(const Wall_contact<D>& met, const Exact_time& time, Body_feature body) {
+  return {time, met.point, met.normal, met.kind, met.corner, met.facet, met.cell, body};
+}
+
+/// The order of contacts: by exact time, then by the feature of the body (vertices, edges, faces), then
+/// likewise by the feature of the environment, then by point and normal, and finally by half-facet.
 template <int D>
 bool is_before(const Contact<D>& a, const Contact<D>& b) {
-  if (const auto order = a.impact <=> b.impact; order != 0) return order < 0;
+  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
   return std::tie(a.body, a.kind, a.point, a.normal, a.facet) <
          std::tie(b.body, b.kind, b.point, b.normal, b.facet);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The flood of a swept triangle: where it meets no wall at all, the sweep is free. Theory: docs/sweep.md.
+// The flood of a swept triangle: if it meets no wall at all, the sweep is free. Theory: docs/sweep.md. Paper:
+// section III.
 #ifndef CELLWALK_EDGE_FLOOD_H
 #define CELLWALK_EDGE_FLOOD_H
 
@@ -15,9 +16,9 @@ struct Swept_triangle {
   Point<D> a, b, q;
 };
 
-/// True proves that no wall meets the closed triangle: the sweep is free, and every chain of bq is its end. False proves
-/// nothing: a wall may only touch the triangle, lie in its plane or the triangle be degenerate; or more than `most_cells`
-/// cells meet it. All signs are exact.
+/// True proves that no wall meets the closed triangle. Then the sweep is free, and all chains of bq are equal
+/// to its result. False is inconclusive: a wall may only touch the triangle or lie in its plane, the triangle
+/// may be degenerate, or more than `most_cells` cells meet it. All signs are exact.
 /// \pre a lies in the closure of `start`, a free cell
 /// Cost: some twenty signs a facet of the cells that meet the triangle.
 template <int D>

@@ -1,38 +1,57 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The complete sweep of a body edge: its chain is carried along while one end moves. Theory: docs/sweep.md.
+// The complete sweep of a body edge: its chain is followed while one end moves. Theory: docs/sweep.md. Paper:
+// section III, which checks three segments of the triangle.
 #ifndef CELLWALK_EDGE_TRIANGLE_H
 #define CELLWALK_EDGE_TRIANGLE_H
 
+#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/flood.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
 
 namespace cellwalk {
 
-/// A walk of p, as Walk_options report it.
+/// The path of p, as reported by Walk_options. The spans refer to memory of the caller.
 template <int D>
 struct Way {
   Particle<D> from, to;
   std::span<const Cell> visited;
   std::span<const Half_facet> crossed;
-  /// True if a wall blocked p: to.position is then where it was going, and the edge is swept until p is blocked.
+  /// True if a wall blocked p. Then to.position is the target, and the edge is swept until p is blocked.
   bool blocked = false;
-  /// True if it is known that p met no wall on its way, and passed each facet strictly inside.
+  /// True if p is known to have met no wall on its path, and to have crossed each facet in its interior.
   bool is_apart = false;
 };
 
-/// Sweeps the edge pq while p goes its way and q stands still. Returns the chain of the edge afterwards, or the first contact:
-/// contact->time is the share of the motion of p that is free, the exact root rounded down; point, normal, kind and facet are
-/// those of the wall that blocks it there.
-///
-/// Tried in this order: the ends share a cell; the edge passes its old chain still; no wall meets the swept triangle; the
-/// events, one by one, exactly. Touching a wall is no contact. If p is blocked, a contact is one of the edge before
-/// that time (at that time, p's own comes first), and the chain returned is the last one.
-/// \pre `before` is the chain of the edge before the move
-/// Degenerate cases: all positions of facets, ridges and vertices against the swept triangle. Where it is a segment (p moves in
-/// the line of the edge), a contact can only be with a wall in that line of which p takes the other side.
-/// Cost: a few ns to some hundred ns for the certificates; about a microsecond an event and ten a contact in general position,
-/// up to a millisecond where the triangle lies in planes of facets, for what only edges that touch or hit a wall get to.
+/// The result of the sweep of an edge.
 template <int D>
-Chain_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+struct Sweep_result {
+  std::optional<Contact<D>> contact;  ///< none: the move is free
+  Chain chain;                        ///< of the edge after the move
+  // Of sweep_edge() only:
+  Particle<D> p{};          ///< after the move, or before it if there is a contact
+  std::uint32_t cells = 0;  ///< number of cells visited by p
+};
+
+/// Sweeps the edge pq while p moves along its path and q stands still. Returns the chain of the edge after
+/// the move, or the first contact: its normal is that of the wall.
+///
+/// The certificates are tried in this order: the ends share a cell; the edge still crosses its old chain; no
+/// wall meets the swept triangle; then the events are followed exactly. Touching a wall is no contact. If p
+/// is blocked, only contacts of the edge before that time count (at equal times p's own comes first), and the
+/// returned chain is the last one.
+/// \param way the path of p
+/// \param before the chain of the edge before the move
+/// Degenerate cases: all positions of facets, ridges and vertices relative to the swept triangle. If it is a
+/// segment (p moves in the line of the edge), a contact is only possible with a wall in that line that p
+/// passes on the other side.
+/// Cost: a few ns to some hundred ns for the certificates; about a microsecond an event and ten a contact in
+/// general position; up to a millisecond if the triangle lies in planes of facets, which only concerns edges
+/// that touch or hit a wall.
+template <int D>
+Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The combinatorial shape of a cell: its facets as loops of local vertex numbers. Cells of one shape share
-// it.
+// The combinatorial shape of a cell: its facets as loops of local vertex numbers. Cells of the same shape
+// share it.
 #ifndef CELLWALK_ENVIRONMENT_CELL_SHAPE_H
 #define CELLWALK_ENVIRONMENT_CELL_SHAPE_H
 
@@ -12,8 +12,8 @@
 
 namespace cellwalk {
 
-/// Facets of a cell as loops of local vertex numbers, counterclockwise seen from outside (2D: two ends of an
-/// edge, counterclockwise round the cell).
+/// Facets of a cell as loops of local vertex numbers, counterclockwise seen from outside (2D: the two ends of
+/// an edge, counterclockwise around the cell).
 struct Cell_shape {
   std::vector<std::uint16_t> loop_begin{0};  ///< loop of facet i: [loop_begin[i], loop_begin[i+1]) of loops
   std::vector<std::uint16_t> loops;          ///< local vertex numbers
@@ -26,7 +26,7 @@ struct Cell_shape {
   bool operator==(const Cell_shape&) const = default;
 };
 
-/// One cell seen as geometry: its shape, and where its local vertices are. Does not own anything.
+/// A non-owning view of the geometry of a cell: its shape and the positions of its local vertices.
 template <int D>
 struct Cell_view {
   const Cell_shape* shape;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The environment: a certified convex cell complex, held as a combinatorial map (the editable truth) and
-// compiled into a snapshot (what is walked). This header does not include CGAL; <cellwalk/environment/map.h>
-// gives the map.
+// The environment: a certified convex cell complex, stored as a combinatorial map (for edits) and compiled
+// into a snapshot (for walks). This header does not include CGAL; <cellwalk/environment/map.h> gives access
+// to the map.
 #ifndef CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_H
 
@@ -24,39 +24,40 @@ template <int D>
 class Boundary_index;
 }
 
-/// What to do with points of equal coordinates that are not the same vertex.
+/// The treatment of different points with equal coordinates.
 enum class Duplicate_vertices { refuse, merge, keep };
 
 struct Build_options {
   Duplicate_vertices duplicates = Duplicate_vertices::refuse;
   bool split = true;     ///< split cells that are not exactly convex; otherwise they are refused
-  bool keep_map = true;  ///< false: build no map at all; the environment is frozen from the start
+  bool keep_map = true;  ///< false: build no map; the environment is frozen from the start
 };
 
-/// Everything that building changed or noticed. Nothing is repaired silently.
+/// Everything that building changed. Nothing is repaired silently.
 struct Build_report {
   std::size_t cells_read = 0, points_read = 0;
   std::size_t unused_points = 0;  ///< dropped
   std::size_t merged_points = 0;  ///< duplicates merged (Duplicate_vertices::merge)
   bool flipped = false;           ///< every cell was inverted; all were flipped
   Split_report split;
-  std::vector<std::uint32_t>
-      origin;               ///< input cell of each cell, if cells were split; otherwise empty: the same
+  /// Input cell of each cell if cells were split; otherwise empty (unchanged).
+  std::vector<std::uint32_t> origin;
   Certificate certificate;  ///< counts, volumes, components, walls
 };
 
-/// A certified cell complex. Cells are named by Snapshot's Cell; their indices are those of the soup (after a split, of
-/// the split soup), and point indices those of the soup less the points that were dropped.
+/// A certified cell complex. Cells are identified by Snapshot's Cell. Their indices are those of the soup
+/// (after a split, of the split soup); point indices are those of the soup without the dropped points.
 template <int D>
 class Environment {
  public:
-  /// Drops unused points, merges or refuses duplicate ones, flips a mesh that is inverted throughout, splits cells that
-  /// are not exactly convex, glues, builds the map, compiles the snapshot from it and certifies that.
-  /// Facets on the boundary and between solid and free cells become impassable. `report` is filled as far as building
-  /// got, also if it throws.
+  /// Drops unused points, merges or refuses duplicate ones, flips a mesh whose cells are all inverted, splits
+  /// cells that are not exactly convex, glues, builds the map, compiles the snapshot from it and certifies
+  /// that. Facets on the boundary and between solid and free cells become impassable. If building fails,
+  /// `report` is filled up to the point of failure.
+  /// \param report if not null, receives all changes and the counts
   /// \throw Error(input) for a malformed soup, Error(not_certified) with the cell and the reason
-  /// Cost: about 2.5 us a tetrahedron on two cores (1.6 us without the map), up to twice that if cells and
-  /// points come in random order.
+  /// Cost: about 2.5 us a tetrahedron on two cores (1.6 us without the map), up to twice as much if cells and
+  /// points are in random order.
   static Environment build(Cell_soup<D> soup, const Build_options& options = {},
                            Build_report* report = nullptr);
 
@@ -66,37 +67,43 @@ class Environment {
 
   const Snapshot<D>& snapshot() const { return snapshot_; }
 
-  /// The map and the dart of each half-facet. \throw Error(usage) once frozen
+  /// The map and the dart of each half-facet.
+  /// \throw Error(usage) once frozen
   const Map_storage<D>& storage() const;
   bool is_frozen() const { return !storage_; }
   /// Drops the map: the environment can be walked but no longer edited.
   void freeze();
 
-  /// The cells as a soup, cell indices and walls kept: what an .ovm file holds. Cost: linear.
+  /// The cells as a soup, with their indices and walls: the content of an .ovm file.
+  /// Cost: linear.
   Cell_soup<D> soup() const;
 
-  // Edits keep map and snapshot in step; only touched cells are recompiled. They change nothing if they throw an Error:
-  // Error(usage) if frozen, or for a facet, point or cell that is not there; Error(input) for a position that is not
-  // finite; Error(not_certified) if the result would not be certified, with the reason.
+  // Edits change map and snapshot consistently; only affected cells are recompiled. An edit that throws
+  // changes nothing. It throws Error(usage) if the environment is frozen, or for a facet, point or cell that
+  // does not exist; Error(input) for a position that is not finite; Error(not_certified), with the reason, if
+  // the result would not be certified.
   //
-  // They ask nobody: what moves in the environment does not know of them, nor they of it. Each that changes anything raises
-  // Snapshot::epoch(), and a Body that was registered before throws Error(usage) until Body::register_again(). Particles of one's
-  // own must be located again after move_vertex and insert_point. Not to be called while anything moves.
+  // Edits ignore objects that move in the environment. Each edit that changes anything raises
+  // Snapshot::epoch(), and a Body that was registered before throws Error(usage) until
+  // Body::register_again(). Locate your own particles again after move_vertex and insert_point. Do not edit
+  // while anything moves.
 
-  /// Makes a facet impassable, or passable: not on the boundary, nor between a solid and a free cell.
+  /// Makes a facet impassable or passable. Facets of the boundary, and between a solid and a free cell,
+  /// cannot be made passable.
+  /// \param wall true: impassable
   /// Cost: constant.
   void set_impassable(Half_facet facet, bool wall);
 
-  /// Moves a vertex. Every cell that has it must stay exactly convex and positive, its facets exactly planar. What counts is
-  /// where it ends: a vertex on the boundary may go there through other cells of the environment. Names of cells and facets stay;
-  /// the loop of a facet may start at another vertex.
-  /// Cost: that of the cells around it (about 2 us each); on the boundary that of the boundary facets near them too, the first
-  /// time a look at all facets.
+  /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar
+  /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
+  /// Names of cells and facets are kept; the loop of a facet may start at another vertex.
+  /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
+  /// them; the first time linear in the number of facets.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
-  /// Splits a cell into the star of a new point strictly inside it: one cell a facet, the first of which takes the index
-  /// of the old cell, the others new indices. Returns them. Names of other cells and facets stay; that of the old cell is gone,
-  /// and later edits may give it to another.
+  /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the
+  /// new cells; the first takes the index of the old cell, the others new indices. Names of other cells and
+  /// facets are kept. The name of the old cell becomes invalid, and later edits may reuse it.
   /// Cost: constant.
   std::vector<Cell> insert_point(Cell cell, const Point<D>& position);
 
@@ -114,8 +121,8 @@ class Environment {
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
-  std::unique_ptr<detail::Boundary_index<D>>
-      boundary_;  ///< made when a vertex of the boundary moves for the first time
+  /// Built when a vertex of the boundary first moves.
+  std::unique_ptr<detail::Boundary_index<D>> boundary_;
   bool allow_duplicates_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which half-facets of a cell soup are the two sides of one facet.
+// The gluing of a cell soup: pairs of half-facets that are the two sides of one facet.
 #ifndef CELLWALK_ENVIRONMENT_GLUING_H
 #define CELLWALK_ENVIRONMENT_GLUING_H
 
@@ -18,20 +18,20 @@ struct Gluing {
   std::vector<std::uint32_t> opposite;
 };
 
-/// Checks that the arrays of a soup fit together.
-/// \throw Error(input) where arrays disagree in length, a point index is out of range, a loop has fewer than three
-///        vertices (2D: not two) or a vertex twice
+/// Checks that the arrays of a soup are consistent.
+/// \throw Error(input) if the lengths of arrays disagree, a point index is out of range, a loop has fewer
+///        than three vertices (2D: not two) or a repeated vertex
 /// Cost: linear; parallel.
 template <int D>
 void check_soup(const Cell_soup<D>& soup);
 
 /// Matches the half-facets of a soup by their vertex sets.
 /// \throw Error(input) as check_soup
-/// \throw Error(not_certified) where three or more cells share a facet, two cells lie on the same side of one (same
-///        order of the loop), two facets share all vertices in different cyclic order, or a cell has both sides of
-///        a facet; names the facets and cells
-/// Cost: linear, but for the sorting of facets with equal lowest vertex; parallel. 0.13 s for a million tetrahedra on
-/// one core, 0.27 s if they come in random order.
+/// \throw Error(not_certified) if three or more cells share a facet, two cells lie on the same side of one
+///        (same order of the loop), two facets share all vertices in different cyclic order, or a cell has
+///        both sides of a facet; names the facets and cells
+/// Cost: linear, except for sorting facets with equal lowest vertex; parallel. 0.13 s for a million
+/// tetrahedra on one core, 0.27 s if they are in random order.
 template <int D>
 Gluing glue(const Cell_soup<D>& soup);
 

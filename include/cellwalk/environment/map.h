@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The combinatorial map of an environment: the editable truth behind a snapshot. Includes CGAL; nothing that only
-// walks needs this header. Users of it link CGAL::CGAL.
+// The combinatorial map of an environment, which edits change and from which snapshots are compiled. Includes
+// CGAL; users link CGAL::CGAL. Walks do not need this header.
 //
-// A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first of them
-// names it. beta_D joins the two sides of a facet, walls included: passable or not is a mark, not a matter of gluing.
+// A cell of dimension D is a set of darts. A half-facet is a loop of darts in 3D, one dart in 2D; the first
+// of them identifies it. beta_D joins the two sides of a facet, walls included: impassable facets are marked,
+// not unglued.
 #ifndef CELLWALK_ENVIRONMENT_MAP_H
 #define CELLWALK_ENVIRONMENT_MAP_H
 
@@ -25,7 +26,7 @@
 
 namespace cellwalk {
 
-/// What a dart knows; 8 bytes, which CGAL would spend on padding anyway (679 bytes a tetrahedron all in).
+/// The information of a dart, in 8 bytes that CGAL would use for padding (679 bytes a tetrahedron in total).
 class Dart_info {
  public:
   static constexpr std::uint32_t max_half_facets = 1u << 29;
@@ -54,8 +55,9 @@ class Dart_info {
 };
 static_assert(sizeof(Dart_info) == 8);
 
-/// Darts carry a Dart_info; vertices a point and the index of the point in the soup and snapshot. A pinched vertex
-/// (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with equal indices.
+/// Darts have a Dart_info, vertices a point and the index of the point in the soup and snapshot. A pinched
+/// vertex (cells that touch in a vertex, not through facets) has one attribute for each of its parts, with
+/// equal indices.
 struct Map_items {
   template <class Complex>
   struct Dart_wrapper {
@@ -72,7 +74,7 @@ using Map =
     CGAL::Linear_cell_complex_for_combinatorial_map<D, D, CGAL::Linear_cell_complex_traits<D, Map_kernel>,
                                                     Map_items>;
 
-/// A point as the map holds it.
+/// A point of the map.
 inline Map<2>::Point to_map_point(const Point<2>& p) { return {p[0], p[1]}; }
 inline Map<3>::Point to_map_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -84,7 +86,7 @@ using Const_dart = decltype(std::declval<const Map<D>&>().darts().begin());
 template <int D>
 using Map_vertex = decltype(std::declval<Map<D>&>().create_vertex_attribute());
 
-/// The map with what leads into it. Not copied or moved: darts are addresses.
+/// The map with its indices. It cannot be copied or moved, since darts are addresses.
 template <int D>
 struct Map_storage {
   Map_storage() = default;
@@ -93,7 +95,7 @@ struct Map_storage {
 
   Map<D> map;
   std::size_t cell_count = 0;
-  /// First dart of each half-facet of the snapshot; Dart<D>{} for slots that are not used.
+  /// First dart of each half-facet of the snapshot; Dart<D>{} for unused slots.
   std::vector<Dart<D>> dart_of_half_facet;
   /// The vertex of each point: of its lowest cell, if the point is pinched.
   std::vector<Map_vertex<D>> vertex_of_point;
@@ -120,29 +122,31 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
   }
 }
 
-/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot replaces
-/// (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and between a solid and
-/// a free cell.
+/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot
+/// replaces (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and
+/// between a solid and a free cell.
 /// \pre gluing = glue(soup); every point is a vertex of some cell
 /// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell
 /// Cost: about 0.8 us a tetrahedron on one core, 0.5 us on two; memory 679 bytes a tetrahedron.
 template <int D>
 std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing);
 
-/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i], of `slots` in all.
+/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i].
+/// \param slots the size of an array indexed by half-facets
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
                         std::span<const Half_facet> half_facets, std::size_t slots);
 
-/// What a map consists of.
+/// The counts of a map.
 struct Map_counts {
   std::size_t cells = 0, facets = 0, boundary_facets = 0, vertices = 0, darts = 0;
 
   bool operator==(const Map_counts&) const = default;
 };
 
-/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each other, ends
-/// and marks agree) and that darts, half-facets, vertices and points refer to each other; counts the cells.
+/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each
+/// other, ends and marks agree) and that darts, half-facets, vertices and points refer to each other; counts
+/// the cells.
 /// \throw Error(other) naming the cell at fault: the map was damaged from outside
 template <int D>
 Map_counts check_map(const Map_storage<D>& storage);

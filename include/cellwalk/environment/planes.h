@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate of
-// a side.
+// Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate for
+// the side of a point.
 //
 // Frame. Points are mapped to y = scale (x - center), scale a power of two, so that the environment lies in
 // [-1,1]^D.
@@ -39,8 +39,9 @@ using Int4 = int __attribute__((vector_size(16)));
 template <int D>
 using Float_point = std::array<float, static_cast<std::size_t>(D)>;
 
-/// Four planes: signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and offset
-/// -1: nothing is outside of them. Those of a removed cell have offset 1: everything is.
+/// Four planes: the signed distances of y are normal[0] y[0] + .. + offset. Unused lanes have normal 0 and
+/// offset -1, so that no point is outside them. Those of a removed cell have offset 1, so that every point
+/// is.
 template <int D>
 struct alignas(D == 3 ? 64 : 16) Plane_block {
   std::array<Float4, D> normal;
@@ -65,7 +66,8 @@ struct Plane_frame {
   }
 };
 
-/// The larger of each lane. \pre no NaNs
+/// The larger value of each lane.
+/// \pre no NaNs
 inline Float4 lane_max(Float4 a, Float4 b) {
 #if defined(__SSE2__)
   return std::bit_cast<Float4>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
@@ -74,7 +76,7 @@ inline Float4 lane_max(Float4 a, Float4 b) {
 #endif
 }
 
-/// One bit a lane that is true.
+/// A bit mask of the lanes that are true.
 inline unsigned lane_mask(Int4 lanes) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(lanes)));
@@ -83,10 +85,10 @@ inline unsigned lane_mask(Int4 lanes) {
 #endif
 }
 
-/// One bit a lane whose sign is negative, -0 included.
+/// A bit mask of the lanes whose sign is negative, including -0.
 inline unsigned sign_mask(Float4 lanes) { return lane_mask(std::bit_cast<Int4>(lanes) < 0); }
 
-/// A point of the frame with each coordinate in all lanes: spread once, evaluated often.
+/// A point of the frame with each coordinate in all lanes, for repeated evaluation.
 template <int D>
 using Spread_point = std::array<Float4, static_cast<std::size_t>(D)>;
 
@@ -97,7 +99,8 @@ inline Spread_point<D> spread(const Float_point<D>& y) {
   return lanes;
 }
 
-/// Signed distances of y from four planes, each within plane_error of a positive multiple of the exact one.
+/// The signed distances of y from four planes, each within plane_error of a positive multiple of the exact
+/// one.
 template <int D>
 inline Float4 evaluate(const Plane_block<D>& block, const Spread_point<D>& y) {
   // Two short chains instead of a long one.
@@ -111,7 +114,7 @@ inline Float4 evaluate(const Plane_block<D>& block, const Float_point<D>& y) {
   return evaluate<D>(block, spread<D>(y));
 }
 
-/// How fast four signed distances grow along a direction, rounded.
+/// The derivatives of four signed distances along a direction, rounded.
 template <int D>
 inline Float4 slopes(const Plane_block<D>& block, const Spread_point<D>& direction) {
   const Float4 r = block.normal[0] * direction[0] + block.normal[1] * direction[1];

@@ -2,8 +2,8 @@
 // The snapshot: an environment compiled into flat arrays for walking. See docs/architecture.md.
 //
 // Layout. Facets are stored in blocks of four lanes. A cell owns ceil(facets/4) consecutive blocks and is
-// named by its first one, so that facet i of cell c is half-facet 4c+i. One block of float planes is one
-// cache line (3D). Blocks lie in the order of a space-filling curve through the cells.
+// identified by its first one, so that facet i of cell c is half-facet 4c+i. One block of float planes is one
+// cache line (3D). Blocks are in the order of a space-filling curve through the cells.
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_H
 
@@ -26,7 +26,7 @@ namespace cellwalk {
 
 struct Canonical_cell;
 
-/// A cell of a snapshot. Not the index of the input: see Snapshot::index().
+/// The name of a cell in a snapshot. It differs from the index in the input: see Snapshot::index().
 enum class Cell : std::uint32_t { none = 0xffffffffu };
 
 /// A facet of a snapshot seen from one of its cells.
@@ -35,35 +35,38 @@ enum class Half_facet : std::uint32_t { none = 0xffffffffu };
 constexpr std::uint32_t to_index(Cell c) { return static_cast<std::uint32_t>(c); }
 constexpr std::uint32_t to_index(Half_facet f) { return static_cast<std::uint32_t>(f); }
 
-/// Compact read-only tables of a cell complex, with the few local updates that editing needs.
+/// Compact tables of a cell complex for walks, with the local updates that edits need.
 /// Thread safety: const members may be called from any number of threads.
 template <int D>
 class Snapshot {
  public:
   Snapshot() = default;
 
-  /// Compiles a glued soup whose cells are convex and positively oriented. In each facet loop the first D
-  /// vertices not on one line are found; a facet whose vertices all lie on one line is kept (certification
-  /// refuses it). Cost: about 1 us a cell and core; O(cells) memory for the sort. `slots`, if given, receives
-  /// the half-facet of each facet of the soup.
+  /// Compiles a glued soup whose cells are convex and positively oriented. Each facet loop is rotated so that
+  /// its first D vertices span its plane or line; a facet with collinear vertices only is kept (certification
+  /// refuses it).
+  /// \param slots if not null, receives the half-facet of each facet of the soup
+  /// Cost: about 1 us a cell and core; O(cells) memory for the sort.
   static Snapshot compile(const Cell_soup<D>& soup, const Gluing& gluing,
                           std::vector<Half_facet>* slots = nullptr);
 
   // --- cells
   std::size_t cell_count() const { return cell_of_index_.size() - free_indices_.size(); }
-  /// Upper bound of the indices of cells: cell_count(), and more where replace_cells() left some free.
+  /// Upper bound of the indices of cells: cell_count(), plus those that replace_cells() left free.
   std::size_t cell_slots() const { return cell_of_index_.size(); }
-  /// The cell with the given index of the input; Cell::none if it is free. \pre index < cell_slots()
+  /// The cell with the given index in the input; Cell::none if it is free.
+  /// \pre index < cell_slots()
   Cell cell(std::size_t index) const { return Cell{cell_of_index_[index]}; }
-  /// True if there is a cell of this name. Edits that replace cells take names away; later ones may give them to other cells.
-  /// A name that is gone is one of a solid cell, everything is outside of it, and walls are all round.
+  /// True if a cell of this name exists. Edits that replace cells remove names; later edits may reuse them. A
+  /// removed name behaves like a solid cell that contains no point and has only walls.
   bool is_cell(Cell c) const {
     return to_index(c) < shape_.size() && !(shape_[to_index(c)] & (continuation_bit | removed_bit));
   }
-  /// The index of a cell in the input: what users see.
+  /// The index of a cell in the input, for users.
   std::uint32_t index(Cell c) const { return index_[to_index(c)]; }
   bool is_solid(Cell c) const { return shape_[to_index(c)] & solid_bit; }
-  /// What a cell looks like, until the next edit. \pre is_cell(c)
+  /// The geometry of a cell, valid until the next edit.
+  /// \pre is_cell(c)
   Cell_view<D> view(Cell c) const {
     assert(is_cell(c));
     const Cell_shape& shape = shapes_[shape_[to_index(c)] & shape_mask];
@@ -77,7 +80,7 @@ class Snapshot {
   static Half_facet half_facet(Cell c, std::size_t facet) {
     return Half_facet{4 * to_index(c) + static_cast<std::uint32_t>(facet)};
   }
-  /// The cell that a half-facet belongs to.
+  /// The cell of a half-facet.
   Cell cell_of(Half_facet f) const {
     const std::uint32_t block = to_index(f) / 4;
     const std::uint32_t word = shape_[block];
@@ -86,23 +89,24 @@ class Snapshot {
   /// The number of a half-facet in its cell.
   std::size_t facet_of(Half_facet f) const { return to_index(f) - 4 * to_index(cell_of(f)); }
   bool is_impassable(Half_facet f) const { return links_[to_index(f)] & wall_bit; }
-  /// The impassable facets (bits) of a block of a cell.
+  /// The impassable facets of a block of a cell, as a bit mask.
   unsigned impassable_facets(Cell c, std::size_t block) const {
     Int4 links_of_block;
     std::memcpy(&links_of_block, links(c) + 4 * block, sizeof(links_of_block));
     static_assert(wall_bit == 1u << 31, "walls are those whose links are negative");
     return lane_mask(links_of_block < 0);
   }
-  /// True if the union of the two cells is convex, every facet they share is passable, and they meet in nothing but these facets:
-  /// no slit lies between them.
+  /// True if the union of the two cells is convex, all facets they share are passable, and these facets are
+  /// their whole intersection, so that no slit lies between them.
   bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.
   Cell neighbor(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
-  /// The facet that all segments between two cells pass: they are a convex pair, and share no other facet.
-  /// Half_facet::none if there is no such facet. Seen from the first cell. Cost: a look at the links of its facets.
+  /// The facet, seen from the first cell, through which all segments between two cells pass: the cells are a
+  /// convex pair and share no other facet. Half_facet::none if there is no such facet.
+  /// Cost: reading the links of the facets of one cell.
   Half_facet convex_passage(Cell from, Cell to) const {
     Half_facet passage = Half_facet::none;
     for (std::size_t b = 0; b < block_count(from); ++b) {
@@ -117,10 +121,10 @@ class Snapshot {
     }
     return passage != Half_facet::none && is_convex_pair(passage) ? passage : Half_facet::none;
   }
-  /// The other side of the facet; Half_facet::none on the boundary. Cost: a search over the neighbour's
-  /// facets.
+  /// The other side of the facet; Half_facet::none on the boundary.
+  /// Cost: a search over the neighbour's facets.
   Half_facet opposite(Half_facet f) const;
-  /// Point indices of facet `facet` of cell c, counterclockwise seen from outside.
+  /// The point indices of a half-facet, counterclockwise seen from outside its cell.
   std::vector<std::uint32_t> loop(Half_facet f) const;
 
   // --- points
@@ -137,9 +141,9 @@ class Snapshot {
   std::size_t block_count(Cell c) const {
     return uniform_blocks_ ? uniform_blocks_ : (facet_count(c) + 3) / 4;
   }
-  /// Blocks of every cell, or 0 where they differ.
+  /// The number of blocks if it is the same for all cells, otherwise 0.
   std::size_t uniform_blocks() const { return uniform_blocks_; }
-  /// Asks for the planes of the neighbours across the first four facets: the walk needs one of them next.
+  /// Prefetches the planes of the neighbours across the first four facets, one of which the walk needs next.
   void prefetch_neighbors(Cell c) const {
     const std::uint32_t* neighbors = links(c);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -147,50 +151,56 @@ class Snapshot {
       __builtin_prefetch(planes_.data() + (link == link_mask ? to_index(c) : link));
     }
   }
-  /// Facets whose plane could not be certified (they are always decided exactly).
+  /// The number of facets whose plane could not be certified; they are always decided exactly.
   std::size_t uncertified_planes() const { return uncertified_planes_; }
 
   // --- state
-  /// Counts the edits: every update below that changes what a walk may see raises it.
+  /// The number of edits: every update below that affects walks increments it.
   std::uint64_t epoch() const { return epoch_; }
-  /// The epoch as of which cells are what and where they are: opening and closing facets does not raise it.
+  /// The number of edits that changed cells or positions; opening and closing facets does not increment it.
   std::uint64_t geometry_epoch() const { return geometry_epoch_; }
-  /// \throw Error(usage) if the environment was edited after `known`, an epoch: "... was edited after `what_and_advice`"
+  /// Checks that the environment was not edited since an epoch.
+  /// \param known the epoch
+  /// \param what_and_advice the end of the message "... was edited after `what_and_advice`"
+  /// \throw Error(usage) if it was edited
   void check_epoch(std::uint64_t known, const char* what_and_advice) const {
     if (known != epoch_) [[unlikely]]
       refuse_edited(what_and_advice);
   }
-  /// The same of geometry_epoch().
+  /// The same for geometry_epoch().
   void check_geometry_epoch(std::uint64_t known, const char* what_and_advice) const {
     if (known != geometry_epoch_) [[unlikely]]
       refuse_edited(what_and_advice);
   }
 
-  // --- local updates (Environment keeps them in step with the map)
-  /// Marks both sides of a facet; convex-pair bits of the two cells follow.
+  // --- local updates (Environment keeps map and snapshot consistent)
+  /// Marks both sides of a facet, and updates the convex-pair bits of the two cells.
   void set_impassable(Half_facet f, bool wall);
-  /// Moves a point; call update_geometry for all cells that have it.
+  /// Moves a point; call update_geometry() for all cells that contain it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
   /// Appends a point and returns its index.
   std::uint32_t add_point(const Point<D>& position) {
     points_.push_back(position);
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
-  /// Recomputes what depends on where points are of all cells that have one that moved: where their loops start (the first D
-  /// vertices must not lie on one line), planes and convex-pair bits. Half-facets keep their names.
+  /// Recomputes the data of cells that depend on positions: the starting vertices of loops (the first D
+  /// vertices must not be collinear), planes and convex-pair bits. Half-facets keep their names.
+  /// \param cells all cells with a moved point
   void update_geometry(std::span<const Cell> cells);
-  /// Replaces cells by others: `removed` cells go, the cells of `soup` come (its vertices are indices of
-  /// this snapshot's points; soup.points is not looked at). gluing.opposite of a half-facet is a half-facet
-  /// of `soup`, or no_facet; those left open are matched to the facets that the removed cells leave open, of
-  /// which the others come to lie on the boundary.
-  /// Returns the new cells in order: they take the indices of the removed ones first, then free and then new
-  /// ones; indices left over become free. What earlier calls removed is used again; the names of those that go
-  /// now are given to no cell that comes now. `slots`, if given, receives the half-facet of each facet of `soup`.
+  /// Replaces the cells `removed` by the cells of `soup`, whose vertices are indices of this snapshot's
+  /// points; soup.points is ignored. gluing.opposite of a half-facet is a half-facet of `soup`, or no_facet.
+  /// Open half-facets are matched to the facets that the removed cells leave open; remaining ones of the
+  /// latter become boundary facets.
+  ///
+  /// Returns the new cells in order. They take the indices of the removed cells first, then free and then new
+  /// ones; remaining indices become free. Storage removed by earlier calls is reused; names removed by this
+  /// call are not reused by it.
+  /// \param slots if not null, receives the half-facet of each facet of `soup`
   /// \throw Error(input) as compile(), with nothing changed
   std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                   const Gluing& gluing, std::vector<Half_facet>* slots = nullptr);
 
-  /// Bytes held by the arrays.
+  /// The memory of the arrays in bytes.
   std::size_t bytes() const;
 
  private:
@@ -215,8 +225,8 @@ class Snapshot {
   std::size_t uncertified_planes_ = 0;
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
   std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
-  /// Runs of slots by length and first slot. They are used again as a whole, so that a name once given is always that of a cell,
-  /// there or removed, and never points into one.
+  /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the
+  /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
   Free_runs free_blocks_, free_vertices_;
   std::set<std::uint32_t> free_indices_;

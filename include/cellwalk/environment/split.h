@@ -9,26 +9,27 @@
 
 namespace cellwalk {
 
-/// What splitting did; zero throughout if every cell was fine.
+/// The changes made by splitting; all zero if every cell was valid.
 struct Split_report {
   std::size_t cells_split = 0;          ///< input cells replaced
   std::size_t cells_made = 0;           ///< cells they were replaced by
-  std::size_t facets_triangulated = 0;  ///< facets cut into triangles (both sides alike)
+  std::size_t facets_triangulated = 0;  ///< facets split into triangles, consistently on both sides
   std::size_t points_added = 0;         ///< interior points of stars
   std::size_t not_planar = 0;           ///< cells split because a facet is not exactly planar
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
 };
 
-/// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D: triangles).
-/// In 3D the facets of such a cell are cut into triangles alike on both sides; a neighbour that is fine itself is
-/// not split, but has several coplanar facets then. The cells that replace cell c keep its solidity and its walls.
-/// `origin`, if given, receives the input cell of each result cell. Points are only appended.
-/// Result cells are exactly positive, and those of one input cell do not overlap; whether the whole complex is sound
-/// is for certify to say. The choice of facet diagonals, and so the result, depends on the input only.
-/// \throw Error(not_certified) naming a cell that cannot be split (the same one for any number of threads), and why; as
-///        glue, if a cell is split
+/// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D:
+/// triangles). In 3D the facets of such a cell are split into triangles consistently on both sides; a valid
+/// neighbour is not split, but then has several coplanar facets. The new cells inherit solidity and walls.
+/// Points are only appended. Result cells are exactly positive, and those of one input cell do not overlap;
+/// certify() checks the whole complex. The choice of facet diagonals, and so the result, depends on the input
+/// only.
+/// \param origin if not null, receives the input cell of each result cell
+/// \throw Error(not_certified) naming a cell that cannot be split (the same one for any number of threads),
+///        and why; as glue, if a cell is split
 /// \throw Error(input) for a vertex index out of range or a coordinate that is not finite
-/// Cost: about 0.1 us a tetrahedron that is fine, 6 us a hexahedron that is split; parallel.
+/// Cost: about 0.1 us a valid tetrahedron, 6 us a hexahedron that is split; parallel.
 template <int D>
 Cell_soup<D> split(Cell_soup<D> soup, Split_report& report, std::vector<std::uint32_t>* origin = nullptr);
 

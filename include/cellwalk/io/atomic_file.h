@@ -12,20 +12,22 @@
 
 namespace cellwalk::io {
 
-/// A file written beside its destination and put in its place on commit(). Destroyed without commit() it leaves nothing behind,
-/// and an older file of that name as it was. What replaces a file has its permissions; a link goes on pointing where it points.
-/// A destination that is a device, a pipe or a descriptor of the process (/dev/stdout, /dev/fd/3) is written directly, on
-/// prepare() or commit() and not before.
+/// A file that is written beside its destination and moved there on commit(). If it is destroyed without
+/// commit(), it leaves nothing behind, and an older file of that name unchanged. A replacement keeps the
+/// permissions of the old file, and a link its target. A destination that is a device, a pipe or a descriptor
+/// of the process (/dev/stdout, /dev/fd/3) is written directly, on prepare() or commit() and not before.
 class Atomic_file final : public Output {
  public:
   /// \throw Error(other) if the destination or its directory does not exist, or may not be written
   explicit Atomic_file(std::filesystem::path destination);
   ~Atomic_file() override;
 
-  /// Appends. \throw Error(other) where the device is full
+  /// Appends.
+  /// \throw Error(other) if the device is full
   void write(std::string_view text);
 
-  /// All steps at once, for a file that appears alone. \throw Error(other) if one fails; nothing is left behind then
+  /// Executes all steps, for a single file.
+  /// \throw Error(other) if one fails; then nothing is left behind
   void commit();
 
   void prepare() override;
@@ -41,8 +43,8 @@ class Atomic_file final : public Output {
   void discard() noexcept;
   [[noreturn]] void fail(const char* what);
 
-  std::filesystem::path destination_, target_;  ///< as given, and behind links
-  std::string temporary_;                       ///< empty where there is none
+  std::filesystem::path destination_, target_;  ///< as given, and with links resolved
+  std::string temporary_;                       ///< empty if there is none
   std::string buffer_;
   Unfinished unfinished_;
   Replacement replacement_;
@@ -50,7 +52,8 @@ class Atomic_file final : public Output {
   bool is_direct_ = false;
 };
 
-/// Writes a whole file at once, atomically. \throw Error(other)
+/// Writes a whole file atomically.
+/// \throw Error(other) if it cannot be written
 void write_file(const std::filesystem::path& destination, std::string_view text);
 
 }  // namespace cellwalk::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Tables of comma-separated values: columns found by name, rows that know their line.
+// Tables of comma-separated values: columns by name, rows with their line.
 #ifndef CELLWALK_IO_CSV_H
 #define CELLWALK_IO_CSV_H
 
@@ -18,8 +18,8 @@
 
 namespace cellwalk::io {
 
-/// A table in memory. The first line that is neither blank nor a comment (#) is the header. Fields may be quoted ("").
-/// A row of the wrong length is no reason to refuse the table: its numbers are, each for itself.
+/// A table in memory. The first line that is neither blank nor a comment (#) is the header. Fields may be
+/// quoted (""). A row of the wrong length does not invalidate the table; only its own numbers are invalid.
 class Csv_table {
  public:
   /// \throw Error(input) with file and line: no header, a column named twice or not at all, a quote left open
@@ -30,16 +30,16 @@ class Csv_table {
   const std::vector<std::string>& columns() const { return columns_; }
 
   std::optional<std::size_t> find_column(std::string_view name) const;
-  /// \throw Error(input) naming the columns that are there
+  /// \throw Error(input) naming the existing columns
   std::size_t column(std::string_view name) const;
 
   /// The line of a row in the file, from 1.
   std::size_t line(std::size_t row) const { return lines_[row]; }
-  /// A field, nothing where the row is too short.
+  /// A field; none if the row is too short.
   std::optional<std::string_view> field(std::size_t row, std::size_t column) const;
-  /// A field as a finite number, or why it is none; the reason names the column.
+  /// A field as a finite number, or the reason why it is none, with the column.
   Parsed_number number(std::size_t row, std::size_t column) const;
-  /// Why the row as a whole is invalid (another number of fields than the header has), or nothing.
+  /// The reason why a whole row is invalid (a wrong number of fields); none if it is valid.
   std::optional<std::string> row_problem(std::size_t row) const;
 
   const std::string& name() const { return name_; }
@@ -52,16 +52,17 @@ class Csv_table {
   std::vector<std::size_t> lines_;
 };
 
-/// Writes a table; it appears complete on commit() or not at all.
+/// Writes a table, which appears complete on commit() or not at all.
 class Csv_writer {
  public:
-  /// \throw Error(other) where the file cannot be written
+  /// \throw Error(other) if the file cannot be written
   Csv_writer(std::filesystem::path path, std::vector<std::string> columns);
-  /// Into a file that the caller commits, and which outlives the writer.
+  /// Writes into a file that the caller commits, and that outlives the writer.
   Csv_writer(Atomic_file& file, std::vector<std::string> columns);
 
-  /// One row, a value for each column: texts (quoted where needed), integers, and doubles in the shortest form that
-  /// reads back the same; a double that is not finite is left empty. \throw Error(usage) for another number of values
+  /// Writes one row, with a value for each column: texts (quoted where needed), integers, and doubles in the
+  /// shortest form that reads back the same; a double that is not finite is empty.
+  /// \throw Error(usage) for a wrong number of values
   template <class... Values>
   void row(const Values&... values) {
     begin_row(sizeof...(values));
@@ -69,7 +70,8 @@ class Csv_writer {
     end_row();
   }
 
-  /// For a file of its own. \throw Error(other) where it cannot be written
+  /// Completes a file of the writer's own.
+  /// \throw Error(other) if it cannot be written
   void commit();
 
  private:

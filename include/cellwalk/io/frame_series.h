@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A run as ParaView opens it: frames as .vtu files and a collection (.pvd) that gives each its time.
+// A time series for ParaView: frames as .vtu files, and a collection (.pvd) with their times.
 #ifndef CELLWALK_IO_FRAME_SERIES_H
 #define CELLWALK_IO_FRAME_SERIES_H
 
@@ -23,19 +23,21 @@ struct Pvd_entry {
 /// The text of a .pvd collection.
 std::string pvd_text(const std::vector<Pvd_entry>& entries);
 
-/// Writes `frames/PART_00000.vtu`, ... and a collection beside that folder. All of it appears on commit(), in the place
-/// of an earlier series; destroyed without commit() it leaves nothing behind, and an earlier series as it was.
+/// Writes `frames/PART_00000.vtu`, ... and a collection beside that folder. All files appear on commit(), and
+/// replace an earlier series. If the object is destroyed without commit(), it leaves nothing behind, and an
+/// earlier series unchanged.
 class Frame_series {
  public:
-  /// `collection` is the path of the .pvd file; its directory is made if it is missing.
-  /// \throw Error(usage) if the folder `frames` there holds anything but .vtu files, Error(other) if nothing can be
-  ///        written
+  /// `collection` is the path of the .pvd file; its directory is created if it is missing.
+  /// \throw Error(usage) if the folder `frames` there contains other files than .vtu, Error(other) if nothing
+  ///        can be written
   explicit Frame_series(std::filesystem::path collection);
   ~Frame_series();
   Frame_series(const Frame_series&) = delete;
   Frame_series& operator=(const Frame_series&) = delete;
 
-  /// Writes the next frame of `part`, a word such as "particles". \throw as write_vtu()
+  /// Writes the next frame of `part`, a word such as "particles".
+  /// \throw Error as write_vtu()
   void add(double time, const std::string& part, const Vtu_grid& grid);
 
   /// \throw Error(other) if the folder or the collection cannot be put in place
@@ -45,7 +47,7 @@ class Frame_series {
 
  private:
   std::filesystem::path collection_, frames_, temporary_;
-  std::vector<std::filesystem::path> made_;  ///< directories made for this series, outermost first
+  std::vector<std::filesystem::path> made_;  ///< directories created for this series, outermost first
   std::vector<Pvd_entry> entries_;
   std::map<std::string, std::size_t> count_;  ///< frames of each part
   bool committed_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bytes compressed with gzip, and bytes as text in base64.
+// Compression with gzip, and encoding in base64.
 #ifndef CELLWALK_IO_GZIP_H
 #define CELLWALK_IO_GZIP_H
 
@@ -13,19 +13,19 @@
 
 namespace cellwalk::io {
 
-/// A compressed file that is written piece by piece and appears on commit(), or not at all. Its bytes depend on what is written and on
-/// the version of zlib, not on how it is cut into pieces; there is no date in it.
+/// A compressed file that is written in pieces and appears on commit(), or not at all. Its bytes depend on
+/// the content and on the version of zlib, not on the pieces; they contain no date.
 class Gzip_file {
  public:
-  /// \throw Error(other) where the file cannot be written
+  /// \throw Error(other) if the file cannot be written
   explicit Gzip_file(std::filesystem::path path);
   ~Gzip_file();
   Gzip_file(const Gzip_file&) = delete;
   Gzip_file& operator=(const Gzip_file&) = delete;
 
-  /// \throw Error(other) where the device is full
+  /// \throw Error(other) if the device is full
   void write(std::string_view bytes);
-  /// \throw Error(other) if the rest cannot be written, or the file not be renamed
+  /// \throw Error(other) if the rest cannot be written, or the file cannot be renamed
   void commit();
 
  private:
@@ -34,7 +34,7 @@ class Gzip_file {
   std::unique_ptr<Stream> stream_;
 };
 
-/// All of it at once, in memory.
+/// Compresses bytes in memory.
 std::string gzip(std::string_view bytes);
 
 /// Appends bytes in base64, padded, without line ends.

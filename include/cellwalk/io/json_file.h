@@ -11,11 +11,12 @@
 
 namespace cellwalk::io {
 
-/// Writes JSON, indented, keys in the order in which they were put in. Numbers read back the same; those that are not
-/// finite become null. The file appears complete or not at all. \throw Error(other)
+/// Writes JSON, indented, keys in the order of insertion. Numbers read back the same; those that are not
+/// finite become null. The file appears complete or not at all.
+/// \throw Error(other) if it cannot be written
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
 
-/// The same into a file that the caller commits.
+/// Writes into a file that the caller commits.
 void write_json(Atomic_file& file, const nlohmann::ordered_json& value);
 
 }  // namespace cellwalk::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The front door of the mesh readers: a file in, plain records out, whatever the format.
+// The common interface of the mesh readers: plain data from a file of any format.
 #ifndef CELLWALK_IO_MESH_FILE_H
 #define CELLWALK_IO_MESH_FILE_H
 
@@ -15,16 +15,16 @@
 
 namespace cellwalk::io {
 
-/// What a reader found, and what it left out. Nothing is dropped silently.
+/// The report of a reader, with everything that it omitted. Nothing is dropped silently.
 struct Read_report {
   std::string format;      ///< such as "Gmsh 4.1" or "OFF"
-  std::size_t points = 0;  ///< points of the record
+  std::size_t points = 0;  ///< points of the mesh
   std::size_t cells = 0;   ///< cells of a cell soup
   std::size_t facets = 0;  ///< polygons of a surface, segments of a planar domain, half-facets of cells
   std::vector<std::string> notes;  ///< one sentence for everything ignored or interpreted
 };
 
-/// A surface in space, cells of space, cells of the plane, or a domain of the plane yet to be triangulated.
+/// A surface, 3D cells, 2D cells, or a planar domain to be triangulated.
 using Mesh = std::variant<Surface_soup, Cell_soup<3>, Cell_soup<2>, Planar_domain>;
 
 struct Mesh_file {
@@ -35,26 +35,27 @@ struct Mesh_file {
 /// "surface", "volume", "planar cells" or "planar domain".
 std::string_view kind_name(const Mesh& mesh);
 
-/// Reads any mesh file this build knows. The format follows from the content where that tells, else from the extension;
-/// a file compressed with gzip is read as it is. See docs/formats.md for formats and conventions.
+/// Reads a mesh file of any format that this build supports. The format is determined by the content if
+/// possible, otherwise by the extension. The file may be compressed with gzip. See docs/formats.md for
+/// formats and conventions.
 ///
-/// A flat file (every z zero) with polygons and no volumes gives planar cells.
-/// \throw Error(input) where the file is unreadable, broken or of an unknown format: file and line where they can be
-///        known, what is wrong, what to do
+/// A flat file (every z zero) with polygons and no volumes gives 2D cells.
+/// \throw Error(input) if the file is unreadable, broken or of an unknown format; with file and line if
+///        known, the problem and the remedy
 Mesh_file read_mesh(const std::filesystem::path& path);
 
-/// A part of the readers that is optional when the library is built.
+/// A reader that is an optional part of the build.
 struct Build_feature {
   std::string_view name;  ///< "gmsh", "vtk"
   bool present = false;
   std::string version;       ///< empty if absent
-  std::string_view purpose;  ///< what it reads
+  std::string_view purpose;  ///< the formats that it reads
 };
 
-/// The optional parts, and which of them this build has.
+/// The optional parts, with those that this build has.
 std::vector<Build_feature> build_features();
 
-/// One line naming every format this build reads.
+/// One line with all formats that this build reads.
 std::string supported_formats();
 
 }  // namespace cellwalk::io

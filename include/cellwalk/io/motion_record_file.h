@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Files of one recorded motion: JSON. The format is described in docs/formats.md.
+// Repro files: one motion with its environment, as JSON. The format is described in docs/formats.md.
 #ifndef CELLWALK_IO_MOTION_RECORD_FILE_H
 #define CELLWALK_IO_MOTION_RECORD_FILE_H
 
@@ -12,19 +12,21 @@
 
 namespace cellwalk::io {
 
-/// Coordinates are written so that they read back the same. \throw Error(other) where the file cannot be written
+/// Writes a repro file. Coordinates read back the same.
+/// \throw Error(other) if the file cannot be written
 template <int D>
 void write_motion_record(const std::filesystem::path& path, const Motion_record<D>& record);
 
-/// The same into a file that the caller commits.
+/// Writes into a file that the caller commits.
 template <int D>
 void write_motion_record(Atomic_file& file, const Motion_record<D>& record);
 
-/// Nothing is guessed: unknown and missing keys, wrong types and indices out of range are refused.
-/// \throw Error(input) `FILE: key.path: what is wrong`
+/// Reads a repro file. Unknown and missing keys, wrong types and indices out of range are refused.
+/// \throw Error(input) `FILE: key.path: problem`
 Any_motion_record read_motion_record(const std::filesystem::path& path);
 
-/// The same from text in memory; `name` stands for the file in errors.
+/// Reads from text in memory.
+/// \param name stands for the file in errors
 Any_motion_record parse_motion_record(const std::string& name, std::string_view text);
 
 }  // namespace cellwalk::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Numbers as text: how tables, options and meshes are read and written. Independent of the locale.
+// Reading and writing of numbers in tables, options and meshes, independent of the locale.
 #ifndef CELLWALK_IO_NUMBERS_H
 #define CELLWALK_IO_NUMBERS_H
 
@@ -9,14 +9,15 @@
 
 namespace cellwalk::io {
 
-/// A decimal number rounded to the nearest double, a leading '+' allowed. Nothing if `text` is not exactly one number,
-/// or too large for a double. `nan` and `inf` are read as such: callers that need finite numbers check.
+/// A decimal number rounded to the nearest double, with an optional leading '+'. None if `text` is not
+/// exactly one number, or too large for a double. `nan` and `inf` are accepted; callers that need finite
+/// numbers check.
 std::optional<double> parse_decimal(std::string_view text) noexcept;
 
-/// The outcome of `parse_number`: a finite value, or why there is none.
+/// The result of parse_number(): a finite value, or the reason why there is none.
 struct Parsed_number {
   double value = 0;
-  std::string reason;  ///< empty if the value is good
+  std::string reason;  ///< empty if the value is valid
   explicit operator bool() const { return reason.empty(); }
 };
 

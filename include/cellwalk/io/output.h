@@ -10,7 +10,8 @@
 
 namespace cellwalk::io {
 
-/// Something that is written beside its destination and put in its place in steps. Destroyed before put(), it leaves nothing behind.
+/// An output that is written beside its destination and moved there in steps. If it is destroyed before
+/// put(), it leaves nothing behind.
 class Output {
  public:
   Output() = default;
@@ -18,24 +19,26 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Finishes what is written: all that may well fail. \throw Error(other)
+  /// Completes the output, with all operations that are likely to fail.
+  /// \throw Error(other) if one fails
   virtual void prepare() = 0;
-  /// Puts it in its place; what was there is kept. \throw Error(other)
+  /// Moves the output to its destination, and keeps the old content.
+  /// \throw Error(other) if that fails
   virtual void put() = 0;
-  /// After put(): as before it.
+  /// Undoes put().
   virtual void take_back() noexcept = 0;
-  /// After put(): removes what was there.
+  /// After put(), removes the old content.
   virtual void settle() noexcept = 0;
   /// False for devices and pipes, which are written by prepare().
   virtual bool can_be_taken_back() const = 0;
 };
 
-/// Puts all outputs in their places, or none: they are prepared, devices last, then put, then `finish` runs, and if any of that
-/// throws, all are taken back. Signals wait while names change.
-/// \throw Error(other) as the outputs do; whatever `finish` throws
+/// Moves all outputs to their destinations, or none. They are prepared, devices last, then put, then `finish`
+/// runs; if any of these throws, all are taken back. Signals are blocked while names change.
+/// \throw Error(other) as the outputs; any exception of `finish`
 void put_in_place(std::span<Output* const> outputs, const std::function<void()>& finish = {});
 
-/// A file or an empty directory that discard_unfinished_files() removes while this lives.
+/// Registers a file or an empty directory for discard_unfinished_files(), during the lifetime of this object.
 class Unfinished {
  public:
   Unfinished() = default;
@@ -43,7 +46,7 @@ class Unfinished {
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
 
-  /// There is room for some tens of names at a time; more are not removed.
+  /// Registers a name. Some tens of names can be registered at a time; others are not removed.
   void hold(const std::string& path);
   void release() noexcept;
 
@@ -51,12 +54,12 @@ class Unfinished {
   int slot_ = -1;
 };
 
-/// Gives a file or directory the name of another, which is kept under the first one's name.
+/// Exchanges the names of two files or directories.
 class Replacement {
  public:
-  /// False, and errno, where the system refuses.
+  /// Returns false and sets errno if the system refuses.
   bool put(const std::filesystem::path& from, const std::filesystem::path& to);
-  /// After put(): as it was before.
+  /// Undoes the exchange.
   void take_back(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
 
  private:
@@ -65,14 +68,15 @@ class Replacement {
 
 namespace detail {
 
-/// Exchanges two names as well as a file system can that does not exchange them at once (NFS): a file is always there under the
-/// second name, a directory is not for an instant. False, and errno, where the system refuses; then nothing has changed.
+/// Exchanges two names on a file system without an atomic exchange (NFS): a file always exists under the
+/// second name, a directory does not for an instant. Returns false and sets errno if the system refuses; then
+/// nothing has changed.
 bool exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept;
 
 }  // namespace detail
 
-/// Removes whatever is Unfinished: temporary files of every Atomic_file not yet in its place. Safe to call from a signal handler, for
-/// programs that must leave nothing behind when they are interrupted.
+/// Removes everything that is Unfinished, such as the temporary files of uncommitted Atomic_files. Safe to
+/// call from a signal handler, for programs that leave nothing behind when they are interrupted.
 void discard_unfinished_files() noexcept;
 
 }  // namespace cellwalk::io

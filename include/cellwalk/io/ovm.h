@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// OpenVolumeMesh ASCII (.ovm), the native format of environments: polyhedral cells, walls and solid cells kept.
+// OpenVolumeMesh ASCII (.ovm), the native format of environments: polyhedral cells, with walls and solid
+// cells.
 //
-// 3D: the property `FProp bool "impassable"` marks walls, `CProp bool "solid"` solid cells.
-// 2D: a file without polyhedra whose z are all zero. Faces are the cells, edges their facets: `EProp bool "impassable"`,
-// `FProp bool "solid"`. The mesh property `MProp int "dimension"` tells the dimension outright.
+// 3D: the property `FProp bool "impassable"` marks walls, `CProp bool "solid"` solid cells. 2D: a file
+// without polyhedra whose z are all zero. Faces are the cells, edges their facets: `EProp bool "impassable"`,
+// `FProp bool "solid"`. The mesh property `MProp int "dimension"` gives the dimension explicitly.
 #ifndef CELLWALK_IO_OVM_H
 #define CELLWALK_IO_OVM_H
 
@@ -17,22 +18,24 @@
 
 namespace cellwalk::io {
 
-/// Reads an .ovm file. Coordinates are taken to the last bit; the order of points, cells and facets is that of the file.
-/// \throw Error(input) with file and line: not OVM ASCII, cut short, an index out of range, halfedges that form no loop
+/// Reads an .ovm file. Coordinates are exact; the order of points, cells and facets is that of the file.
+/// \throw Error(input) with file and line: not OVM ASCII, cut short, an index out of range, halfedges that
+///        form no loop
 /// Cost: about 2 s for a million tetrahedra.
 Mesh_file read_ovm(const std::filesystem::path& path);
 
-/// The same from text in memory; `name` stands for the file in errors.
+/// Reads from text in memory.
+/// \param name stands for the file in errors
 Mesh_file parse_ovm(const std::string& name, std::string_view text);
 
-/// Writes a soup so that reading it gives the same points bit for bit, the same cells in the same order with the same
-/// facets in the same order, walls and solid cells included. The second side of a facet may start its loop elsewhere.
-/// The file appears complete or not at all.
-/// \throw Error(input) where a loop has a vertex out of range, Error(other) where the file cannot be written
+/// Writes a soup so that reading it gives the same points bit for bit, the same cells in the same order with
+/// the same facets in the same order, walls and solid cells included. The second side of a facet may start
+/// its loop elsewhere. The file appears complete or not at all.
+/// \throw Error(input) if a loop has a vertex out of range, Error(other) if the file cannot be written
 template <int D>
 void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup);
 
-/// The same into a file that the caller commits.
+/// Writes into a file that the caller commits.
 template <int D>
 void write_ovm(Atomic_file& file, const Cell_soup<D>& soup);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Still pictures without a display: a drawing of triangles, a software renderer, PNG files.
-// <cellwalk/io/drawing.h> puts balls, tubes, arrows and surfaces into a drawing.
+// <cellwalk/io/drawing.h> adds balls, tubes, arrows and surfaces to a drawing.
 #ifndef CELLWALK_IO_PICTURE_H
 #define CELLWALK_IO_PICTURE_H
 
@@ -18,10 +18,11 @@ struct Color {
   double red = 0, green = 0, blue = 0, opacity = 1;
 };
 
-/// How a surface looks.
+/// The appearance of a surface.
 struct Material {
   Color color;
-  /// Opacity added where the surface is seen edge-on: the outline of a translucent body stays readable.
+  /// Opacity added where the surface is seen edge-on, so that the outline of a translucent body stays
+  /// visible.
   double rim = 0;
   bool lit = true;  ///< false: flat colour, for planar drawings
 };
@@ -33,7 +34,7 @@ struct Picture_triangle {
   std::uint32_t material = 0;
 };
 
-/// What is to be seen. Units are those of the environment.
+/// The content of a picture, in the units of the environment.
 struct Drawing {
   std::vector<Material> materials;
   std::vector<Picture_triangle> triangles;
@@ -45,10 +46,10 @@ struct Drawing {
   }
 };
 
-/// From where the drawing is seen. The distance is chosen so that the drawing fills the picture.
+/// The view of a drawing. The distance is chosen so that the drawing fills the picture.
 struct Camera {
   Vector<3> toward{};         ///< from the drawing to the eye; zero: chosen from the drawing's box
-  Vector<3> up{};             ///< zero: chosen so that the longest side of the box lies across the picture
+  Vector<3> up{};             ///< zero: chosen so that the longest side of the box is horizontal
   double field_of_view = 24;  ///< degrees, the larger of width and height; 0: parallel projection
 };
 
@@ -76,13 +77,15 @@ struct Image {
 /// Draws with a depth buffer; translucent triangles are sorted per sample, so their order does not matter.
 /// \pre every coordinate is finite, every material index valid
 /// \throw Error(usage) for a size or a number of samples out of range
-/// An empty drawing gives the background. Cost: about 1 s for 1600 x 1000 and 100,000 triangles.
+/// Degenerate cases: an empty drawing gives the background.
+/// Cost: about 1 s for 1600 x 1000 and 100,000 triangles.
 Image render(const Drawing& drawing, const Picture_options& options = {});
 
-/// Draws text with its baseline's left end at (x,y), `size` pixels high (capitals); returns its width in pixels.
+/// Draws text with the left end of its baseline at (x,y), and capitals `size` pixels high; returns its width
+/// in pixels.
 double draw_text(Image& image, const std::string& text, double x, double y, double size, const Color& color);
 
-/// The bytes of a PNG file (8 bits, RGB, no date inside).
+/// The bytes of a PNG file (8 bits, RGB, without a date).
 std::string encode_png(const Image& image);
 
 }  // namespace cellwalk::io

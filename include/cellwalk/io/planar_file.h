@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Domains of the plane: Triangle's .poly and WKT polygons with holes.
+// Planar domains: Triangle's .poly, and WKT polygons with holes.
 #ifndef CELLWALK_IO_PLANAR_FILE_H
 #define CELLWALK_IO_PLANAR_FILE_H
 
@@ -12,18 +12,19 @@
 
 namespace cellwalk::io {
 
-/// Reads Triangle's .poly: points, segments and holes. Points may stand in a .node file beside it.
+/// Reads Triangle's .poly: points, segments and holes. The points may be in a .node file beside it.
 /// \throw Error(input) with file and line
 Planar_domain read_poly(const std::filesystem::path& path, Read_report* report = nullptr);
 
-/// The same from text in memory. A text without points of its own takes them from the file `name` with the extension
-/// .node.
+/// Reads from text in memory. If the text has no points, they are read from the file `name` with the
+/// extension .node.
 Planar_domain parse_poly(const std::string& name, std::string_view text, Read_report* report = nullptr);
 
-/// Reads WKT: one or more POLYGON and MULTIPOLYGON, with or without z (which is left out). Rings that share points
-/// share their indices; each inner ring is a hole, with a point strictly inside it and outside every polygon in it.
-/// \throw Error(input) with file and line: not WKT, a ring that is not closed or has fewer than three corners,
-///        a hole in which no point can be found
+/// Reads WKT: one or more POLYGON and MULTIPOLYGON, with or without z (which is ignored). Rings that share
+/// points share their indices. Each inner ring is a hole, with a point strictly inside it and outside every
+/// polygon in it.
+/// \throw Error(input) with file and line: not WKT, a ring that is not closed or has fewer than three
+///        corners, a hole in which no point can be found
 Planar_domain parse_wkt(const std::string& name, std::string_view text, Read_report* report = nullptr);
 Planar_domain read_wkt(const std::filesystem::path& path, Read_report* report = nullptr);
 

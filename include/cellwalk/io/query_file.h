@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Tables of queries into records.
+// Tables of queries.
 #ifndef CELLWALK_IO_QUERY_FILE_H
 #define CELLWALK_IO_QUERY_FILE_H
 
@@ -13,22 +13,23 @@
 
 namespace cellwalk::io {
 
-/// Points from columns named PREFIXx, PREFIXy and, in 3D, PREFIXz. Other columns are ignored.
-/// Rows with a number that is none, not finite or not exactly a double, or with a field too few or too many, come back
-/// with the reason.
-/// \throw Error(input) where a column is missing, or the table has z and the dimension is 2
+/// Points from columns named PREFIXx, PREFIXy and, in 3D, PREFIXz. Other columns are ignored. Rows with a
+/// malformed number, a number that is not finite or a fraction that is not a double, or with a wrong number
+/// of fields, are returned with the reason.
+/// \throw Error(input) if a column is missing, or if the table has z and the dimension is 2
 template <int D, std::size_t N>
 std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
                                         const std::array<std::string_view, N>& prefixes);
 
-/// Motions: columns ax,ay,az,bx,by,bz (in the plane without z). \throw Error(input)
+/// Motions of points: columns ax,ay,az,bx,by,bz (2D: without z).
+/// \throw Error(input) as above
 template <int D>
 std::vector<Move_query<D>> read_moves(const std::filesystem::path& path) {
   return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
 }
 
-/// Motions of edges: columns px,py,pz,tx,ty,tz,qx,qy,qz (in the plane without z); p moves to t, q stands still.
-/// \throw Error(input)
+/// Motions of edges: columns px,py,pz,tx,ty,tz,qx,qy,qz (2D: without z); p moves to t, q stands still.
+/// \throw Error(input) as above
 template <int D>
 std::vector<Sweep_query<D>> read_sweeps(const std::filesystem::path& path) {
   return query_rows<D, 3>(Csv_table::read(path), {"p", "t", "q"});

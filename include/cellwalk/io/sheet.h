@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A sheet of panels with titles, labels and a legend: drawings for readers.
+// Figures: panels with titles, labels and a legend.
 #ifndef CELLWALK_IO_SHEET_H
 #define CELLWALK_IO_SHEET_H
 
@@ -11,7 +11,7 @@
 
 namespace cellwalk::io {
 
-/// Text beside a point of a drawing; the offset is that of its left end from there, in pixels.
+/// A label at a point of a drawing; the offset of its left end from the point is in pixels.
 struct Label {
   Point<3> at;
   std::string text;
@@ -38,10 +38,11 @@ struct Sheet_options {
   std::size_t columns = 2, key_columns = 3;
 };
 
-/// Panels and legend in rows, on white. \pre as render(); text is printable ASCII
+/// Arranges panels and legend in rows, on white.
+/// \pre as render(); text is printable ASCII
 Image make_sheet(std::span<const Panel> panels, std::span<const Key> keys, const Sheet_options& options);
 
-/// A straight line as dashes, flat (planar drawings) or round.
+/// A dashed straight line, flat (for planar drawings) or round.
 void add_dashes(Drawing& drawing, const Point<3>& a, const Point<3>& b, double size, double dash, bool flat,
                 std::uint32_t material);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Surfaces: OFF, OBJ, STL and PLY into a polygon soup.
+// Surfaces: polygon soups from OFF, OBJ, STL and PLY.
 #ifndef CELLWALK_IO_SURFACE_FILE_H
 #define CELLWALK_IO_SURFACE_FILE_H
 
@@ -14,12 +14,14 @@ namespace cellwalk::io {
 
 enum class Surface_format { off, obj, stl, ply };
 
-/// Reads a surface; the polygons are taken as they stand (open, inside out, not manifold: meshing judges that).
-/// The format follows from the extension, `.gz` after it allowed. STL corners of equal coordinates become one point.
-/// \throw Error(input) naming file and line (binary files: what is wrong with them); also where the file is no surface
+/// Reads a surface. The polygons are unchanged; meshing checks whether they are closed, oriented and
+/// manifold. The format is determined by the extension, which may be followed by `.gz`. STL corners of equal
+/// coordinates become one point.
+/// \throw Error(input) naming file and line (binary files: the problem); also if the file is not a surface
 Surface_soup read_surface(const std::filesystem::path& path, Read_report* report = nullptr);
 
-/// The same from bytes in memory; `name` stands for the file in errors.
+/// Reads from bytes in memory.
+/// \param name stands for the file in errors
 Surface_soup parse_surface(const std::string& name, std::string_view bytes, Surface_format format,
                            Read_report* report = nullptr);
 

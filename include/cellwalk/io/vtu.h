@@ -15,7 +15,7 @@
 
 namespace cellwalk::io {
 
-/// The cell types that are written; the values are VTK's.
+/// The cell types, with the values of VTK.
 enum class Vtu_cell : std::uint8_t {
   vertex = 1,
   line = 3,
@@ -35,46 +35,48 @@ struct Vtu_array {
   std::variant<std::vector<double>, std::vector<std::int64_t>> values;
 };
 
-/// Points, cells and data on them. Points of the plane have z = 0.
+/// Points, cells and their data. 2D points have z = 0.
 struct Vtu_grid {
   std::vector<Point<3>> points;
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;  ///< of each cell, its end in connectivity
   std::vector<std::uint8_t> types;
-  std::vector<std::int64_t> faces;  ///< of polyhedra: number of faces, then of each its size and its points
+  /// Of polyhedra: the number of faces, then the size and the points of each
+  std::vector<std::int64_t> faces;
   std::vector<std::int64_t> face_offsets;  ///< of each cell, its end in faces, or -1; empty without polyhedra
   std::vector<Vtu_array> point_data, cell_data;
 
   std::size_t cell_count() const { return types.size(); }
 
-  /// Appends a cell over points that are there already; polyhedra by add_polyhedron().
+  /// Appends a cell over existing points; for polyhedra see add_polyhedron().
   void add_cell(Vtu_cell type, std::span<const std::uint32_t> vertices);
-  /// Appends a polyhedron, its faces as loops counterclockwise seen from outside.
+  /// Appends a polyhedron, with its faces as loops, counterclockwise seen from outside.
   void add_polyhedron(std::span<const std::vector<std::uint32_t>> loops);
 };
 
-/// Adds z = 0 to a point of the plane.
+/// A 2D point with z = 0.
 inline Point<3> in_space(const Point<2>& p) { return {p[0], p[1], 0}; }
 inline Point<3> in_space(const Point<3>& p) { return p; }
 
-/// The cells of a soup: tetrahedra and hexahedra as such, others as polyhedra, cells of the plane as polygons.
+/// The cells of a soup: tetrahedra and hexahedra as such, others as polyhedra, 2D cells as polygons.
 /// Cell data: `solid`, and `cell`, the index in the soup.
 template <int D>
 Vtu_grid vtu_of_cells(const Cell_soup<D>& soup);
 
-/// The walls of a soup: its impassable facets and those on its boundary, each once. Cell data: `cell`, the first cell
-/// that has it.
+/// The walls of a soup: its impassable facets and those on its boundary, each once. Cell data: `cell`, the
+/// first cell with that facet.
 template <int D>
 Vtu_grid vtu_of_walls(const Cell_soup<D>& soup);
 
-/// How arrays are written: as text that one can read, or as the bytes of the numbers in base64 (exact, and faster).
+/// The encoding of arrays: readable text, or the bytes of the numbers in base64 (faster).
 enum class Vtu_encoding { text, base64 };
 
-/// The file as text. The same grid gives the same bytes. Values are exact in either encoding.
-/// \throw Error(usage) where an array has another length than its points or cells
+/// The text of a file. The same grid gives the same bytes. Values are exact in both encodings.
+/// \throw Error(usage) if the length of an array differs from that of its points or cells
 std::string vtu_text(const Vtu_grid& grid, Vtu_encoding encoding = Vtu_encoding::base64);
 
-/// Writes a grid; the file appears complete or not at all. \throw as vtu_text(), Error(other) where it cannot be written
+/// Writes a grid; the file appears complete or not at all.
+/// \throw Error as vtu_text(), Error(other) if it cannot be written
 void write_vtu(const std::filesystem::path& path, const Vtu_grid& grid,
                Vtu_encoding encoding = Vtu_encoding::base64);
 

@@ -8,16 +8,17 @@
 
 namespace cellwalk {
 
-/// What kind of failure; the value is the exit code of `cellwalk`.
+/// The kind of an error; its value is the exit code of `cellwalk`.
 enum class Error_code : int {
-  other = 1,          ///< anything else
-  usage = 2,          ///< a call or command line that makes no sense
+  other = 1,          ///< any other error
+  usage = 2,          ///< an invalid call or command line
   input = 3,          ///< unreadable or invalid input
   not_certified = 4,  ///< an environment that is not certified
   outside = 5         ///< a particle or body that starts outside free space or across a wall
 };
 
-/// Thrown wherever the library refuses an input. `what()` is one line: what is wrong, where, and what to do.
+/// Thrown by every function that refuses an input. `what()` is one line: the problem, the place and the
+/// remedy.
 class Error : public std::runtime_error {
  public:
   Error(Error_code code, const std::string& message) : std::runtime_error(message), code_(code) {}

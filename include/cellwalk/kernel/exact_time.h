@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Times of impact: exact fractions, compared exactly, rounded only to be reported.
+// Times of impact: exact fractions, compared exactly, and rounded only for reports.
 #ifndef CELLWALK_KERNEL_EXACT_TIME_H
 #define CELLWALK_KERNEL_EXACT_TIME_H
 
@@ -10,20 +10,23 @@ namespace cellwalk {
 
 struct Exact_fraction;  // <cellwalk/kernel/exact_value.h>
 
-/// A parameter of a motion as an exact number. Comparing two of them needs the fractions themselves only where they
-/// round to the same double. Copying is cheap; immutable.
+/// A parameter of a motion as an exact number. A comparison needs the fractions only if both times round to
+/// the same double. Immutable and cheap to copy.
 class Exact_time {
  public:
   Exact_time() = default;  ///< 0
-  /// Exactly this double. \pre finite
+  /// Exactly this double.
+  /// \pre finite
   explicit Exact_time(double time) : rounded_(time) {}
-  /// A fraction and the greatest double that is not above it; use to_time().
+  /// A fraction and the greatest double not above it; see to_time().
+  /// \param rounded the greatest double not above the fraction
+  /// \param fraction the exact time
   Exact_time(double rounded, std::shared_ptr<const Exact_fraction> fraction)
       : rounded_(rounded), fraction_(std::move(fraction)) {}
 
-  /// The greatest double that is not later: a time reported is never after the contact.
+  /// The greatest double that is not later, so that a reported time is never after the contact.
   double rounded() const { return rounded_; }
-  /// The fraction, or null where rounded() is exact.
+  /// The fraction, or null if rounded() is exact.
   const Exact_fraction* fraction() const { return fraction_.get(); }
 
   friend std::strong_ordering operator<=>(const Exact_time& s, const Exact_time& t);

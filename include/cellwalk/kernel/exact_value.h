@@ -15,7 +15,7 @@ using Rational = CGAL::Exact_rational;
 
 namespace detail {
 
-/// The GMP number in a rational, whoever wraps it.
+/// The GMP number of a rational, for both wrappers that CGAL uses.
 template <class R>
 auto gmp_number(R& x) -> decltype(x.get_mpq_t()) {
   return x.get_mpq_t();
@@ -32,7 +32,7 @@ struct Ring_of {
 };
 
 #ifdef CGAL_HAS_MPZF
-/// Floats of any length, where rationals are those of GMP.
+/// Floats of any length, if rationals are those of GMP.
 template <class Field>
 requires requires(Field x, const CGAL::Mpzf& y) { y.export_to_mpq_t(gmp_number(x)); }
 struct Ring_of<Field> {
@@ -42,10 +42,11 @@ struct Ring_of<Field> {
 
 }  // namespace detail
 
-/// Every double is one; sums, differences and products are exact, and cheaper than those of rationals.
+/// Ring numbers: they include all doubles; sums, differences and products are exact, and cheaper than those
+/// of rationals.
 using Ring = detail::Ring_of<Rational>::type;
 
-/// What an Exact_time holds.
+/// The fraction of an Exact_time.
 struct Exact_fraction {
   Rational value;
 };
@@ -54,7 +55,7 @@ struct Exact_fraction {
 Exact_time to_time(const Rational& fraction);
 Rational to_rational(const Exact_time& time);
 
-/// Not the sign of an orientation, but the determinant itself.
+/// The exact value of an orientation, that is its determinant, where the sign alone does not suffice.
 struct Exact_value {
   static Ring orientation(const Point<2>& p, const Point<2>& q, const Point<2>& r);
   static Ring orientation(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);

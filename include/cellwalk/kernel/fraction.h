@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Exact arithmetic without common divisors: ring numbers, and fractions of two of them. For chains of few operations, whose
-// numbers stay short; a Rational reduces itself after each one, which costs more. Includes CGAL; users link CGAL::CGAL.
+// Exact arithmetic with unreduced fractions of ring numbers, for short chains of operations, whose numbers
+// stay short. A Rational is reduced after each operation, which costs more. Includes CGAL; users link
+// CGAL::CGAL.
 #ifndef CELLWALK_KERNEL_FRACTION_H
 #define CELLWALK_KERNEL_FRACTION_H
 
@@ -11,7 +12,8 @@
 
 namespace cellwalk {
 
-/// A quotient of ring numbers, not reduced. Comparing two is a product each; arithmetic adds up their lengths.
+/// An unreduced quotient of ring numbers. A comparison takes two products; arithmetic adds the lengths of the
+/// numbers.
 class Fraction {
  public:
   Fraction() : Fraction(0) {}
@@ -41,7 +43,7 @@ class Fraction {
   friend Fraction operator*(const Fraction& x, const Fraction& y) {
     return {Ring(x.numerator_ * y.numerator_), Ring(x.denominator_ * y.denominator_)};
   }
-  /// Half-way between two.
+  /// The midpoint of two fractions.
   friend Fraction middle(const Fraction& x, const Fraction& y) {
     return {Ring(x.numerator_ * y.denominator_ + y.numerator_ * x.denominator_),
             Ring(x.denominator_ * y.denominator_ * Ring(2))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Exact signs of orientations with bounds of their values, and of the roots between two of them.
+// Exact signs of orientations with bounds of their values, and bounds of the root between two of them.
 #ifndef CELLWALK_KERNEL_ORIENTATION_VALUE_H
 #define CELLWALK_KERNEL_ORIENTATION_VALUE_H
 
@@ -11,7 +11,8 @@
 
 namespace cellwalk {
 
-/// The exact sign of an orientation, and bounds of its absolute value: infinite where doubles know none.
+/// The exact sign of an orientation, and bounds of its absolute value; the upper one is infinite if doubles
+/// give none.
 struct Orientation_value {
   int sign;
   double low, high;
@@ -36,11 +37,12 @@ struct Root_bounds {
   double low = 0, high = 1;
 };
 
-/// Bounds of the root in (0,1) of an affine function, by its values at 0 and 1, which have different signs:
-/// |v_0| / (|v_0| + |v_1|).
+/// Bounds of the root |v_0| / (|v_0| + |v_1|) in (0,1) of an affine function with the values v_0 at 0 and v_1
+/// at 1.
+/// \pre the values have different signs
 inline Root_bounds root_bounds(const Orientation_value& at_0, const Orientation_value& at_1) {
-  // Rounding: one factor 1+u each in the bounds of the values, in their sum, in the quotient and in the product here, of
-  // which two are in the numerator and denominator together: less than 8u.
+  // Rounding: one factor 1+u each in the bounds of the values, in their sum, in the quotient and in this
+  // product; two of them occur in the numerator and the denominator. Together they are less than 8u.
   constexpr double rounding = 8 * 0x1p-53;
   // Quotients of values in the range of filtered magnitudes are far from 0 or rounded up to this.
   constexpr double smallest = 1e-290;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Points and vectors: plain arrays of doubles, so that positions can be read where they lie.
+// Points and vectors: plain arrays of doubles, so that positions can be read in place.
 #ifndef CELLWALK_KERNEL_POINT_H
 #define CELLWALK_KERNEL_POINT_H
 
@@ -9,13 +9,13 @@
 
 namespace cellwalk {
 
-/// A point of D-space in the units of the environment. Every value is exact input: nothing is rounded on the
-/// way in. (The cast keeps D out of argument deduction, where int and the size type of an array would
-/// contradict each other.)
+/// A point in D dimensions, in the units of the environment. Every coordinate is exact input and is never
+/// rounded. (The cast keeps D out of argument deduction, where int and the size type of an array would
+/// conflict.)
 template <int D>
 using Point = std::array<double, static_cast<std::size_t>(D)>;
 
-/// A direction or displacement in D-space.
+/// A direction or displacement in D dimensions.
 template <int D>
 using Vector = std::array<double, static_cast<std::size_t>(D)>;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Number policies. Every predicate of the library is the sign of an orientation of input points, asked of one
-// of these:
+// Number policies. Every predicate of the library is the sign of an orientation of input points, computed by
+// one of these policies:
 //
-//   Exact   double arithmetic with a forward error bound, then interval, then exact arithmetic: always right
-//   Lazy    CGAL's lazy exact kernel: always right, the reference for the cost of exactness
-//   Unfiltered   rational arithmetic for every sign: always right, without any filter
-//   Double  the sign of the rounded determinant: wrong near degeneracies; for experiments only
-//   Tolerant<n>  the same, but 0 within 10^-n; for experiments only
-//   Float   the rounded sign in single precision; for experiments only
+// Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic: always
+// right Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
+// Unfiltered   rational arithmetic for every sign, without a filter: always right Double       the sign of
+// the rounded determinant: wrong near degeneracies; for experiments only Tolerant<n>  the same, but 0 within
+// 10^-n; for experiments only Float        the rounded sign in single precision; for experiments only
 //
 // Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
 //   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
@@ -15,10 +14,13 @@
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
+#include <cellwalk/kernel/counts.h>
 #include <cellwalk/kernel/point.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace cellwalk {
 
@@ -74,9 +76,9 @@ inline int sign_of(T x) {
 }
 
 /// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
-/// coordinate difference carries a factor (1+u), each product and sum another: at most 7 factors in 3D and 4
-/// in 2D before the magnitude, itself rounded down by as many, is compared. 16u covers both with room to
-/// spare.
+/// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in
+/// 2D. The magnitude, with which the error is compared, is rounded down by as many. 16u covers both with a
+/// margin.
 inline constexpr double orientation_error = 16 * 0x1p-53;
 /// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by
 /// 2^-1075, far less than 16u times 1e-250); above it a term may have overflowed.
@@ -85,20 +87,17 @@ inline constexpr double largest_magnitude = 1e+300;
 
 }  // namespace detail
 
-/// How often a policy had to leave double arithmetic.
+/// Counts of the signs that a policy computed, and of those that needed more than double arithmetic.
 struct Predicate_counts {
-  std::uint64_t orientations = 0;  ///< orientation signs asked for
-  std::uint64_t fallbacks = 0;     ///< those that the filter left undecided
+  std::uint64_t orientations = 0;  ///< signs of orientations computed
+  std::uint64_t fallbacks = 0;     ///< signs that the filter left undecided
 
-  Predicate_counts& operator+=(const Predicate_counts& other) {
-    orientations += other.orientations;
-    fallbacks += other.fallbacks;
-    return *this;
-  }
+  static constexpr std::array<std::string_view, 2> names{"orientations", "exact_fallbacks"};
 };
+static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
 
 /// Exact signs at the cost of double arithmetic in nearly all cases. The default.
-/// Cost: about 5 ns where the filter decides; 0.1 to 10 us otherwise.
+/// Cost: about 5 ns if the filter decides; 0.1 to 10 us otherwise.
 struct Exact {
   static constexpr bool is_exact = true;
   static constexpr bool uses_certificates = true;
@@ -132,7 +131,8 @@ struct Lazy {
   }
 };
 
-/// Exact signs in rational numbers, each computed in full. Cost: some microseconds a sign.
+/// Exact signs in rational numbers, each computed in full.
+/// Cost: some microseconds a sign.
 struct Unfiltered {
   static constexpr bool is_exact = true;
   static constexpr bool uses_certificates = false;
@@ -158,8 +158,9 @@ struct Double {
   }
 };
 
-/// Rounded signs in double precision that count as 0 up to a fixed tolerance, as is common practice: 10^-Digits, in units of the
-/// area (2D) or volume (3D) of the determinant, so its meaning changes with the scale of the input. For experiments.
+/// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. The tolerance
+/// is 10^-Digits, in units of the area (2D) or volume (3D) of the determinant, so it depends on the scale of
+/// the input. For experiments.
 template <int Digits>
 struct Tolerant {
   static_assert(Digits == 6 || Digits == 9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Predicates and rounded exact values beyond a plain orientation. All exact.
+// Exact predicates and rounded exact values, derived from orientations.
 #ifndef CELLWALK_KERNEL_PREDICATES_H
 #define CELLWALK_KERNEL_PREDICATES_H
 
@@ -9,7 +9,7 @@
 
 namespace cellwalk {
 
-/// True if p, q and r lie on one line (or two of them coincide).
+/// True if p, q and r are collinear (or two of them coincide).
 bool are_collinear(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 bool are_collinear(const Point<3>& p, const Point<3>& q, const Point<3>& r);
 
@@ -18,25 +18,26 @@ template <int D>
 bool on_segment(const Point<D>& u, const Point<D>& v, const Point<D>& x);
 
 /// True if x, a point of the plane of a convex polygon, lies in the closed polygon.
-/// \pre the first three vertices of the polygon do not lie on one line
+/// \pre the first three vertices of the polygon are not collinear
 bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x);
 
-/// On which side of the line pq (2D) or the plane pqr (3D) a point of it comes to lie when it is displaced by (e, e^2, e^3), e > 0
-/// as small as one likes: the sign that orientation(p, q, x) or orientation(p, q, r, x) then has. So it is 0 only where p and q
-/// coincide (3D: where p, q and r lie on one line). Decides between the two sides of a wall where nothing else does.
+/// The side of the line pq (2D) or the plane pqr (3D) on which a point of it lies after a displacement by (e,
+/// e^2, e^3) for arbitrarily small e > 0: the sign of orientation(p, q, x) or orientation(p, q, r, x) for the
+/// displaced point x. It is 0 only if p and q coincide (3D: if p, q and r are collinear). This symbolic
+/// perturbation chooses between the two sides of a wall if nothing else determines the side.
 int displaced_side(const Point<2>& p, const Point<2>& q);
 int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r);
 
 /// The parameter t at which the line a + t (b - a) meets the line uv (2D) or the plane uvw (3D).
-/// \pre a and b do not lie on the same side strictly, and not both on it
 /// Returns the exact fraction clamped to [0,1] and rounded: within 4 ulp, 0 and 1 only if exact.
+/// \pre a and b do not lie strictly on the same side, nor both on the line or plane
 double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b);
 double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& a,
                      const Point<3>& b);
 
-/// Unit normal of the line uv (2D: on its left) or of the plane uvw (3D: from where uvw turns counterclockwise), each
-/// component within 1e-14 of the exact one, whatever the scale and however thin the triangle; 0 where the points lie on
-/// one line (2D: coincide).
+/// Unit normal of the line uv (2D: on its left) or of the plane uvw (3D: on the side from which uvw is
+/// counterclockwise). Each component is within 1e-14 of the exact one, for any scale and shape of the
+/// triangle. The result is 0 if the points are collinear (2D: coincide).
 Vector<2> unit_normal(const Point<2>& u, const Point<2>& v);
 Vector<3> unit_normal(const Point<3>& u, const Point<3>& v, const Point<3>& w);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Random numbers that are the same on every machine. The standard fixes the engine bit by bit, but not the
-// distributions, so these are our own.
+// Random numbers that are equal on every machine. The C++ standard specifies the engines exactly, but not the
+// distributions, so the distributions are implemented here.
 #ifndef CELLWALK_KERNEL_RANDOM_H
 #define CELLWALK_KERNEL_RANDOM_H
 
@@ -50,8 +50,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Scrambles 64 bits (the finaliser of SplitMix64): a fixed random function, for decisions that two places
-/// must take alike without talking to each other.
+/// Scrambles 64 bits (the finaliser of SplitMix64): a fixed pseudo-random function, for decisions that must
+/// be equal in two places without communication.
 constexpr std::uint64_t scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Environments from files: read, meshed where a file holds no cells, certified.
+// Environments from files: read, meshed if the file contains no cells, and certified.
 #ifndef CELLWALK_LOADING_ENVIRONMENT_FILE_H
 #define CELLWALK_LOADING_ENVIRONMENT_FILE_H
 
@@ -24,7 +24,7 @@ struct Loaded_environment {
   io::Read_report read;
 };
 
-/// Runs `work`; an Error that leaves it without naming the file gets `path: ` in front.
+/// Runs `work`, and prepends `path: ` to the message of an Error that does not name the file.
 template <class Work>
 auto naming(const std::string& path, Work&& work) {
   try {
@@ -35,8 +35,9 @@ auto naming(const std::string& path, Work&& work) {
   }
 }
 
-/// Reads a file of cells and certifies it as it stands: nothing is split, merged or flipped.
-/// \throw Error(input) if it is unreadable or holds no cells, Error(not_certified) with the cell and the reason
+/// Reads a file of cells and certifies it unchanged: nothing is split, merged or flipped.
+/// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the
+///        reason
 /// Cost: that of reading and of Environment::build().
 Loaded_environment load_environment(const std::string& path, Build_options options);
 
@@ -44,11 +45,11 @@ struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface
   Mesher_options mesher;
   Build_options build{.keep_map = false};
-  /// Called before each stage of long work with what begins, such as "reading part.off".
+  /// Called before each stage of long work with its description, such as "reading part.off".
   std::function<void(const std::string&)> on_stage{};
 };
 
-/// What was read, made and changed, stage by stage. Nothing is repaired silently.
+/// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
     std::string title;  ///< "read", "meshed" or "changed"
@@ -64,11 +65,12 @@ struct Imported_environment {
   Import_report report;
 };
 
-/// Makes a certified environment of any mesh file: cells are certified and split where they must be, a closed surface is filled
-/// with tetrahedra, a planar domain with triangles.
-/// \throw Error(input) where a file is unreadable or an obstacle no closed surface, Error(not_certified) with the cell and the
-///        reason, Error(usage) for obstacles of what is no surface, and where this build cannot mesh
-/// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe where TetGen is used.
+/// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
+/// surface is filled with tetrahedra, a planar domain with triangles.
+/// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
+///        with the cell and the reason, Error(usage) for obstacles without a surface, and if this build
+///        cannot mesh
+/// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe if TetGen is used.
 Imported_environment import_environment(const std::string& path, const Import_options& options);
 
 }  // namespace cellwalk

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Every generator by name, with its options: one table for `cellwalk generate`, the recipes of scenes and Python.
+// All generators by name, with their options: one table for `cellwalk generate`, scenes and Python.
 #ifndef CELLWALK_LOADING_GENERATORS_H
 #define CELLWALK_LOADING_GENERATORS_H
 
@@ -16,13 +16,13 @@ namespace cellwalk {
 
 using Any_soup = std::variant<Cell_soup<2>, Cell_soup<3>>;
 
-/// Options by name, each a list of numbers. A flag is on where its number is not 0.
+/// Options by name, each a list of numbers. A flag is on if its number is not 0.
 using Generator_values = std::map<std::string, std::vector<double>>;
 
 struct Generator_option {
   std::string name;  ///< as in scenes; the command line has - for _
   std::string help;
-  std::vector<double> initial;  ///< what stands where nothing is given; as many numbers as may be given
+  std::vector<double> initial;  ///< the default; its length is that of the option
   bool is_flag = false;
   bool is_integer = false;
 };
@@ -34,15 +34,15 @@ struct Generator {
   Any_soup (*make)(const Generator_values& complete);
 };
 
-/// All generators, in the order in which help shows them.
+/// All generators, in the order of the help text.
 const std::vector<Generator>& generators();
 
 /// Makes the cells of a generator. An option that takes one number for each axis takes a single one for all.
-/// \throw Error(usage) for an unknown generator or option, a wrong count of numbers, one that is not finite, or not an
-///        integer where one is needed, and as the generator itself does
+/// \throw Error(usage) for an unknown generator or option, a wrong count of numbers, one that is not finite,
+///        or not an integer where one is needed, and as the generator itself does
 Any_soup generate(const std::string& generator, const Generator_values& values);
 
-/// How to build what they make: nothing needs to be split, and equal vertices are slits.
+/// The options to build generated cells: nothing is split, and equal vertices are kept, as slits.
 inline constexpr Build_options build_of_generated{
     .duplicates = Duplicate_vertices::keep, .split = false, .keep_map = false};
 

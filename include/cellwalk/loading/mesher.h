@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The optional meshing component, chosen at run time. Builds without it have mesher_absent.cpp instead.
+// The optional meshing component. Builds without it have mesher_absent.cpp instead.
 #ifndef CELLWALK_LOADING_MESHER_H
 #define CELLWALK_LOADING_MESHER_H
 
@@ -19,13 +19,13 @@ struct Mesher_options {
   Mesher mesher = Mesher::tetgen;
   double quality = 0;    ///< TetGen: radius-edge ratio; 0: as few tetrahedra as possible
   double cell_size = 0;  ///< Mesh_3: units of the surface; 0: its default
-  double distance = 0;   ///< Mesh_3: how far the boundary may leave the surface; 0: its default
+  double distance = 0;   ///< Mesh_3: maximal distance of the boundary from the surface; 0: its default
   bool keep_obstacles = false;
-  std::vector<std::string>
-      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
 };
 
-/// Cells, and what was done to get them: lines for people, and JSON.
+/// Cells, and the report of meshing, as text and as JSON.
 template <int D>
 struct Meshed {
   Cell_soup<D> soup;
@@ -33,18 +33,19 @@ struct Meshed {
   nlohmann::ordered_json report;
 };
 
-/// What this build has.
+/// The meshers of this build.
 struct Mesher_parts {
   bool meshing = false, tetgen = false;
 };
 Mesher_parts mesher_parts();
 
-/// The inside of a closed surface, less the obstacles.
-/// \throw Error as the meshers do; Error(usage) in a build without them
+/// Fills the interior of a closed surface, without the obstacles.
+/// \throw Error as the meshers; Error(usage) in a build without them
 Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                        const Mesher_options& options);
 
-/// A planar domain as triangles. \throw Error as triangulate does; Error(usage) in a build without meshing
+/// Triangulates a planar domain.
+/// \throw Error as triangulate(); Error(usage) in a build without meshing
 Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options);
 
 }  // namespace cellwalk

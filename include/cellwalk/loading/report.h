@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What building and certifying an environment found, as text for people and as JSON.
+// Reports of building and certifying an environment, as text and as JSON.
 #ifndef CELLWALK_LOADING_REPORT_H
 #define CELLWALK_LOADING_REPORT_H
 
@@ -12,15 +12,15 @@
 
 namespace cellwalk {
 
-/// What certification found: a line each.
+/// The counts of a certificate, one line each.
 std::string describe(const Certificate& certificate, int dimension);
 nlohmann::ordered_json to_json(const Certificate& certificate, int dimension);
 
-/// What building changed: a sentence each, or one that says that nothing was.
+/// The changes made by building, one sentence each, or one sentence if there were none.
 std::vector<std::string> changes(const Build_report& built);
 nlohmann::ordered_json to_json(const Build_report& built);
 
-/// Volumes and other rounded figures, for people.
+/// The text of a rounded figure, such as a volume.
 std::string rounded(double value);
 
 }  // namespace cellwalk

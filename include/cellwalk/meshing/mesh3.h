@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inside of a closed surface as well-shaped tetrahedra with the surface approximated, by CGAL's Mesh_3.
+// Well-shaped tetrahedra in the interior of a closed surface, which is approximated, by CGAL's Mesh_3.
 #ifndef CELLWALK_MESHING_MESH3_H
 #define CELLWALK_MESHING_MESH3_H
 
@@ -13,31 +13,32 @@
 
 namespace cellwalk {
 
-/// Lengths in units of the surface; 0 takes the default.
+/// Lengths are in units of the surface; 0 selects the default.
 struct Mesh3_options {
   double cell_size = 0;       ///< bound of circumradii; default a twentieth of the bounding box's diagonal
   double facet_size = 0;      ///< bound of surface triangles' radii; default cell_size
   double facet_distance = 0;  ///< bound of their distance to the surface; default a fiftieth of facet_size
   double facet_angle = 25;    ///< degrees, at most 30
   double radius_edge = 2;     ///< bound of circumradius to shortest edge, at least 2
-  std::vector<std::string>
-      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
 };
 
 struct Mesh3_report {
   Surface_report surface;
   std::vector<Surface_report> obstacles;
   std::size_t boundary_facets = 0;
-  /// The largest distance found from the mesh's boundary to the surfaces (at its vertices, edge midpoints and facet
-  /// centroids) and from the surfaces' vertices to the mesh's boundary.
+  /// The largest distance found from the mesh's boundary to the surfaces (at its vertices, edge midpoints and
+  /// facet centroids) and from the surfaces' vertices to the mesh's boundary.
   double distance_to_surface = 0, distance_from_surface = 0;
 };
 
-/// Fills the inside of a closed surface, less that of the obstacles, with tetrahedra.
-/// \throw Error(input) as tetrahedralize; Error(usage) for options out of range: sizes at which more than 10^8 cells or facets are
-///        needed whatever their shape, and distances below 2^-20 of the bounding box's diagonal
-/// \throw Error(not_certified) if no tetrahedron came out (sizes too large for the surface), or one that is flat
-/// Same input, same mesh. Cost: about 30 us a tetrahedron.
+/// Fills the interior of a closed surface, without that of the obstacles, with tetrahedra.
+/// \throw Error(input) as tetrahedralize; Error(usage) for options out of range: sizes that need more than
+///        10^8 cells or facets of any shape, and distances below 2^-20 of the bounding box's diagonal
+/// \throw Error(not_certified) if the mesh has no tetrahedron (sizes too large for the surface), or a flat
+///        one The same input gives the same mesh.
+/// Cost: about 30 us a tetrahedron.
 Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
                    const Mesh3_options& options = {}, Mesh3_report* report = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inside of a closed surface as tetrahedra with the surface kept exactly, by TetGen.
+// Tetrahedra in the interior of a closed surface, which is preserved exactly, by TetGen.
 #ifndef CELLWALK_MESHING_TETRAHEDRALIZE_H
 #define CELLWALK_MESHING_TETRAHEDRALIZE_H
 
@@ -14,34 +14,37 @@
 namespace cellwalk {
 
 struct Tetrahedralize_options {
-  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few tetrahedra as
-  /// possible. Points are added inside only, so that near fine parts of the surface it may not be reached.
+  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few
+  /// tetrahedra as possible. Points are added in the interior only, so the bound may be violated near fine
+  /// parts of the surface.
   double quality = 0;
   double largest_volume = 0;                ///< of a tetrahedron; 0: any
   std::size_t most_added_points = 1000000;  ///< refinement stops there
-  bool keep_obstacles = false;              ///< true: obstacles stay as solid cells; false: they are left out
-  std::vector<std::string>
-      obstacle_names{};  ///< what messages call the obstacles; left out: "obstacle 1", ...
+  /// True: obstacles are kept as solid cells; false: they are omitted
+  bool keep_obstacles = false;
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
 };
 
 struct Tetrahedralize_report {
   Surface_report surface;
   std::vector<Surface_report> obstacles;
-  std::size_t added_points = 0;     ///< inside; none on the surface
-  std::size_t boundary_facets = 0;  ///< triangles of the surface and the obstacles, each kept as it is
+  std::size_t added_points = 0;     ///< in the interior; none on the surface
+  std::size_t boundary_facets = 0;  ///< triangles of the surface and the obstacles, all preserved
   std::size_t solid_cells = 0;      ///< with keep_obstacles
 };
 
 /// True if the library was built with TetGen.
 bool has_tetgen();
 
-/// Fills the inside of a closed surface, less that of the obstacles, with tetrahedra. Every triangle of a surface is a
-/// facet of the result and a wall. Space is inside where an odd number of components of the surface enclose it.
-/// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and apart from
-///        it and from the other obstacles
-/// \throw Error(usage) for options out of range, or where the library was built without TetGen
-/// \throw Error(not_certified) if TetGen gives up, does not keep the surface, or makes a flat tetrahedron
-/// Not thread-safe: TetGen's messages are kept from the standard output of the process while it runs.
+/// Fills the interior of a closed surface, without that of the obstacles, with tetrahedra. Every triangle of
+/// a surface is a facet of the result and a wall. A point is inside if an odd number of components of the
+/// surface enclose it.
+/// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and
+///        apart from it and from the other obstacles
+/// \throw Error(usage) for options out of range, or if the library was built without TetGen
+/// \throw Error(not_certified) if TetGen fails, does not preserve the surface, or makes a flat tetrahedron
+/// Not thread-safe: TetGen's messages to the standard output of the process are suppressed while it runs.
 /// Cost: about 20 us a tetrahedron.
 Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
                             const Tetrahedralize_options& options = {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Questions about motions of points that were in no cell before: located, then walked.
+// Queries of motions of points without a known cell: the point is located, and then walked.
 #ifndef CELLWALK_QUERY_MOVE_H
 #define CELLWALK_QUERY_MOVE_H
 
@@ -19,7 +19,7 @@ enum class Kernel_choice {
   float_precision
 };
 
-/// Calls work(policy) with the number policy that is chosen.
+/// Calls work(policy) with the selected number policy.
 template <class Work>
 auto with_kernel(Kernel_choice kernel, Work&& work) {
   switch (kernel) {
@@ -47,11 +47,13 @@ struct Move_options {
   Touch touch = Touch::pass;
 };
 
-/// Answers a motion from one point to another.
-/// A start on a wall with free space on several sides belongs to any of them: the side on which the motion gets furthest
-/// is taken, the cell of lowest index first.
+/// Answers a motion from one point to another. A start on a wall with free space on several sides may belong
+/// to each of them: the side on which the motion gets furthest is chosen, in ties that with the cell of
+/// lowest index. With an exact kernel the time of a contact is exact; otherwise it is that of the walk,
+/// rounded.
 /// \pre the locator is that of the snapshot; both points are finite; Touch::stop only with the exact kernel
-/// Cost: that of locating the start and of the walk, for each side. May be called from many threads, each with its counts.
+/// Cost: that of locating the start and of the walk, for each side. Thread-safe, if each thread has its own
+/// counts.
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
                       const Point<D>& to, const Move_options& options, Edge_counts& counts);

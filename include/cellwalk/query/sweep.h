@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Questions about motions of edges that were in no cell before: located, linked, then swept.
+// Queries of motions of edges without a known chain: the ends are located, a chain is found, and then the
+// edge is swept.
+// Paper: section III.
 #ifndef CELLWALK_QUERY_SWEEP_H
 #define CELLWALK_QUERY_SWEEP_H
 
@@ -15,15 +17,15 @@ struct Edge_motion {
   Point<D> p, target, q;
 };
 
-/// Answers a motion of an edge. Outside: an end is not in free space, or the edge crosses a wall before it moves. An edge alone has no
-/// face: Sweep::faces is Sweep::triangle.
+/// Answers a motion of an edge. The status is `outside` if an end is not in free space, or if the edge
+/// crosses a wall before it moves. Sweep::faces is the same as Sweep::triangle, since an edge has no faces.
 ///
-/// An end that stands on a wall with free space on several sides belongs to any of them: of the sides between which the
-/// edge has a chain, those are taken with which the motion gets furthest by exact times, the cell of p of lowest index
-/// first, then that of q. What is searched otherwise, is searched there.
+/// An end on a wall with free space on several sides may belong to each of them. Of the sides between which
+/// the edge has a chain, those are chosen with which the motion gets furthest, by exact times; in ties the
+/// cell of p of lowest index, then that of q. Other searches for the contact are executed with these sides.
 /// \pre the locator is that of the snapshot; all points are finite; options.tolerance lies in (0,1]
-/// Cost: that of locating two points, finding a chain and sweep_edge(), for each pair of sides. May be called from many threads,
-/// each with its counts.
+/// Cost: that of locating two points, finding a chain and sweep_edge(), for each pair of sides. Thread-safe,
+/// if each thread has its own counts.
 template <int D>
 Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
                        const Sweep_options& options, Edge_counts& counts);

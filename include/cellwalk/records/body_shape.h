@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Shapes of bodies that need no file, and where a body is put.
+// Shapes of bodies, and their placement.
 #ifndef CELLWALK_RECORDS_BODY_SHAPE_H
 #define CELLWALK_RECORDS_BODY_SHAPE_H
 
@@ -12,14 +12,14 @@
 
 namespace cellwalk {
 
-/// The body of the paper's scenes: a cube of 8 vertices. Bit i of a vertex's index says on which side it lies along axis i;
-/// vertex v is joined to v^1, v^2 and v^4.
+/// The body of the paper's scenes (section IV): a cube of 8 vertices. Bit i of a vertex's index gives its
+/// side along axis i; edges join vertex v to v^1, v^2 and v^4.
 struct Hexahedron_shape {
   double side = 1;
   bool faces = false;  ///< 12 triangles and their 6 diagonals as well
 };
 
-/// The surface of a box, its sides cut into rectangles.
+/// The surface of a box, with its sides divided into rectangles.
 struct Box_shape {
   Vector<3> size{1, 1, 1};
   std::array<std::uint32_t, 3> cells{1, 1, 1};  ///< rectangles along each axis
@@ -31,36 +31,36 @@ struct Tetrahedron_shape {
   double side = 1;
 };
 
-/// An icosahedron whose triangles were cut into four, so many times, and moved onto the sphere.
+/// An icosphere: an icosahedron whose triangles are repeatedly split into four and projected onto the sphere.
 struct Icosphere_shape {
   double radius = 1;
   std::uint32_t subdivisions = 2;
 };
 
-/// An equilateral triangle of the plane.
+/// An equilateral triangle in 2D.
 struct Triangle_shape {
   double side = 1;
 };
 
-/// A square of the plane: the paper's quad, without diagonals.
+/// A square in 2D: the paper's quad, without diagonals.
 struct Quad_shape {
   double side = 1;
 };
 
-/// A regular polygon of the plane; its first corner lies on the x axis.
+/// A regular polygon in 2D; its first corner lies on the x axis.
 struct Polygon_shape {
   std::uint32_t corners = 6;
   double radius = 1;  ///< from the centre to a corner
 };
 
-/// A straight catheter along the x axis: vertices at equal distances, each joined to the next.
+/// A straight catheter along the x axis: a polyline with vertices at equal distances.
 template <int D>
 struct Catheter_shape {
   double length = 1;
   std::uint32_t vertices = 20;
 };
 
-/// Points where they are, each joined to the next.
+/// A polyline through given points.
 template <int D>
 struct Polyline_shape {
   std::vector<Point<D>> points;
@@ -86,7 +86,7 @@ struct Body_shapes<3> {
 template <int D>
 using Body_shape = typename detail::Body_shapes<D>::type;
 
-/// A rotation about the origin; in the plane counterclockwise, in space about an axis by the right-hand rule.
+/// A rotation about the origin: in 2D counterclockwise, in 3D about an axis by the right-hand rule.
 template <int D>
 struct Rotation;
 template <>
@@ -95,16 +95,16 @@ struct Rotation<2> {
 };
 template <>
 struct Rotation<3> {
-  Vector<3> axis{0, 0, 1};  ///< of any length but zero
+  Vector<3> axis{0, 0, 1};  ///< of any length except zero
   double degrees = 0;
 };
 
-/// Where a body is put: scaled, then rotated, both about the origin, then moved.
+/// The placement of a body: scaled, then rotated, both about the origin, then translated.
 template <int D>
 struct Body_placement {
   double scale = 1;
   Rotation<D> rotation{};
-  Point<D> position{};  ///< where the origin of the body comes to lie
+  Point<D> position{};  ///< of the origin of the body
 };
 
 }  // namespace cellwalk

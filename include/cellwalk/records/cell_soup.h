@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A soup of cells: what a mesh file says, before anything is glued or checked.
+// A soup of cells: the content of a mesh file, before anything is glued or checked.
 #ifndef CELLWALK_RECORDS_CELL_SOUP_H
 #define CELLWALK_RECORDS_CELL_SOUP_H
 
@@ -16,11 +16,11 @@ namespace cellwalk {
 /// Cells as lists of facets, facets as loops of point indices, all in flat arrays (compressed rows).
 ///
 /// 3D: a facet is a polygon, its loop counterclockwise seen from outside the cell.
-/// 2D: a cell is a polygon; its facets are its edges, two vertices each, in counterclockwise order round the
+/// 2D: a cell is a polygon; its facets are its edges, two vertices each, in counterclockwise order around the
 /// cell.
 ///
-/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either says
-/// so.
+/// A facet shared by two cells occurs once in each of them (two half-facets). It is impassable if either of
+/// them is.
 template <int D>
 struct Cell_soup {
   std::vector<Point<D>> points;
@@ -96,7 +96,7 @@ inline std::size_t add_pyramid(Cell_soup<3>& soup, const std::array<std::uint32_
   return soup.end_cell();
 }
 
-/// Appends a polygon of the plane, its vertices in counterclockwise order.
+/// Appends a 2D polygon, with its vertices in counterclockwise order.
 inline std::size_t add_polygon(Cell_soup<2>& soup, std::span<const std::uint32_t> v) {
   for (std::size_t i = 0; i < v.size(); ++i) soup.add_facet({v[i], v[(i + 1) % v.size()]});
   return soup.end_cell();

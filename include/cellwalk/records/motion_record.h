@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One motion of a particle with all that is needed to walk it again, so that it can be sent to somebody else.
+// A repro: one motion of a particle with everything needed to walk it again, for a report of a wrong answer.
 #ifndef CELLWALK_RECORDS_MOTION_RECORD_H
 #define CELLWALK_RECORDS_MOTION_RECORD_H
 
@@ -16,10 +16,10 @@ template <int D>
 struct Motion_record {
   Cell_soup<D> soup;
   Point<D> from, to;
-  std::optional<std::uint32_t>
-      cell;  ///< of the soup, in which the motion starts; none: any that holds the start
-  std::string kernel = "exact", strategy = "exit_rule";  ///< words of `cellwalk query`
-  std::string note;                                      ///< what was remarkable, for people
+  /// Of the soup, in which the motion starts; none: any that contains the start
+  std::optional<std::uint32_t> cell;
+  std::string kernel = "exact", strategy = "exit_rule";  ///< as for `cellwalk query`
+  std::string note;                                      ///< a remark, for the reader
 };
 
 using Any_motion_record = std::variant<Motion_record<2>, Motion_record<3>>;

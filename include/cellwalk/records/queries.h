@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Queries as tables give them, one a row.
+// Queries of a table, one for each row.
 #ifndef CELLWALK_RECORDS_QUERIES_H
 #define CELLWALK_RECORDS_QUERIES_H
 
@@ -11,12 +11,12 @@
 
 namespace cellwalk {
 
-/// Points of one row of a table. A row that cannot be used says why; the others are not affected.
+/// The points of one row of a table. An invalid row has a reason; other rows are not affected.
 template <int D, std::size_t N>
 struct Query_row {
   std::array<Point<D>, N> points{};
   std::size_t line = 0;  ///< in the file, from 1
-  std::string invalid;   ///< empty, or the reason
+  std::string invalid;   ///< empty, or the reason why the row is invalid
 };
 
 /// A motion of a particle: from points[0] to points[1].

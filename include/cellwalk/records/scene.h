@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a scene file says: an environment, what moves in it, and for how long. See docs/scenes.md.
+// The content of a scene file: an environment, the objects that move in it, and the time steps. See
+// docs/scenes.md.
 #ifndef CELLWALK_RECORDS_SCENE_H
 #define CELLWALK_RECORDS_SCENE_H
 
@@ -23,7 +24,7 @@ struct Recipe {
   std::map<std::string, std::vector<double>> options;
 };
 
-/// Where the environment comes from: a mesh file (relative to the scene's folder) or a recipe.
+/// The source of the environment: a mesh file (relative to the scene's folder) or a generator call.
 using Environment_source = std::variant<std::string, Recipe>;
 
 /// One free particle.
@@ -33,46 +34,48 @@ struct Particle_start {
   Vector<D> velocity{};
 };
 
-/// Particles or bodies at random, uniform in free space, with velocities of one speed in random directions.
+/// Random particles or bodies, uniformly distributed in free space, with velocities of equal speed in random
+/// directions.
 struct Particle_cloud {
   std::uint32_t count = 0;
   double speed = 0;
   std::uint64_t seed = 1;
 };
 
-/// Where a body comes from: a file (relative to the scene's folder) or a shape.
+/// The source of a body: a file (relative to the scene's folder) or a shape.
 template <int D>
 using Body_source = std::variant<std::string, Body_shape<D>>;
 
-/// An angular velocity in radians per unit of time: about the axis it points along, or in the plane counterclockwise.
+/// An angular velocity in radians per unit of time: about the axis it points along, or in 2D
+/// counterclockwise.
 template <int D>
 using Spin = std::array<double, D == 2 ? 1 : 3>;
 
-/// Motion that is prescribed: along a path, instead of free flight.
+/// A prescribed motion along a path.
 template <int D>
 struct Guided_motion {
-  std::vector<Point<D>> path;  ///< of the body's origin: at least two way points, no two in a row alike
+  std::vector<Point<D>> path;  ///< of the body's origin: at least two waypoints, successive ones different
   double speed = 1;            ///< along the path, in lengths per unit of time
 };
 
-/// One body, or copies of it at random places.
+/// One body, or copies of it at random positions.
 template <int D>
 struct Body_start {
   Body_source<D> source;
-  Body_placement<D>
-      placement{};       ///< of guided bodies at the first way point; the position of random ones is not used
+  /// Of guided bodies at the first waypoint; the position of random ones is not used.
+  Body_placement<D> placement{};
   Vector<D> velocity{};  ///< of a single thrown body
   Spin<D> spin{};
-  std::optional<Particle_cloud> cloud{};     ///< so many copies, each with its place and velocity
-  std::optional<Guided_motion<D>> guided{};  ///< nothing: thrown, it flies freely under gravity
-  std::optional<Shape_material> material{};  ///< of a thrown body; nothing: it is rigid, as a whole
+  std::optional<Particle_cloud> cloud{};     ///< copies, each with its own position and velocity
+  std::optional<Guided_motion<D>> guided{};  ///< none: the body is thrown, and flies freely under gravity
+  std::optional<Shape_material> material{};  ///< of a thrown body; none: it is rigid
 };
 
-/// What leads the tip of a catheter to its way points.
+/// The steering of a catheter towards its waypoints.
 enum class Steering : std::uint8_t {
-  tip,    ///< the tip is bent towards them
-  twist,  ///< the base is turned so that the natural curve of the tip points at them
-  none,   ///< nothing; the base is turned evenly
+  tip,    ///< the tip is bent towards the next waypoint
+  twist,  ///< the base is turned so that the natural curve of the tip points at it
+  none,   ///< no steering; the base is turned evenly
 };
 
 /// An elastic rod that is pushed in at its base.
@@ -80,14 +83,14 @@ template <int D>
 struct Catheter {
   std::uint32_t particles = 20;  ///< its vertices; they enter one by one at the start of the path
   double spacing = 1;            ///< distance between neighbours
-  double advance = 0.5;          ///< how far it is pushed a step
+  double advance = 0.5;          ///< distance by which it is pushed in a step
   double stiffness = 0.5;        ///< 0: a thread, 1: bends as little as the walls allow
-  std::vector<Point<D>> path;    ///< way points, at least two; it enters at the first, towards the second
-  bool find_route = false;       ///< join way points through the cells, rather than straight
+  std::vector<Point<D>> path;    ///< waypoints, at least two; it enters at the first, towards the second
+  bool find_route = false;       ///< join waypoints by a route through the cells instead of straight lines
   Steering steering = Steering::tip;
-  double tip_length = 0;  ///< of the part at the tip that is curved when nothing holds it
-  double tip_angle = 0;   ///< by which that is bent from end to end, in degrees
-  double twist = 0;       ///< degrees by which the base is turned in a step; at most, if that steers
+  double tip_length = 0;  ///< of the naturally curved part at the tip
+  double tip_angle = 0;   ///< angle of the natural curve from end to end, in degrees
+  double twist = 0;       ///< degrees by which the base is turned in a step; the maximum with Steering::twist
 };
 
 struct Picture_request {
@@ -98,7 +101,8 @@ struct Picture_request {
 struct Scene_output {
   std::uint32_t frame_every = 10;          ///< steps from one VTU frame to the next; 0: none
   std::optional<Picture_request> picture;  ///< a PNG of the last step
-  /// Steps from one record of the motion to the next, for `cellwalk view`; 0: none; nothing: as many as make a page of bearable size.
+  /// Steps from one frame of the recording for `cellwalk view` to the next; 0: no recording; none: as
+  /// required for a page of moderate size.
   std::optional<std::uint32_t> motion_every;
 };
 
@@ -110,8 +114,8 @@ struct Scene {
   std::vector<Body_start<D>> bodies;
   std::optional<Catheter<D>> catheter;
   Vector<D> gravity{};
-  double restitution = 1;  ///< share of the normal speed that a free particle keeps when it bounces
-  double friction = 0;     ///< share of the tangential speed that it loses
+  double restitution = 1;  ///< fraction of the normal speed that a free particle keeps when it bounces
+  double friction = 0;     ///< fraction of the tangential speed that it loses
   double time_step = 0.01;
   std::uint32_t steps = 100;
   Scene_output output;

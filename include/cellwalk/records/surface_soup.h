@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Surfaces and polygons as files give them: the input of meshing.
+// Surfaces and polygons as read from files: the input of meshing.
 #ifndef CELLWALK_RECORDS_SURFACE_SOUP_H
 #define CELLWALK_RECORDS_SURFACE_SOUP_H
 
@@ -10,15 +10,15 @@
 
 namespace cellwalk {
 
-/// A polygon soup in space. A facet is a loop of point indices; a closed surface has them counterclockwise
-/// seen from outside.
+/// A polygon soup in 3D. A facet is a loop of point indices; the facets of a closed surface are
+/// counterclockwise seen from outside.
 struct Surface_soup {
   std::vector<Point<3>> points;
   std::vector<std::vector<std::uint32_t>> facets;
 };
 
-/// A planar domain: straight segments that no triangle may cross, and one point in each hole.
-/// The segments bound the domain and its obstacles; each becomes a wall.
+/// A planar domain: straight segments, which bound the domain and its obstacles, and one point in each hole.
+/// Each segment becomes a wall.
 struct Planar_domain {
   std::vector<Point<2>> points;
   std::vector<std::array<std::uint32_t, 2>> segments;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A recorded motion of bodies of 8 vertices in a grid of unit cubes, with the exact answers to it: what peers are compared
-// on. As a file: docs/formats.md.
+// A trace: a motion of bodies of 8 vertices in a grid of unit cubes, with the exact answer to every move, for
+// comparisons with other libraries. The file format: docs/formats.md.
 #ifndef CELLWALK_RECORDS_TRACE_H
 #define CELLWALK_RECORDS_TRACE_H
 
@@ -15,7 +15,7 @@
 
 namespace cellwalk {
 
-/// Vertices of a body of a trace. Vertex v is joined to v^1, v^2 and v^4.
+/// Vertices of a body of a trace. Edges join vertex v to v^1, v^2 and v^4.
 constexpr std::size_t trace_vertices = 8;
 /// Edges at a vertex; edge k joins it to trace_neighbour(v, k).
 constexpr std::size_t trace_edges = 3;
@@ -35,19 +35,20 @@ inline Body_soup<3> trace_body_soup(std::span<const Point<3>, trace_vertices> po
   return soup;
 }
 
-/// Bits of an answer to the move of one vertex: set where something is hit.
-constexpr std::uint8_t trace_segment_bit = 1;       ///< the segment from where the vertex is to its target
+/// Bits of the answer to the move of one vertex: set for hits.
+/// The segment from the position of the vertex to its target
+constexpr std::uint8_t trace_segment_bit = 1;
 constexpr std::uint8_t trace_edge_bits = 0x0e;      ///< bit 1 + k: the segment from there to neighbour k
 constexpr std::uint8_t trace_triangle_bits = 0x70;  ///< bit 4 + k: the triangle of the motion and neighbour k
 constexpr std::uint8_t trace_all_bits = trace_segment_bit | trace_edge_bits | trace_triangle_bits;
 
-/// A trace. Cell (ix,iy,iz) of the grid is the unit cube there, its index ix + nx (iy + ny iz); the outer boundary is
-/// wall, and so are the facets of obstacle cells. Targets may lie outside.
+/// A trace. Cell (ix,iy,iz) of the grid is the unit cube there, its index ix + nx (iy + ny iz); the outer
+/// boundary is a wall, and so are the facets of obstacle cells. Targets may lie outside.
 struct Trace {
   std::uint32_t nx = 0, ny = 0, nz = 0;
   std::uint32_t bodies = 0, steps = 0;
   std::uint64_t seed = 0;
-  double obstacle_fraction = 0, body_side = 0, speed = 0;  ///< how it was made; nothing depends on them
+  double obstacle_fraction = 0, body_side = 0, speed = 0;  ///< origin of the trace; nothing depends on them
 
   std::vector<std::uint32_t> obstacles;   ///< indices of solid cells, ascending
   std::vector<Point<3>> start_positions;  ///< [body][vertex]
@@ -57,7 +58,8 @@ struct Trace {
   std::uint64_t cells() const { return std::uint64_t{nx} * ny * nz; }
   std::uint64_t moves() const { return std::uint64_t{steps} * bodies * trace_vertices; }
 
-  /// Place of a vertex among the targets and answers. \pre step, body and vertex are in range
+  /// The index of a vertex in the targets and answers.
+  /// \pre step, body and vertex are in range
   std::size_t index(std::size_t step, std::size_t body, std::size_t vertex) const {
     return (step * bodies + body) * trace_vertices + vertex;
   }

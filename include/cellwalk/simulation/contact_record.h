@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A contact as a run reports it.
+// Contacts in the report of a run.
 #ifndef CELLWALK_SIMULATION_CONTACT_RECORD_H
 #define CELLWALK_SIMULATION_CONTACT_RECORD_H
 
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/walk/walk.h>
 
 #include <cstdint>
 #include <optional>
 
 namespace cellwalk {
 
-/// What of a body met a wall.
+/// The feature of a body that met a wall.
 struct Met_body {
   std::uint32_t body = 0;    ///< its number in the run
-  std::uint32_t vertex = 0;  ///< the one that was moving
-  Body_feature feature = Body_feature::vertex;
+  std::uint32_t vertex = 0;  ///< the moving vertex
   std::uint32_t number = 0;  ///< of the vertex, edge or face
 };
 
-/// A particle or a body was stopped by a wall.
+/// A contact of a particle or a body with a wall.
 template <int D>
 struct Contact_record {
   std::uint32_t step = 0;      ///< counted from 1
-  std::uint32_t particle = 0;  ///< its number in the run; of no meaning where a body is met
-  /// In [0,1]. Of particles: share of the step that had passed. Of bodies: share of the vertex's motion that was free; what
-  /// is left of it after a contact is a motion of its own.
-  double time = 0;
-  Point<D> point{};    ///< where the motion met the wall, rounded
-  Vector<D> normal{};  ///< unit normal of the wall, towards the free side
-  Contact_kind kind = Contact_kind::facet;
+  std::uint32_t particle = 0;  ///< its number in the run; meaningless for bodies
+  /// For particles, its time is the fraction of the step that had passed; for bodies, the fraction of the
+  /// vertex's motion that was free, where the rest of the motion after a contact counts as a motion of its
+  /// own.
+  Contact<D> contact;
   std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
-  std::optional<Met_body> body{};  ///< nothing: it was a particle
+  std::optional<Met_body> body{};  ///< none: a particle
 };
 
 }  // namespace cellwalk

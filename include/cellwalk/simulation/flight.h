@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies in motion: thrown, or led along a path. Each vertex is drawn to its place in the rigid shape, and walls hold it back.
+// Rigid bodies, thrown or guided along a path. Each vertex is drawn to its place in the rigid shape as far as
+// walls allow.
 #ifndef CELLWALK_SIMULATION_FLIGHT_H
 #define CELLWALK_SIMULATION_FLIGHT_H
 
@@ -13,37 +14,38 @@
 
 namespace cellwalk {
 
-/// What acts on all bodies of a scene.
+/// The dynamics common to all bodies of a scene.
 template <int D>
 struct Flight_conditions {
   double time_step = 0.01;
   Vector<D> gravity{};
-  double restitution = 1;  ///< share of the speed against a wall that a body keeps, [0,1]
-  double friction = 0;     ///< share of its speed along the wall that it loses, [0,1]
+  double restitution = 1;  ///< fraction of the normal speed that a body keeps, in [0,1]
+  double friction = 0;     ///< fraction of the tangential speed that it loses, in [0,1]
   Body_options body;
 };
 
-/// A body and how it moves. Its shape is rigid as long as nothing is in the way; a vertex that a wall holds back is drawn to its
-/// place again in the next step.
+/// A body with a rigid motion. Its shape is rigid as long as no wall is in the way; a vertex that a wall
+/// holds back is drawn towards its place again in the next step.
 template <int D>
 class Flight {
  public:
-  /// A body thrown from where it stands.
+  /// A body thrown from its current position.
   Flight(Body<D> body, const Vector<D>& velocity, const Spin<D>& spin);
-  /// A body whose origin stands at the first way point. It turns about its origin.
+  /// A guided body, with its origin at the first waypoint. It rotates about its origin.
   Flight(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least. Thrown bodies turn back from the walls they meet. A body whose motion
-  /// is not finite stays where it is, and loses its velocity and spin.
+  /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least. Thrown bodies
+  /// bounce off the walls they meet. A body whose motion is not finite stays in place, and loses its velocity and spin.
   void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
-  /// Where the last step was to take the vertices. \pre there was one
+  /// The targets of the vertices in the last step.
+  /// \pre there was one
   std::span<const Point<D>> targets() const { return targets_; }
-  /// Of a thrown body; zero if it is guided.
+  /// The velocity of a thrown body; zero if it is guided.
   const Vector<D>& velocity() const { return velocity_; }
-  /// True while a guided body stands at the end of its path, no vertex held back.
+  /// True if a guided body is at the end of its path, with all vertices in place.
   bool has_arrived() const {
     return guide_ && travelled_ >= path_length_ && std::ranges::equal(body_.positions(), targets_);
   }
@@ -53,11 +55,11 @@ class Flight {
   Point<D> on_path() const;
 
   Body<D> body_;
-  std::vector<Vector<D>> shape_;  ///< from the middle of the vertices
+  std::vector<Vector<D>> shape_;  ///< from the centre of the vertices
   Vector<D> velocity_{};
   Spin<D> spin_{};
-  double angle_ = 0;    ///< turned so far, about the axis of the spin
-  double turning_ = 1;  ///< 1 or -1: the sense in which it turns
+  double angle_ = 0;    ///< total rotation about the axis of the spin
+  double turning_ = 1;  ///< 1 or -1: the sense of rotation
   std::optional<Guided_motion<D>> guide_;
   double travelled_ = 0, path_length_ = 0;
   std::vector<Point<D>> targets_;

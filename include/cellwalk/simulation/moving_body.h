@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body of a world, however it moves.
+// A body of a world, with any kind of motion.
 #ifndef CELLWALK_SIMULATION_MOVING_BODY_H
 #define CELLWALK_SIMULATION_MOVING_BODY_H
 
@@ -14,7 +14,7 @@
 
 namespace cellwalk {
 
-/// Rigid and thrown or led along a path, deformable and thrown, or a catheter. All have the same interface.
+/// A rigid body (thrown or guided), a deformable body, or a catheter, with a common interface.
 template <int D>
 class Moving_body {
  public:
@@ -33,19 +33,19 @@ class Moving_body {
   const Body<D>& body() const {
     return std::visit([](const auto& moving) -> const Body<D>& { return moving.body(); }, kind_);
   }
-  /// Where the vertices went in the last step, walls or not.
+  /// The targets of the vertices in the last step.
   std::span<const Point<D>> targets() const {
     return std::visit([](const auto& moving) { return moving.targets(); }, kind_);
   }
-  /// Of a thrown body, of its middle; zero for others.
+  /// The velocity of the centre of a thrown body; zero for others.
   Vector<D> velocity() const {
     return std::visit([](const auto& moving) -> Vector<D> { return moving.velocity(); }, kind_);
   }
-  /// True at the end of the path of a body that has one.
+  /// True for a body at the end of its path.
   bool has_arrived() const {
     return std::visit([](const auto& moving) { return moving.has_arrived(); }, kind_);
   }
-  /// The body as what it is; nothing if it is something else.
+  /// The body as a given kind; null if it is of another kind.
   template <class Kind>
   const Kind* as() const {
     return std::get_if<Kind>(&kind_);

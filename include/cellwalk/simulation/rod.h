@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A catheter: an elastic rod that is pushed in through an entry, and turned there.
+// A catheter: an elastic rod that is pushed in and turned at its base. Theory: docs/deformation.md.
 #ifndef CELLWALK_SIMULATION_ROD_H
 #define CELLWALK_SIMULATION_ROD_H
 
@@ -20,45 +20,49 @@ template <int D>
 struct Natural_bend;
 }  // namespace detail
 
-/// A rod as a chain of vertices, the tip first. All of them start at the entry; they leave it one after the other as the rod
-/// is pushed, so that edges wait there with length 0. A guide in front of the entry holds the base: the rod enters along the first
-/// piece of its path.
+/// A rod as a polyline of vertices, the tip first. All vertices start at the entry, where edges of length 0
+/// wait, and leave it one after the other as the rod is pushed. A guide in front of the entry holds the base,
+/// so that the rod enters along the first piece of its path.
 ///
-/// The rod has no inertia. A step pushes it by `advance` along where it lies, lets it relax (position-based: links keep their
-/// length, bends go back to the natural curve as far as the rod is stiff), and moves vertices and edges there as far as walls
-/// allow (Body::step). It turns where its base is turned: the direction in which the tip is curved follows along the rod
-/// without a twist of its own.
+/// The rod has no inertia. A step pushes it by `advance` along its current shape, relaxes it (position-based:
+/// links keep their length, bends return to the natural curve according to the stiffness), and moves vertices
+/// and edges as far as walls allow (Body::step). A rotation of the base rotates the direction of the natural
+/// curve along the whole rod, which has no twist of its own.
 ///
-/// A link that walls stretch by half a spacing, and a rod that is pushed together by one, hold the base back until they are relieved.
+/// A link stretched by half a spacing, or a rod compressed by one spacing, holds the base back until the
+/// strain is relieved.
 template <int D>
 class Rod {
  public:
   /// The body of a catheter before it enters.
   static Body_soup<D> at_entry(const Catheter<D>& catheter);
 
-  /// At its entry, to be led along way points.
-  /// \pre the body is at_entry(catheter), registered; the way begins with the entry, has at least two points, and no two in a row are alike
+  /// A catheter at its entry.
+  /// \param way the waypoints
+  /// \pre the body is at_entry(catheter), registered; the waypoints begin with the entry, are at least two,
+  ///      and successive ones differ
   Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter, std::vector<Point<D>> way);
 
-  /// Pushes it by one step. Contacts are appended. Only what is checked of bodies is taken from the conditions.
+  /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are
+  /// used.
   /// Cost: about 1 us a vertex, and that of Body::step.
   void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
-  /// Where the vertices went in the last step, walls or not.
+  /// The targets of the vertices in the last step.
   std::span<const Point<D>> targets() const { return targets_; }
   const Point<D>& tip() const { return body_.positions()[0]; }
   /// The length that has been pushed in.
   double length_inside() const { return inside_; }
-  /// How far the base has been turned, in degrees.
+  /// The total rotation of the base, in degrees.
   double twist() const { return twist_; }
   std::span<const Point<D>> way() const { return way_; }
-  /// The way point that the tip aims at; way().size() once it has arrived.
+  /// The waypoint that the tip aims at; way().size() once it has arrived.
   std::size_t next_way_point() const { return next_; }
-  /// The steps in which the base was held back.
+  /// The number of steps in which the base was held back.
   std::uint32_t steps_waited() const { return waited_; }
-  /// It has no velocity of its own.
+  /// Always zero: the rod has no inertia.
   Vector<D> velocity() const { return {}; }
   bool has_arrived() const { return next_ == way_.size(); }
 
@@ -77,7 +81,7 @@ class Rod {
   std::vector<Point<D>> way_;
   std::vector<Point<D>> targets_;
   Vector<D> direction_{};  ///< of the guide
-  Vector<D> heading_{};    ///< where the tip goes
+  Vector<D> heading_{};    ///< direction of the tip
   double inside_ = 0, twist_ = 0;
   std::size_t next_ = 1;
   std::uint32_t waited_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A way through free space from one particle to another, for catheters that find their own path.
+// A route through free space from one particle to another, for catheters.
 #ifndef CELLWALK_SIMULATION_ROUTE_H
 #define CELLWALK_SIMULATION_ROUTE_H
 
@@ -9,9 +9,9 @@
 
 namespace cellwalk {
 
-/// A polyline from one particle to another whose pieces are all free: the shortest way through the centres of cells
-/// joined by passable facets, pulled straight wherever an exact walk says that the short cut is free.
-/// Returns both ends as well; empty if no way through passable facets joins the two cells.
+/// A polyline from one particle to another whose pieces are all free: the shortest path through the centres
+/// of cells joined by passable facets, shortened wherever an exact walk proves the shortcut free. The result
+/// includes both ends; it is empty if passable facets do not connect the two cells.
 /// Cost: that of a shortest-path search, about 1 us a cell.
 template <int D>
 std::vector<Point<D>> find_route(const Snapshot<D>& snapshot, const Particle<D>& from, const Particle<D>& to,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The environment of a trace. It is built and certified like any other: what moves in it cannot tell that its cells are cubes.
+// The environment of a trace. It is built and certified like any other, so that walks cannot exploit that its
+// cells are cubes.
 #ifndef CELLWALK_SIMULATION_TRACE_ENVIRONMENT_H
 #define CELLWALK_SIMULATION_TRACE_ENVIRONMENT_H
 
@@ -9,13 +10,15 @@
 
 namespace cellwalk {
 
-/// The grid of a trace with its solid cells walled off, frozen. A map places it elsewhere: sheared, rotated, scaled.
-/// \throw Error(usage) as hex_grid(), if the grid is too large for 32-bit indices or the map would round its points
+/// The grid of a trace with its solid cells, frozen.
+/// \param map shears, rotates or scales the grid
+/// \throw Error(usage) as hex_grid(), if the grid is too large for 32-bit indices or the map would round its
+///        points
 /// Cost: about 5 us a cell.
 Environment<3> trace_environment(const Trace& trace, const Lattice_map<3>& map = {});
 
-/// A trace whose positions and targets are moved by a map. They are rounded: answers may differ where a motion passes a wall
-/// within the rounding, about 2^-50 of the size of the grid. The identity changes nothing.
+/// A trace whose positions and targets are transformed by a map and rounded. Answers may differ if a motion
+/// passes a wall within the rounding, about 2^-50 of the size of the grid. The identity changes nothing.
 Trace mapped(Trace trace, const Lattice_map<3>& map);
 
 }  // namespace cellwalk

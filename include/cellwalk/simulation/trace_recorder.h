@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Makes traces: takes targets from whatever moves bodies, moves them by the rule of traces, and keeps the exact answers.
+// Records traces: moves bodies to given targets by the rule of traces, and stores the exact answers.
 #ifndef CELLWALK_SIMULATION_TRACE_RECORDER_H
 #define CELLWALK_SIMULATION_TRACE_RECORDER_H
 
@@ -14,13 +14,15 @@ namespace cellwalk {
 /// Records a trace step by step. Refers to the snapshot, which must outlive it.
 class Trace_recorder {
  public:
-  /// `start` has its numbers of cells, its obstacles and, of each body, the start; steps, targets and answers are still
-  /// none. The snapshot is that of its environment.
-  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one that touches a wall, or
-  ///        has all its vertices in one place
+  /// \param snapshot the environment of the trace
+  /// \param start a trace with its numbers of cells, its obstacles and the start positions of its bodies;
+  ///        without steps
+  /// \throw Error(outside) naming the body that does not start in free space; Error(input) naming the one
+  ///        that touches a wall, or has all its vertices in one place
   Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start);
 
-  /// Moves all vertices of all bodies, in order. \pre one finite target a vertex, [body][vertex]
+  /// Moves all vertices of all bodies, in order.
+  /// \pre one finite target for each vertex, [body][vertex]
   /// Cost: that of Body::step.
   void step(std::span<const Point<3>> targets);
 

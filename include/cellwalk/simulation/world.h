@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The world of a scene: free particles, bodies and a catheter among walls, advanced step by step.
 //
-// Of bodies and of the catheter, vertices and edges are checked. Nothing that moves meets anything else that moves.
+// The vertices and edges of bodies and of the catheter are checked against walls. Moving objects do not meet
+// each other.
 #ifndef CELLWALK_SIMULATION_WORLD_H
 #define CELLWALK_SIMULATION_WORLD_H
 
@@ -22,23 +23,25 @@
 
 namespace cellwalk {
 
-/// Everything that moves, and what it met. Deterministic: the same scene gives the same bits.
-/// Refers to the snapshot, which must outlive it, and is not to be edited meanwhile: a world is made for the environment as it is.
+/// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
+/// snapshot, which must outlive it and must not be edited.
 template <int D>
 class World {
  public:
-  /// Places the particles and bodies of a scene. shapes[i] is the body of scene.bodies[i], before its placement.
+  /// Places the particles and bodies of a scene. shapes[i] is the body of scene.bodies[i], before its
+  /// placement.
   ///
-  /// Copies of a body (Body_start::cloud) are put at random places, uniform in free space, again and again until the whole
-  /// body fits, at most `most_tries` times each.
+  /// Copies of a body (Body_start::cloud) are placed at random positions, uniformly distributed in free
+  /// space, until the whole body fits, with at most `most_tries` attempts for each.
   /// \pre every shape has vertices
-  /// \throw Error(outside) naming the scene's key where something starts outside free space, a body's edge crosses a wall, a copy
-  ///        finds no room, or no way leads along the catheter's path; Error(usage) where there are not as many shapes as
-  ///        bodies, no free cell for what is random, or a placement is not finite
+  /// \throw Error(outside) naming the scene's key if an object starts outside free space, a body's edge
+  ///        crosses a wall, a copy does not fit, or no route follows the catheter's path; Error(usage) if
+  ///        there are not as many shapes as bodies, there is no free cell for random objects, or a placement
+  ///        is not finite
   World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
         const Body_options& options = {});
 
-  /// Places tried for each copy of a body.
+  /// The maximum number of positions tried for each copy of a body.
   static constexpr int most_tries = 1000;
 
   /// Advances everything by one time step: free particles under gravity, in order, then the bodies in order.
@@ -51,23 +54,25 @@ class World {
   std::span<const Vector<D>> velocities() const { return velocities_; }
   /// Bodies in the order of the scene, copies in the order they were drawn; the catheter is the last.
   std::span<const Moving_body<D>> bodies() const { return bodies_; }
-  /// The scene's entry that a body is of. \pre it is not the catheter
+  /// The index of a body's entry in the scene.
+  /// \pre it is not the catheter
   std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
-  /// Nothing if the scene has none.
+  /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
-  /// The contacts of the last step: those of particles by number and time, then those of bodies in the order met.
+  /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
+  /// met.
   std::span<const Contact_record<D>> contacts() const { return contacts_; }
-  /// What the last step of one body reported. \pre there was one
+  /// The report of the last step of one body. \pre there was one
   const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
-  /// What particles walked.
+  /// The counts of the walks of particles.
   const Walk_counts& counts() const { return counts_; }
-  /// What the moves of bodies did.
+  /// The counts of the moves of all bodies.
   Body_counts body_counts() const;
-  /// Those of one body.
+  /// The counts of one body.
   Body_counts body_counts(std::size_t body) const;
 
-  /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact predicates. Bodies are caught up first (see
-  /// Body::catch_up), which moves nothing and shows in the counts only.
+  /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact
+  /// predicates. Bodies are refreshed first (see Body::catch_up), which affects the counts only.
   /// \throw Error(other) naming the first particle or body that violates them; Error(usage) as step()
   void validate();
 
@@ -98,8 +103,8 @@ class World {
     Step_report<D> report;  ///< of the latest step
     Body_counts counts;     ///< of all steps
   };
-  std::vector<Body_step> body_steps_;  ///< of each body: they move at the same time
-  std::vector<Met_contact<D>> met_;
+  std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
+  std::vector<Contact<D>> met_;
   Walk_counts counts_;
 };
 

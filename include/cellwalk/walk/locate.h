@@ -18,24 +18,26 @@ enum class Location_status {
   outside  ///< in no cell
 };
 
-/// Where a point lies.
+/// The location of a point.
 template <int D>
 struct Location {
   Location_status status = Location_status::outside;
-  Cell cell = Cell::none;  ///< a free cell whose closure holds the point: the first one of the first side
-  std::uint16_t dimension = D;  ///< of the lowest cell of the complex it lies on: D inside, .. 0 on a vertex
-  std::vector<Cell>
-      cells;  ///< all free cells whose closure holds the point, side by side, each side by index
-  /// For each of them, which side it is on: 0, 1, .. Sides are classes of cells linked at the point (joined by passable facets
-  /// that contain it). More than one: the point lies on a wall or pinch with free space on several sides. The first side is that
-  /// on which the point lies once it is displaced, see displaced_side(), where that is free; then they are in the order of
-  /// their least corners. So the order does not depend on how cells are numbered.
-  std::vector<int> side_of_cell;
-  int sides = 0;  ///< how many there are
+  Cell cell = Cell::none;  ///< a free cell whose closure contains the point: the first one of the first side
+  /// Of the lowest cell of the complex that contains it: D inside, .. 0 on a vertex.
+  std::uint16_t dimension = D;
+  /// All free cells whose closure contains the point, side after side, each by index.
+  std::vector<Cell> cells;
+  std::vector<int> side_of_cell;  ///< for each of these cells, the number of its side
+  /// A particle for each side, in its first cell. Sides are classes of cells linked at the point (joined by
+  /// passable facets that contain it). There are several if the point lies on a wall or pinch with free space
+  /// on several sides. The first side is that on which the displaced point lies, see displaced_side(), if
+  /// that is free; the others are in the order of their least corners. So the order does not depend on the
+  /// numbering of cells.
+  std::vector<Particle<D>> sides;
 };
 
-/// An R-tree over the cells' boxes, and exact signs. Refers to the snapshot, which must outlive it. Facets may be opened and
-/// closed; after other edits a new one must be made.
+/// Exact point location by an R-tree over the bounding boxes of cells. Refers to the snapshot, which must
+/// outlive it. Facets may be opened and closed; after other edits a new locator must be made.
 template <int D>
 class Locator {
  public:
@@ -45,15 +47,16 @@ class Locator {
   Locator(Locator&&) noexcept;
   Locator& operator=(Locator&&) noexcept;
 
-  /// \pre p is finite. Exact in every position; correct in disconnected free space.
-  /// \throw Error(usage) if points were moved or cells replaced since it was made
+  /// Exact in every position, also in disconnected free space.
+  /// \pre p is finite
+  /// \throw Error(usage) if points were moved or cells replaced since the locator was made
   /// Cost: about 1 us (logarithmic in the number of cells).
   Location<D> locate(const Point<D>& p) const;
 
-  /// A particle at p, on the first side of the walls there. None where p is not in free space.
+  /// A particle at p, on the first side of the walls there. None if p is not in free space.
   std::optional<Particle<D>> particle_at(const Point<D>& p) const;
 
-  /// A particle for each side of the walls at p, in order. None where p is not in free space.
+  /// A particle for each side of the walls at p, in order. Empty if p is not in free space.
   std::vector<Particle<D>> particles_at(const Point<D>& p) const;
 
  private:

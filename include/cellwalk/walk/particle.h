@@ -9,19 +9,19 @@
 
 namespace cellwalk {
 
-/// Position, cell, dimension of the lowest cell it lies on, and the facet it aims at (a half-facet names the
-/// aimed-at dart; with the position it spans the predictive simplex). Invariant I1: the position lies in the
-/// closure of the cell.
+/// Position, cell, dimension of the lowest cell that contains it, and the facet it aims at (a half-facet
+/// identifies the aimed-at dart; with the position it spans the predictive simplex). Invariant I1: the
+/// position lies in the closure of the cell.
 template <int D>
 struct Particle {
   Point<D> position;
   Cell cell = Cell::none;
   std::uint16_t dimension = D;  ///< D: interior of the cell .. 0: on a vertex
-  std::uint16_t aimed = 0;      ///< facet of the cell it aims at
+  std::uint16_t aimed = 0;      ///< the facet of the cell at which it aims
 };
 
-/// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle. False if there is no such
-/// cell (any more).
+/// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle. False if
+/// the cell does not exist (any more).
 template <int D>
 bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point);
 

@@ -9,47 +9,51 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace cellwalk {
 
-/// How the exit facet of a cell is found.
+/// The method that finds the exit facet of a cell.
 enum class Walk_strategy {
-  certified,          ///< planes with an error bound first, exact signs where they leave doubt (needs Exact)
+  certified,          ///< planes with an error bound first, exact signs if they are undecided (needs Exact)
   exit_rule,          ///< exact signs of all facets, then of the ridges
-  predictive_simplex  ///< the paper's: turn from facet to facet until the target lies in the cone of the
-                      ///< aimed one
+  predictive_simplex  ///< the paper's (section II): turn from facet to facet until the target lies in the
+                      ///< cone of the aimed facet
 };
 
 struct Walk_options {
   Walk_strategy strategy = Walk_strategy::certified;
   /// If set, the cells entered are appended, the first one included.
   std::vector<Cell>* visited = nullptr;
-  /// If set, the passable facets crossed are appended, each seen from the cell it was left by. Where the motion goes
-  /// through a ridge or vertex, these are all facets on the way through its star.
+  /// If set, the passable facets crossed are appended, each seen from the cell that the motion leaves. At a
+  /// ridge or vertex these are all facets on the path through its star.
   std::vector<Half_facet>* crossed = nullptr;
-  /// If false, a contact is left without its time, point and normal: they are 0 until locate_contact() computes them.
+  /// If false, the time, point and normal of a contact are 0 until locate_contact() computes them.
   bool locates_contact = true;
 };
 
-/// What the walks did. All counts are machine-independent.
+/// The counts of walks. They are machine-independent.
 struct Walk_counts {
   std::uint64_t walks = 0;
   std::uint64_t stays = 0;            ///< walks that ended in their first cell
   std::uint64_t crossings = 0;        ///< facets, ridges and vertices passed
   std::uint64_t plane_blocks = 0;     ///< blocks of four planes evaluated
-  std::uint64_t uncertain_lanes = 0;  ///< planes that left a sign in doubt
-  std::uint64_t side_tests = 0;       ///< exact signs of a point against a facet
-  std::uint64_t along_tests = 0;      ///< exact signs of the line against a ridge
+  std::uint64_t uncertain_lanes = 0;  ///< planes that left a sign undecided
+  std::uint64_t side_tests = 0;       ///< exact signs of a point with respect to a facet
+  std::uint64_t along_tests = 0;      ///< exact signs of the line with respect to a ridge
   std::uint64_t turns = 0;            ///< steps from facet to facet (predictive_simplex)
   std::uint64_t star_searches = 0;    ///< exits through a ridge or vertex
-  std::uint64_t star_cells = 0;       ///< cells looked at by them
+  std::uint64_t star_cells = 0;       ///< cells visited by these searches
   Predicate_counts predicates;
 
-  Walk_counts& operator+=(const Walk_counts& other);
+  static constexpr std::array<std::string_view, 10> names{
+      "walks",      "stays",       "crossings", "plane_blocks",  "uncertain_lanes",
+      "side_tests", "along_tests", "turns",     "star_searches", "star_cells"};
 };
+static_assert(names_all_before<Walk_counts>(offsetof(Walk_counts, predicates)));
 
 enum class Walk_status {
   arrived,  ///< the target lies in the closure of `cell`
@@ -60,15 +64,16 @@ enum class Walk_status {
 /// The environment feature that blocks a motion.
 enum class Contact_kind : std::uint8_t { vertex, edge, facet };
 
-/// Where and by what a motion is blocked.
+/// The contact that blocks a walk. Contact is the same for the motion of a body, with its exact time.
 template <int D>
 struct Wall_contact {
   double time = 0;     ///< parameter of the motion in [0,1]; the exact fraction, rounded to within 4 ulp
   Point<D> point{};    ///< from + time (to - from), rounded
   Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
-  Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; names its dart
-  /// Which vertex or edge of it, if kind says so: the one at this place of its loop, or the one from there to the next.
+  Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; identifies its dart
+  /// The vertex of the wall at this position of its loop (kind vertex), or the edge from there to the next
+  /// vertex (kind edge).
   std::uint16_t corner = 0;
   Cell cell = Cell::none;  ///< the cell in which the motion ends
 };
@@ -77,37 +82,43 @@ template <int D>
 struct Walk_result {
   Walk_status status = Walk_status::arrived;
   Cell cell = Cell::none;       ///< last cell
-  std::uint16_t dimension = D;  ///< of the lowest cell of the complex that the target lies on, if arrived
-  std::uint16_t aimed = 0;      ///< facet of the last cell that the motion aims at
+  std::uint16_t dimension = D;  ///< of the lowest cell of the complex that contains the target, if arrived
+  std::uint16_t aimed = 0;      ///< the facet of the last cell at which the motion aims
   std::uint32_t cells = 1;      ///< cells visited
-  bool had_choice = false;      ///< it ran along a wall from its rim on, and could have taken its other side
+  bool had_choice = false;      ///< it continued along a wall from its rim, with free space on both sides
   bool on_planes = false;       ///< the target lies on the plane of a facet of a cell visited
   std::optional<Wall_contact<D>> contact;  ///< if status is contact
 };
 
-/// Walks from a particle's position to a target. Touching a wall is no contact, crossing one is; passing
-/// exactly through passable edges and vertices works. \pre particle.position lies in the closure of
-/// particle.cell; the target is finite \throw Error(usage) for a particle in a cell that an edit removed, if no other has
-/// its name yet: locate particles of your own again after cells were replaced. Degenerate cases: an exit on a ridge or vertex is continued through
-/// its star along passable facets; where several cells qualify the first in breadth-first order is taken.
-/// Zero motion arrives. Cost: about 4 ns if the target lies in the same cell, plus 17 ns a crossed facet where cells
-/// are in the cache (25 ns at 10^5 tetrahedra, 130 ns at 10^6, where they are not).
+/// Walks from a particle's position to a target. Touching a wall is no contact, crossing it is. Paper:
+/// section II.
+/// \pre particle.position lies in the closure of particle.cell; the target is finite
+/// \throw Error(usage) for a particle in a cell that an edit removed, if its name is not reused: locate your
+///        own particles again after cells were replaced
+/// Degenerate cases: a motion may pass exactly through passable edges and vertices. At an exit on a ridge or
+/// vertex the walk continues through its star, along passable facets; if several sides qualify, the geometry
+/// determines one (docs/walk.md, choices), on it the first cell in breadth-first order. A motion of length
+/// zero arrives.
+/// Cost: about 4 ns if the target lies in the same cell, plus 17 ns a crossed facet if cells are in the cache
+/// (otherwise 25 ns at 10^5 tetrahedra, 130 ns at 10^6).
 template <class Kernel = Exact, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options = {});
 
-/// Computes the time, point and normal of a contact of the motion from a to b, if the walk left them out
-/// (Walk_options::locates_contact). Nothing changes if they are there. Cost: 0.2 us, more where the time needs rational arithmetic.
+/// Computes the time, point and normal of a contact of the motion from a to b, if the walk omitted them
+/// (Walk_options::locates_contact); otherwise it changes nothing.
+/// Cost: 0.2 us, more if the time needs rational arithmetic.
 template <int D>
 void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
                     Wall_contact<D>& contact);
 
 namespace detail {
 
-/// \throw Error(usage): a particle is in a cell that is not there
+/// \throw Error(usage) for a particle in a cell that does not exist
 [[noreturn]] void refuse_removed_cell();
 
-/// The cell of a particle, where planes leave doubt: so they do of each that an edit removed. \throw Error(usage) if it is one
+/// The cell of a particle, if planes are undecided; they are for each cell that an edit removed.
+/// \throw Error(usage) if the cell was removed
 template <int D>
 inline Cell_view<D> view_of_particle(const Snapshot<D>& snapshot, Cell cell) {
   if (!snapshot.is_cell(cell)) [[unlikely]]
@@ -129,9 +140,10 @@ inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point
                    (evaluate(planes[1], lanes) < -plane_error)) == 0xf;
 }
 
-/// The end of a walk that planes alone decide, and that no wall is in the way of: the cell that the target lies strictly inside
-/// of. Cell::none, and nothing counted as a walk, where a wall is met or anything is in doubt. The facets crossed are appended
-/// to `crossed`, if given. Cost: as walk(), less what a report takes.
+/// The end of a free walk that planes alone decide: the cell whose interior contains the target. Cell::none,
+/// without counting a walk, if a wall is met or anything is undecided.
+/// \param crossed if not null, receives the facets crossed
+/// Cost: that of walk() without its report.
 template <int D>
 Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
                  Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed = nullptr);
@@ -142,7 +154,7 @@ Walk_result<D> move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle, 
 
 }  // namespace detail
 
-/// Moves a particle: to the target if the walk arrives; otherwise leaves it where it was and returns the contact.
+/// Moves a particle to the target if the walk arrives; otherwise leaves it in place and returns the contact.
 template <class Kernel = Exact, int D>
 inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                            Walk_counts& counts, const Walk_options& options = {}) {

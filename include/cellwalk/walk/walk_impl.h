@@ -16,7 +16,7 @@
 namespace cellwalk {
 namespace detail {
 
-/// What the planes of a cell of any number of blocks prove.
+/// The exit that the planes of a cell of any number of blocks prove.
 template <int D>
 Certified_exit exit_of_blocks(const Snapshot<D>& snapshot, Cell cell, const Frame_line<D>& line,
                               bool starts_inside) {
@@ -86,7 +86,7 @@ class Walker {
   }
 
  private:
-  /// Leaves the cell or ends the walk; true if the walk goes on.
+  /// Leaves the cell or ends the walk; true if the walk continues.
   bool step() {
     const Cell_view<D> cell = view_of_particle(snapshot_, cell_);
     on_planes_ = false;
@@ -113,7 +113,7 @@ class Walker {
     }
   }
 
-  /// Goes on where the motion passes a ridge or vertex of the cell, or ends the walk there: then false.
+  /// Continues at a ridge or vertex of the cell; false if the walk ends there.
   bool pass_star(const Exit& exit) {
     const Star_search<Kernel, D> star(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
     if (star.candidates().empty()) return block(exit, star.wall());
@@ -252,7 +252,7 @@ class Walker {
     return exit;
   }
 
-  /// Passes the interior of a facet, or ends the walk there: then false.
+  /// Passes the interior of a facet; false if the walk ends there.
   bool pass(std::uint16_t facet) {
     const Half_facet f = Snapshot<D>::half_facet(cell_, facet);
     result_.aimed = facet;
@@ -270,7 +270,7 @@ class Walker {
     return planes_a_;
   }
 
-  /// Exact signs where the planes leave doubt, and for the ridges.
+  /// Exact signs for undecided planes, and for the ridges.
   Exit exit_after_doubt(const Cell_view<D>& cell) {
     const std::size_t facets = cell.facet_count();
     boost::container::small_vector<std::int8_t, 32> sides(4 * ((facets + 3) / 4));

@@ -18,10 +18,10 @@ namespace cellwalk {
 template <int D>
 struct Grid_options {
   std::array<std::uint32_t, D> cells = filled(10);  ///< cells along each axis
-  double solid_share = 0;                    ///< share of cells that are solid and touch each other nowhere
-  std::uint64_t seed = 1;                    ///< which ones
-  std::vector<std::uint32_t> solid_cells{};  ///< or exactly these, which may touch each other
-  Lattice_map<D> map{};                      ///< unit cells unless said otherwise
+  double solid_share = 0;                    ///< fraction of solid cells, which do not touch each other
+  std::uint64_t seed = 1;                    ///< selects them
+  std::vector<std::uint32_t> solid_cells{};  ///< or exactly these, which may touch
+  Lattice_map<D> map{};                      ///< by default unit cells
 
   static constexpr std::array<std::uint32_t, D> filled(std::uint32_t n) {
     std::array<std::uint32_t, D> a{};
@@ -30,20 +30,20 @@ struct Grid_options {
   }
 };
 
-/// A grid of hexahedra. Solid cells are kept, marked solid, and their facets are impassable.
-/// Solid cells by share are drawn one by one at random from those that touch none drawn before; where this
-/// gets stuck (above about 8 % in 3D, 18 % in 2D) they are drawn on random layers and rows that lie apart,
-/// which reaches the most possible: one in 2^D cells, if all dimensions are even. \throw Error(usage) if a
-/// dimension is 0, the grid is too large for 32-bit indices, the share cannot be reached (with
-///        the largest that can), a solid cell is out of range, share and list are both given, or the map
-///        rounds
+/// A grid of hexahedra. Solid cells are kept, marked solid, and their facets are impassable. With
+/// `solid_share` the solid cells are drawn one by one at random from those that touch none drawn before. If
+/// this gets stuck (above about 8 % in 3D, 18 % in 2D), they are drawn on separate random layers and rows,
+/// which reaches the maximum of one in 2^D cells if all dimensions are even. Paper: section IV, figure 7.
+/// \throw Error(usage) if a dimension is 0, the grid is too large for 32-bit indices, the share cannot be
+///        reached (with the largest possible one), a solid cell is out of range, share and list are both
+///        given, or the map rounds
 /// Cost: about 0.2 us a cell.
 Cell_soup<3> hex_grid(const Grid_options<3>& options);
 
 /// A grid of squares; see hex_grid.
 Cell_soup<2> square_grid(const Grid_options<2>& options);
 
-/// A grid whose cubes are cut into simplices.
+/// A grid whose cubes are split into simplices.
 template <int D>
 struct Simplex_grid_options {
   std::array<std::uint32_t, D> cells = Grid_options<D>::filled(10);  ///< cubes along each axis
@@ -54,8 +54,9 @@ struct Simplex_grid_options {
 
 /// A conforming grid of tetrahedra, six to a cube (Kuhn: all along the diagonal from the lowest to the
 /// highest corner). Tetrahedron t of cube c has index 6 c + t. With jitter the points are in general
-/// position. \throw Error(usage) as hex_grid, or if the jitter is out of range Cost: about 0.1 us a
-/// tetrahedron.
+/// position.
+/// \throw Error(usage) as hex_grid(), or if the jitter is out of range
+/// Cost: about 0.1 us a tetrahedron.
 Cell_soup<3> tetrahedral_grid(const Simplex_grid_options<3>& options);
 
 /// A conforming grid of triangles, two to a square.

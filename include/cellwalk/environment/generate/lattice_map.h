@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where generators place the points of an integer lattice, so that lattice planes stay exactly planar.
+// The placement of an integer lattice by generators, such that lattice planes stay exactly planar.
 #ifndef CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
 #define CELLWALK_ENVIRONMENT_GENERATE_LATTICE_MAP_H
 
@@ -22,7 +22,7 @@ struct Lattice_map {
     return c;
   }
 
-  /// The image of a lattice point, each coordinate summed up from the origin in the order of the columns.
+  /// The image of a lattice point; each coordinate is summed from the origin in the order of the columns.
   Point<D> operator()(const Point<D>& k) const {
     Point<D> p = origin;
     for (int i = 0; i < D; ++i)
@@ -36,25 +36,25 @@ template <int D>
 Lattice_map<D> scaled(double scale);
 
 /// A rotation times 3 `scale` (3D: columns (1,2,2), (2,-2,1), (2,1,-2)) or times 5 `scale` (2D: columns
-/// (3,4),
-/// (-4,3)): no lattice plane stays parallel to an axis plane, and lattice points stay integer for scale 1.
+/// (3,4), (-4,3)). No lattice plane is parallel to an axis plane, and lattice points have integer images for
+/// scale 1.
 template <int D>
 Lattice_map<D> rotated(double scale = 1);
 
-/// A shear: axis 0 as it is, every further axis i leans along axis i-1 by half a cell; times `scale`.
+/// A shear times `scale`: axis 0 is unchanged, every further axis i is sheared along axis i-1 by half a cell.
 template <int D>
 Lattice_map<D> sheared(double scale = 1);
 
-/// What the image of a lattice must satisfy.
+/// The condition on the image of a lattice.
 enum class Placement {
   planar,   ///< lattice planes stay exactly planar
   positive  ///< cells keep their orientation: enough for simplices
 };
 
-/// Checks that a map places the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places, as
-/// asked. planar: either no coordinate is rounded, or each coordinate depends on one axis alone (then
-/// rounding moves whole lattice planes) and neighbouring planes stay apart. \throw Error(usage) where this
-/// fails, or where the map is singular or mirrors
+/// Checks the images of the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places.
+/// Placement::planar requires that either no coordinate is rounded, or each coordinate depends on one axis
+/// only (then rounding moves whole lattice planes) and neighbouring planes stay separate.
+/// \throw Error(usage) if the condition fails, or if the map is singular or a reflection
 template <int D>
 void check_placement(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& extent, int binary_places,
                      Placement placement);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Slits: two one-sided walls in one place, cut into a complex as a blade would cut them.
+// Slits: pairs of coincident one-sided walls, as a cut leaves them.
 #ifndef CELLWALK_ENVIRONMENT_GENERATE_SLITS_H
 #define CELLWALK_ENVIRONMENT_GENERATE_SLITS_H
 
@@ -10,16 +10,18 @@
 
 namespace cellwalk {
 
-/// Parts the cells at some facets: what was one facet of two cells becomes two facets of the boundary, one of each cell, in the same
-/// place. Vertices inside a slit, and where it ends at the boundary, are duplicated, one copy for each group of cells that
-/// facets still join there; its rim, where it ends in free space, stays shared. Where all vertices of a facet stay
-/// shared (a slit of one facet) they would name one facet still: then it is cut about a point inside it, into triangles (2D: halves), as
-/// seen from the one cell, from the other, or from both. That point is taken where doubles hold it exactly; a facet in
-/// which no such point is found becomes a membrane instead.
+/// Separates the cells at some facets: a facet of two cells becomes two coincident boundary facets, one of
+/// each cell. Vertices inside a slit, and at its end on the boundary, are duplicated, one copy for each group
+/// of cells that facets still join there. The rim of a slit in free space stays shared. If all vertices of a
+/// facet stay shared (a slit of one facet), they would still identify one facet; then it is split at an
+/// interior point, into triangles (2D: halves), on one side or on both. The point must be exact in doubles; a
+/// facet without such a point becomes a membrane instead.
 ///
-/// `is_slit` says of each half-facet whether it is to be parted; marks on one side suffice, and those on the boundary are without effect.
-/// The result is for Environment::build with Duplicate_vertices::keep. Cells and the points that were there keep their indices.
-/// \pre a soup of convex cells that can be glued; one mark a half-facet
+/// The result is for Environment::build() with Duplicate_vertices::keep. Cells and existing points keep their
+/// indices.
+/// \param is_slit marks the half-facets to be separated; a mark on one side suffices, and marks on the
+///        boundary have no effect
+/// \pre a soup of convex cells that can be glued; one mark for each half-facet
 /// Cost: some us a cell.
 template <int D>
 void open_slits(Cell_soup<D>& soup, std::span<const std::uint8_t> is_slit);

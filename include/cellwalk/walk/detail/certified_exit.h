@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The exit of a cell from float planes with an error bound: what they prove is taken, the rest is left in
-// doubt.
+// The exit of a cell from float planes with an error bound, as far as they prove it; other signs are
+// undecided.
 //
 // Let e be the point where the line entered the cell (a itself in the first cell). A facet G with b strictly
 // inside is not met between e and b, since e is in the closed cell. A facet with b on it is met only if e
@@ -21,7 +21,7 @@
 
 namespace cellwalk::detail {
 
-/// Facets (bits) of one block by the certified side of a point.
+/// The facets of one block, as bit masks, by the certified side of a point.
 struct Block_sides {
   Float4 value;
   unsigned inside;   ///< strictly inside for certain
@@ -34,13 +34,13 @@ inline Block_sides classify(const Plane_block<D>& block, const Float_point<D>& y
   return {value, lane_mask(value < -plane_error), lane_mask(value > plane_error)};
 }
 
-/// Largest number of blocks that the certified exit looks at; cells with more facets are decided exactly.
+/// The largest number of blocks that the certified exit examines; cells with more facets are decided exactly.
 inline constexpr std::size_t certified_blocks = 8;
 
-/// What the planes of a cell prove.
+/// The exit that the planes of a cell prove.
 struct Certified_exit {
   enum Verdict : std::uint8_t { inside, leaves, unknown } verdict;
-  std::uint32_t facet;  ///< if it leaves: the facet through whose relative interior it does
+  std::uint32_t facet;  ///< if it leaves: the facet whose relative interior it crosses
 };
 
 inline Float4 broadcast(float x) { return Float4{x, x, x, x}; }
@@ -75,7 +75,7 @@ inline Float4 smallest(Float4 v) {
 #endif
 }
 
-/// 1/x to about 12 bits: good enough to choose a candidate, never to prove anything.
+/// 1/x to about 12 bits, to choose a candidate; no proof uses it.
 inline Float4 rough_inverse(Float4 x) {
 #if defined(__SSE2__)
   return std::bit_cast<Float4>(_mm_rcp_ps(std::bit_cast<__m128>(x)));
@@ -87,7 +87,7 @@ inline Float4 rough_inverse(Float4 x) {
 /// Later than any time of an exit.
 inline constexpr float never = 4;
 
-/// Intervals that hold the times at which the line meets four planes, where the target lies outside (see
+/// Intervals that contain the times at which the line meets four planes, where the target lies outside (see
 /// certified_exit).
 struct Times {
   Float4 lower, upper;
@@ -100,15 +100,15 @@ inline Times times(Float4 a, Float4 b) {
   return {time - width, time + width};
 }
 
-/// Lanes turned left by `By`: lane i holds lane i+By.
+/// Lanes rotated left by `By`: lane i of the result is lane i+By.
 template <int By>
 inline Float4 turned(Float4 v) {
   return __builtin_shufflevector(v, v, By % 4, (1 + By) % 4, (2 + By) % 4, (3 + By) % 4);
 }
 
-/// Which of four lanes is met first, by the outcomes of their comparisons. Bit i of the index: lane i is met before
-/// lane i+1 (mod 4); bit 4+i (i < 2): before lane i+2; bit 6+i: lane i is not met, its plane faces away. 0 where no lane
-/// is before all others.
+/// The lane of four that is met first, by the outcomes of their comparisons. Bit i of the index: lane i is
+/// met before lane i+1 (mod 4); bit 4+i (i < 2): before lane i+2; bit 6+i: lane i is not met, its plane faces
+/// away. 0 where no lane is before all others.
 inline constexpr std::array<std::uint8_t, 1024> first_lane = [] {
   std::array<std::uint8_t, 1024> table{};
   for (unsigned index = 0; index < table.size(); ++index) {
@@ -127,9 +127,9 @@ inline constexpr std::array<std::uint8_t, 1024> first_lane = [] {
   return table;
 }();
 
-/// The lane whose plane the line from a (values `a`) in a direction (slopes `slope` of the planes along it) probably
-/// meets first: the smallest -a/slope of positive slope, by cross products, since a division would take longer than the
-/// rest of a crossing. Proves nothing: products are rounded.
+/// The lane whose plane the line from a (values `a`) in a direction (slopes `slope` of the planes along it)
+/// probably meets first: the smallest -a/slope of positive slope, by cross products, since a division would
+/// take longer than the rest of a crossing. Proves nothing: products are rounded.
 inline std::uint32_t probably_first(Float4 a, Float4 slope) {
   const Float4 next = turned<1>(a) * slope - a * turned<1>(slope);
   const Float4 opposite = turned<2>(a) * slope - a * turned<2>(slope);
@@ -155,17 +155,19 @@ inline Certified_exit certified_exit(const Plane_block<D>& planes, const Frame_l
   return {unproved ? Certified_exit::unknown : Certified_exit::leaves, first};
 }
 
-/// The exit of a cell of `blocks` blocks towards b, from the start a of the line. `starts_inside`: the line holds a
-/// point of the cell strictly before any exit.
+/// The exit of a cell of `blocks` blocks towards b, from the start a of the line. `starts_inside`: the line
+/// holds a point of the cell strictly before any exit.
 ///
-/// A candidate is chosen by rough times with the facet number in their last bits; the next cell can be fetched from it
-/// while the proof is still under way. Nothing branches but the verdict: exits are hard to predict.
+/// A candidate is chosen by rough times with the facet number in their last bits; the next cell can be
+/// fetched from it while the proof is still under way. Nothing branches but the verdict: exits are hard to
+/// predict.
 ///
-/// Proof. Let a, b be computed and A <= 0 < B exact values of a facet with b outside, e = plane_error, t = a/(a-b) and
-/// T = A/(A-B) the time sought. With A = a+x, B = b+y, |x|, |y| <= e: t - T = (xB - Ay)/((a-b)(A-B)), and |A| + B = B-A,
-/// so |t - T| <= e/|a-b|. The computed t is off by three float roundings of a value below 2, the computed bound by as
-/// many of itself: time_slack covers the first, the room in plane_error the second. If the upper end of the
-/// candidate's interval lies below the lower ends of all others, the line meets the candidate strictly first.
+/// Proof. Let a, b be computed and A <= 0 < B exact values of a facet with b outside, e = plane_error, t =
+/// a/(a-b) and T = A/(A-B) the time sought. With A = a+x, B = b+y, |x|, |y| <= e: t - T = (xB -
+/// Ay)/((a-b)(A-B)), and |A| + B = B-A, so |t - T| <= e/|a-b|. The computed t is off by three float roundings
+/// of a value below 2, the computed bound by as many of itself: time_slack covers the first, the room in
+/// plane_error the second. If the upper end of the candidate's interval lies below the lower ends of all
+/// others, the line meets the candidate strictly first.
 template <int D>
 inline Certified_exit certified_exit(const Plane_block<D>* planes, std::size_t blocks,
                                      const Frame_line<D>& line, bool starts_inside) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Motions that run in the boundary of a cell: where walls may begin on their way. Rule: docs/walk.md, choices.
+// Motions in the boundary of a cell, and the ridges and vertices on their path at which walls may begin.
+// Rule: docs/walk.md, choices.
 #ifndef CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 #define CELLWALK_WALK_DETAIL_IN_BOUNDARY_H
 
@@ -7,9 +8,9 @@
 
 namespace cellwalk::detail {
 
-/// The next ridge or vertex of a cell, after the one passed last, that the segment ab passes while it runs in the plane of a facet
-/// of the cell, and before it leaves the cell or ends in it; the start itself where nothing was passed yet. Exit::none if
-/// there is none, or the segment runs through the inside.
+/// The next ridge or vertex of a cell, after the one passed last, that the segment ab passes while it runs in
+/// the plane of a facet of the cell, and before it leaves the cell or ends in it; the start itself where
+/// nothing was passed yet. Exit::none if there is none, or the segment runs through the inside.
 /// \pre a piece of the segment after the place passed last lies in the closed cell; `ends` if it ends there
 /// Cost: some signs; exact numbers where the segment lies in the planes of several facets.
 template <int D>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The two signs of the walk, asked of a number policy, and what follows from them in one cell.
+// The two signs of the walk, computed by a number policy, and the exit of a cell that they determine. Paper:
+// section II.
 #ifndef CELLWALK_WALK_DETAIL_SIGNS_H
 #define CELLWALK_WALK_DETAIL_SIGNS_H
 
@@ -16,7 +17,7 @@
 
 namespace cellwalk::detail {
 
-/// Side of x against facet i: > 0 strictly outside the cell.
+/// The side of x with respect to facet i: > 0 strictly outside the cell.
 template <class Kernel>
 auto side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x, Walk_counts& counts) {
   ++counts.side_tests;
@@ -33,8 +34,8 @@ auto side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x, Walk_count
                              x);
 }
 
-/// Line ab against ridge k of facet i (3D: edge from loop vertex k to the next; 2D: vertex k). A line that
-/// leaves the cell through the facet has signs >= 0 against all ridges.
+/// The sign of line ab with respect to ridge k of facet i (3D: edge from loop vertex k to the next; 2D:
+/// vertex k). A line that leaves the cell through the facet has signs >= 0 for all ridges.
 template <class Kernel>
 auto along(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Point<2>& a, const Point<2>& b,
            Walk_counts& counts) {
@@ -52,7 +53,7 @@ auto along(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Point<3
   return Kernel::orientation(counts.predicates, a, b, cell.point(loop[k]), cell.point(next));
 }
 
-/// The line ab as seen by facets, its signs asked of a policy.
+/// The line ab with its signs, computed by a policy.
 template <class Kernel, int D>
 struct Line {
   const Point<D>&a, &b;
@@ -61,24 +62,24 @@ struct Line {
   int along(const Cell_view<D>& cell, std::size_t i, std::size_t k) const {
     return detail::along<Kernel>(cell, i, k, a, b, counts);
   }
-  /// On which side of plane abv w lies.
+  /// The side of plane abv on which w lies.
   int across(const Point<D>& v, const Point<D>& w) const {
     ++counts.along_tests;
     return Kernel::orientation(counts.predicates, a, b, v, w);
   }
 };
 
-/// Where a line leaves a cell.
+/// The exit of a line from a cell.
 struct Exit {
   enum Kind : std::uint8_t { arrived, facet, ridge, vertex, none } kind = none;
-  std::uint16_t number = 0;    ///< facet left through, or that contains the ridge or vertex
+  std::uint16_t number = 0;    ///< the exit facet, or one that contains the ridge or vertex
   std::uint32_t u = 0, v = 0;  ///< point indices: ridge uv (3D), or vertex u
 };
 
-/// Signs of a line against the ridges of a facet, none negative.
+/// The signs of a line with respect to the ridges of a facet, none negative.
 using Ridge_signs = std::span<const std::int8_t>;
 
-/// Refines an exit on facet i that has ridges with sign zero: inside a ridge or at a vertex.
+/// Refines an exit on facet i with zero signs at ridges: inside a ridge or at a vertex.
 template <class Line>
 Exit exit_on_zero_ridges(const Cell_view<2>& cell, std::size_t i, Ridge_signs signs, const Line&) {
   const std::uint32_t u = cell.point_index(cell.loop(i)[signs[0] == 0 ? 0 : 1]);
@@ -106,7 +107,8 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   }
   if (last == first)
     return {Exit::ridge, number, cell.point_index(at(first)), cell.point_index(at(first + 1))};
-  // Several ridges on one line: the vertices in order, seen against a vertex off the line, tell which.
+  // Several ridges on one line: the signs of their vertices in order, with a vertex off the line, determine
+  // the ridge or vertex.
   std::size_t off = last + 2;
   while (are_collinear(cell.point(at(first)), cell.point(at(first + 1)), cell.point(at(off)))) ++off;
   int previous = 0;
@@ -120,7 +122,7 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   return {Exit::none, number, 0, 0};  // inexact policies only
 }
 
-/// Does a line leave through facet i? If so, where.
+/// The exit of a line through facet i; Exit::none if it leaves elsewhere.
 template <class Line, int D>
 Exit exit_through(const Cell_view<D>& cell, std::size_t i, const Line& line) {
   boost::container::small_vector<std::int8_t, 16> signs;
@@ -136,8 +138,8 @@ Exit exit_through(const Cell_view<D>& cell, std::size_t i, const Line& line) {
   return exit_on_zero_ridges(cell, i, {signs.data(), signs.size()}, line);
 }
 
-/// True if x, known to lie in the closed cell and on the plane of facet i, lies in the closed facet. Exact,
-/// whatever the policy of the walk: it matters only where a cell has several coplanar facets.
+/// True if x, known to lie in the closed cell and on the plane of facet i, lies in the closed facet. Exact
+/// for every policy of the walk; relevant only if a cell has several coplanar facets.
 inline bool in_facet(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
   const auto loop = cell.loop(i);
   return on_segment<2>(cell.point(loop[0]), cell.point(loop[1]), x);
@@ -150,13 +152,13 @@ inline bool in_facet(const Cell_view<3>& cell, std::size_t i, const Point<3>& x)
   return in_convex_polygon(polygon, x);
 }
 
-/// A vertex or edge of a facet by its place in the loop, or the facet itself.
+/// A vertex or edge of a facet by its position in the loop, or the facet itself.
 struct Facet_feature {
   Contact_kind kind = Contact_kind::facet;
   std::uint16_t corner = 0;
 };
 
-/// The place in the loop of facet i of ridge uv (3D) or vertex u = v; 0 if it is not there.
+/// The position of ridge uv (3D) or vertex u = v in the loop of facet i; 0 if it is not there.
 template <int D>
 std::uint16_t corner_of(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, std::uint32_t v) {
   const auto loop = cell.loop(i);
@@ -168,7 +170,7 @@ std::uint16_t corner_of(const Cell_view<D>& cell, std::size_t i, std::uint32_t u
   return 0;
 }
 
-/// The lowest feature of facet i that holds x, a point of the closed facet.
+/// The lowest feature of facet i that contains x, a point of the closed facet.
 template <int D>
 Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) {
   const auto loop = cell.loop(i);
@@ -181,8 +183,8 @@ Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Poin
   return {};
 }
 
-/// Dimension of the lowest cell of the complex that holds x, given that x lies in the closed cell and on the
-/// planes of the facets for which on_plane(i) holds.
+/// The dimension of the lowest cell of the complex that contains x, given that x lies in the closed cell and
+/// on the planes of the facets for which on_plane(i) holds.
 template <int D, class On_plane>
 std::uint16_t lowest_dimension(const Cell_view<D>& cell, const Point<D>& x, const On_plane& on_plane) {
   for (std::size_t v = 0; v < cell.vertex_count(); ++v)

@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/predicates.h>
+#include <cellwalk/walk/detail/link_search.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <boost/container/small_vector.hpp>
@@ -18,7 +19,7 @@ namespace cellwalk::detail {
 template <int D>
 using Spanning_corners = std::array<const Point<D>*, static_cast<std::size_t>(D)>;
 
-/// Corners that span facet i, in its order: the same ones in whatever order cells and points are listed.
+/// Corners that span facet i, in its order, independent of the order in which cells and points are listed.
 inline Spanning_corners<2> spanning_corners(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   return {&cell.point(loop[0]), &cell.point(loop[1])};
@@ -37,7 +38,7 @@ inline Spanning_corners<3> spanning_corners(const Cell_view<3>& cell, std::size_
     first = k;
     least = &p;
   }
-  // No line through its neighbours holds the least corner: the facet has an angle there.
+  // The line through its neighbours does not contain the least corner: the facet has an angle there.
   return {least, &cell.point(loop[first + 1 < n ? first + 1 : 0]),
           &cell.point(loop[first > 0 ? first - 1 : n - 1])};
 }
@@ -57,7 +58,8 @@ Vector<D> inner_normal(const Cell_view<D>& cell, std::size_t i) {
   return inner_normal(spanning_corners(cell, i));
 }
 
-/// An order of facets by the places of their corners: the same however they are numbered. Facets that coincide are equal.
+/// An order of facets by the positions of their corners, independent of their numbering. Coincident facets
+/// are equal.
 template <int D>
 bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D>& other, std::size_t j) {
   const auto sorted_corners = [](const Cell_view<D>& of, std::size_t facet) {
@@ -67,6 +69,16 @@ bool is_placed_before(const Cell_view<D>& cell, std::size_t i, const Cell_view<D
     return corners;
   };
   return sorted_corners(cell, i) < sorted_corners(other, j);
+}
+
+/// Of two half-facets the first in that order. `first` may be none.
+template <int D>
+Half_facet first_placed(const Snapshot<D>& snapshot, Half_facet first, Half_facet other) {
+  if (first == Half_facet::none) return other;
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(first));
+  const bool is_before = is_placed_before(snapshot.view(snapshot.cell_of(other)), snapshot.facet_of(other),
+                                          cell, snapshot.facet_of(first));
+  return is_before ? other : first;
 }
 
 /// True if facet i of a cell contains point u, and v too (3D ridge).
@@ -80,7 +92,8 @@ bool facet_contains(const Cell_view<D>& cell, std::size_t i, std::uint32_t u, st
   return has_u && has_v;
 }
 
-/// On which side of facet i a point of its plane lies once it is displaced, see displaced_side(): > 0 outside the cell.
+/// The side of facet i on which a displaced point of its plane lies, see displaced_side(): > 0 outside the
+/// cell.
 inline int displaced_side(const Cell_view<2>& cell, std::size_t i) {
   const auto loop = cell.loop(i);
   return -cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]));
@@ -91,8 +104,8 @@ inline int displaced_side(const Cell_view<3>& cell, std::size_t i) {
   return cellwalk::displaced_side(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
 }
 
-/// An order of cells that have the line ab in their boundary: as one comes to them turning counterclockwise about it, seen against
-/// its direction, from where a point of the line comes to lie when it is displaced.
+/// The counterclockwise order of cells with the line ab in their boundary, about that line and seen against
+/// its direction, starting at the direction of the displacement of displaced_side().
 /// \pre no two of the cells overlap, and the displaced point is in none of them
 template <class Kernel>
 class Turn {
@@ -102,7 +115,8 @@ class Turn {
   bool operator()(const Cell_view<3>& x, const Cell_view<3>& y) const {
     const Point<3>&u = first_corner(x), &v = first_corner(y);
     const int u_side = cellwalk::displaced_side(a_, b_, u), v_side = cellwalk::displaced_side(a_, b_, v);
-    // Where the plane of the line and a corner has the displaced point on its right, the corner comes within half a turn.
+    // Where the plane of the line and a corner has the displaced point on its right, the corner comes within
+    // half a turn.
     return u_side != v_side ? u_side < v_side : turn(u, v) > 0;
   }
 
@@ -120,7 +134,8 @@ class Turn {
       if (are_collinear(a_, b_, cell.point(k))) continue;
       if (first == cell.vertex_count() || turn(cell.point(first), cell.point(k)) < 0) first = k;
     }
-    // Half a turn on from the first corner signs are 0: corners in between have told which is first, unless they came later.
+    // Half a turn after the first corner signs are 0. Corners in between have determined the first one,
+    // unless they came later.
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
       if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
         first = k;
@@ -131,91 +146,73 @@ class Turn {
   Walk_counts& counts_;
 };
 
-/// Facets on a way through a star.
+/// The facets on a path through a star.
 using Star_way = boost::container::small_vector<Half_facet, 8>;
 
-/// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in which the motion from
-/// a towards b continues: all their facets at the ridge or vertex have b on their inner side or on them.
+/// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in
+/// which the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner
+/// side or on them.
 ///
-/// They are the candidates. Those that passable facets along the motion join are one side; there are several where it runs along
-/// walls. The sides come in an order that depends on the geometry only: first the one that b is on once it is displaced, see
-/// displaced_side(); then, turning from there about the line ab (3D), one after the other. Within the first one `start` comes
-/// first.
+/// These cells are the candidates. Candidates joined by passable facets along the motion form a side; there
+/// are several sides if the motion runs along walls. Their order depends on the geometry only: first the side
+/// on which the displaced point b lies, see displaced_side(), then counterclockwise about the line ab (3D).
+/// Within the first side `start` comes first.
 template <class Kernel, int D>
 class Star_search {
  public:
   Star_search(const Snapshot<D>& snapshot, Cell start, std::uint32_t u, std::uint32_t v, const Point<D>& a,
               const Point<D>& b, Walk_counts& counts)
-      : snapshot_(snapshot),
-        u_(u),
-        v_(v),
-        a_(a),
-        b_(b),
-        counts_(counts),
-        found_{{start, 0, Half_facet::none}} {
+      : snapshot_(snapshot), u_(u), v_(v), a_(a), b_(b), counts_(counts), links_(snapshot, start) {
     ++counts.star_searches;
-    for (std::size_t head = 0; head < found_.size(); ++head)
-      if (visit(head)) return;
+    while (links_.next())
+      if (visit()) return;
     if (candidates_.size() > 1) sort();
   }
 
   struct Candidate {
     std::size_t place;  ///< among the cells found
-    bool is_displaced;  ///< b lies in it once it is displaced
+    bool is_displaced;  ///< it contains the displaced point b
     int side;           ///< candidates of one side have the same number
   };
   using Candidates = boost::container::small_vector<Candidate, 4>;
 
   const Candidates& candidates() const { return candidates_; }
-  Cell cell(const Candidate& candidate) const { return found_[candidate.place].cell; }
-  /// True if there is more than one side to go on along.
+  Cell cell(const Candidate& candidate) const { return links_.cell(candidate.place); }
+  /// True if the motion can continue on more than one side.
   bool has_choice() const {
     return std::any_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& c) { return c.side != candidates_.front().side; });
   }
-  /// The facets on the way to a candidate.
+  /// The facets on the path to a candidate.
   Star_way way(const Candidate& candidate) const {
     Star_way way;
-    for (std::size_t i = candidate.place; i != 0; i = found_[i].parent) way.push_back(found_[i].facet);
-    std::reverse(way.begin(), way.end());
+    links_.append_way(candidate.place, way);
     return way;
   }
-  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides nothing.
+  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides
+  /// nothing.
   Half_facet wall() const { return wall_; }
 
  private:
-  /// A cell of the star, and how the search came to it.
-  struct Found {
-    Cell cell;
-    std::size_t parent;
-    Half_facet facet;  ///< of the parent
-  };
-
-  /// True if the motion continues in the inside of the cell, so that there is no other.
-  bool visit(std::size_t place) {
-    const Cell c = found_[place].cell;
-    const Cell_view<D> cell = snapshot_.view(c);
+  /// True if the motion continues in the interior of the cell, so that there is no other candidate.
+  bool visit() {
     ++counts_.star_cells;
     bool is_candidate = true, is_inside = true, is_displaced = true;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (!facet_contains(cell, i, u_, v_)) continue;
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      const int side = detail::side<Kernel>(cell, i, b_, counts_);
+    int side = 0;
+    const auto is_at_feature = [&](const Cell_view<D>& cell, std::size_t i) {
+      if (!facet_contains(cell, i, u_, v_)) return false;
+      side = detail::side<Kernel>(cell, i, b_, counts_);
       is_candidate &= side <= 0;
       is_inside &= side < 0;
       is_displaced &= side < 0 || (side == 0 && displaced_side(cell, i) < 0);
-      if (!snapshot_.is_impassable(f))
-        add(snapshot_.neighbor(f), place, f);
-      else if (side > 0)
-        note_wall(f, cell, i);
-    }
-    if (is_candidate) candidates_.push_back({place, is_displaced, static_cast<int>(candidates_.size())});
+      return true;
+    };
+    links_.expand_all(is_at_feature, [&](const Cell_view<D>& cell, std::size_t i, Half_facet wall) {
+      if (side > 0) note_wall(wall, cell, i);
+    });
+    if (is_candidate)
+      candidates_.push_back({links_.place(), is_displaced, static_cast<int>(candidates_.size())});
     return is_candidate && is_inside;
-  }
-
-  void add(Cell next, std::size_t parent, Half_facet facet) {
-    const auto is_next = [next](const Found& known) { return known.cell == next; };
-    if (std::none_of(found_.begin(), found_.end(), is_next)) found_.push_back({next, parent, facet});
   }
 
   void note_wall(Half_facet f, const Cell_view<D>& cell, std::size_t i) {
@@ -245,7 +242,7 @@ class Star_search {
     });
   }
 
-  /// Gives candidates that a passable facet along the motion joins the same number.
+  /// Numbers the sides: candidates joined by a passable facet along the motion get the same number.
   void join_sides() {
     for (const Candidate& x : candidates_) {
       const Cell_view<D> view = snapshot_.view(cell(x));
@@ -263,7 +260,7 @@ class Star_search {
     }
   }
 
-  /// True if facet i of a cell, which has the ridge or vertex, holds a further piece of the motion.
+  /// True if facet i of a cell, which contains the ridge or vertex, contains a further piece of the motion.
   bool holds_more(const Cell_view<D>& cell, std::size_t i) const {
     if (detail::side<Kernel>(cell, i, b_, counts_) != 0) return false;
     const auto loop = cell.loop(i);
@@ -294,7 +291,7 @@ class Star_search {
   const std::uint32_t u_, v_;
   const Point<D>&a_, &b_;
   Walk_counts& counts_;
-  boost::container::small_vector<Found, 32> found_;
+  Link_search<D> links_;
   Candidates candidates_;
   Half_facet wall_ = Half_facet::none;
   double steepest_ = 0;
