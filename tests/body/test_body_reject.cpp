@@ -163,7 +163,7 @@ class Rejection {
                   const Point<D>& target) const {
     const Contact<D>& c = met.contact;
     const Point<D>& from = positions[met.vertex];
-    const Point<D> there = from + c.time * (target - from);
+    const Point<D> there = from + c.rounded_time() * (target - from);
     bool is_there = false;
     if (c.body == Body_feature::vertex) {
       is_there = length(c.point - there) < 1e-6;
