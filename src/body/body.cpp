@@ -5,197 +5,169 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <tuple>
 
-#include "registration.h"
+#include "body_faces.h"
+#include "body_state.h"
+#include "step_at_target.h"
+#include "vertex_move.h"
 
 namespace cellwalk {
-
 namespace {
 
-/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
+[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
+  throw Error(Error_code::usage,
+              options.edges == Edge_rule::at_target
+                  ? "a step that looks at edges where their vertex goes has no contact to slide "
+                    "from: use Contact_policy::reject with Edge_rule::at_target"
+                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
+                    "to have what blocks reported");
+}
+
+void check_rule(const Body_options& options) {
+  const bool is_at_target = options.edges == Edge_rule::at_target;
+  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
+    refuse_rule(options);
+}
+
 template <int D>
-bool meets_before(const Contact<D>& a, const Contact<D>& b) {
-  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
-  return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
+std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, const Locator<D>& locator,
+                                                  const Body_soup<D>& soup,
+                                                  std::span<const Particle<D>> before) {
+  auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before);
+  if constexpr (D == 3) {
+    Face_counts counts;
+    detail::register_faces(*state, Error_code::outside, counts);
+  }
+  return state;
 }
 
 }  // namespace
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : Body(snapshot, locator, soup, {}) {}
+    : state_(registered<D>(snapshot, locator, soup, {})) {}
 
 template <int D>
-Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-              std::span<const Particle<D>> before)
-    : snapshot_(&snapshot),
-      epoch_(snapshot.epoch()),
-      positions_(soup.points),
-      edges_(soup.edges),
-      is_outside_(soup.points.size()),
-      outside_near_(soup.points.size()),
-      vertex_behind_(soup.points.size()),
-      edge_behind_(soup.edges.size()) {
-  detail::Registered<D> registered = detail::register_body(snapshot, locator, soup, before);
-  particles_ = std::move(registered.particles);
-  chains_ = std::move(registered.chains);
-  link_edges();
-  if (D != 3 || soup.faces.empty()) return;
-  faces_ = soup.faces;
-  link_faces();
-  Face_counts counts;
-  register_faces(Error_code::outside, counts);
+Body<D>::Body(const Body& other) : state_(std::make_unique<detail::Body_state<D>>(*other.state_)) {}
+
+template <int D>
+Body<D>& Body<D>::operator=(const Body& other) {
+  return *this = Body(other);
 }
+
+template <int D>
+Body<D>::Body(Body&&) noexcept = default;
+template <int D>
+Body<D>& Body<D>::operator=(Body&&) noexcept = default;
+template <int D>
+Body<D>::~Body() = default;
 
 template <int D>
 void Body<D>::register_again(const Locator<D>& locator) {
-  *this = Body(*snapshot_, locator, {positions_, edges_, faces_}, particles_);
+  const detail::Body_state<D>& now = *state_;
+  const Body_soup<D> soup{now.positions, now.topology.edges(), now.topology.faces()};
+  state_ = registered<D>(*now.snapshot, locator, soup, now.particles);
 }
 
 template <int D>
-void Body<D>::link_edges() {
-  corner_begin_.assign(positions_.size() + 1, 0);
-  for (const auto& [u, v] : edges_) {
-    ++corner_begin_[u + 1];
-    ++corner_begin_[v + 1];
-  }
-  for (std::size_t v = 0; v < positions_.size(); ++v) corner_begin_[v + 1] += corner_begin_[v];
-  corners_.resize(2 * edges_.size());
-  std::vector<std::uint32_t> next(corner_begin_.begin(), corner_begin_.end() - 1);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    const auto [u, v] = edges_[e];
-    corners_[next[u]++] = {e, v, false};
-    corners_[next[v]++] = {e, u, true};
-  }
+std::span<const Point<D>> Body<D>::positions() const {
+  return state_->positions;
 }
-
 template <int D>
-Chain Body<D>::seen_from(const Corner& corner) const {
-  const Chain& chain = chains_[corner.edge];
-  return corner.is_reversed && !chain.empty() ? reversed(*snapshot_, chain) : chain;
+std::span<const std::array<std::uint32_t, 2>> Body<D>::edges() const {
+  return state_->topology.edges();
 }
-
 template <int D>
-std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
-                                                    const Body_options& options, Body_counts& counts) {
-  leave_region(counts);  // which asks for the epoch
-  return try_move(vertex, target, options.sweep, counts);
+std::span<const std::array<std::uint32_t, 3>> Body<D>::faces() const {
+  return state_->topology.faces();
 }
-
 template <int D>
-std::optional<Body_contact<D>> Body<D>::try_move(std::uint32_t vertex, const Point<D>& target,
-                                                 const Sweep_options& options, Body_counts& counts,
-                                                 bool any) {
-  if (options.sweep == Sweep::faces) take_up_faces(counts);
-  if (target == positions_[vertex]) return {};
-  Particle<D> to;
-  if (const auto first = find_contact(vertex, target, options, counts, any, to)) return first;
-  are_faces_swept_ &= options.sweep == Sweep::faces;
-  is_apart_ = false;
-  for (const auto& [face, rests] : moved_rests_) rests_[face] = rests;
-  commit(vertex, to);
-  return {};
+std::span<const Particle<D>> Body<D>::particles() const {
+  return state_->particles;
 }
-
 template <int D>
-std::optional<Body_contact<D>> Body<D>::find_contact(std::uint32_t vertex, const Point<D>& target,
-                                                     const Sweep_options& options, Body_counts& counts,
-                                                     bool any, Particle<D>& to) {
-  catch_up_vertex(vertex, counts);
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
-    catch_up_edge(corners_[i].edge, counts);
-  const Particle<D> from = particles_[vertex];
-  to = from;
-  visited_.clear();
-  crossed_.clear();
-  const Walk_result<D> walked =
-      move(*snapshot_, to, target, counts.edges.walk, {Walk_strategy::certified, &visited_, &crossed_});
-  to.position = target;
-  const Way<D> way{from, to, visited_, crossed_, walked.contact.has_value()};
-  std::optional<Body_contact<D>> first;
-  if (walked.contact)
-    first = {vertex_contact(*snapshot_, from.position, target, *walked.contact, counts.edges.walk), vertex,
-             vertex};
-  else if (options.touch == Touch::stop)
-    if (const auto touch = first_touch(*snapshot_, from, target, counts.edges))
-      first = {*touch, vertex, vertex};
-  if (any && first) return first;
-
-  moved_chains_.resize(corner_begin_[vertex + 1] - corner_begin_[vertex]);
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
-    const Corner& corner = corners_[i];
-    Sweep_result<D> swept =
-        sweep_edge_along(*snapshot_, way, particles_[corner.other], seen_from(corner), options, counts.edges);
-    if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
-      const bool is_edge = swept.contact->body == Body_feature::edge;
-      first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
-      if (any) return first;
-    }
-    Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
-    moved.chain = swept.chain;
-    moved.is_free = !swept.contact;
-    moved.is_behind = false;
-  }
-  moved_rests_.clear();
-  if (options.sweep == Sweep::faces) sweep_faces(vertex, way, first, counts);
-  return first;
-}
-
-/// Takes the chains of a moved vertex over, and its place.
-template <int D>
-void Body<D>::commit(std::uint32_t vertex, const Particle<D>& particle) {
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i) {
-    const Corner& corner = corners_[i];
-    const Moved_chain& moved = moved_chains_[i - corner_begin_[vertex]];
-    edge_behind_[corner.edge] = moved.is_behind;
-    if (moved.is_behind) continue;
-    chains_[corner.edge] =
-        corner.is_reversed && !moved.chain.empty() ? reversed(*snapshot_, moved.chain) : moved.chain;
-  }
-  particles_[vertex] = particle;
-  place(vertex, particle.position);
+const Chain& Body<D>::chain(std::size_t edge) const {
+  return state_->chains[edge];
 }
 
 template <int D>
 std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
   std::vector<std::uint32_t> result;
-  for (std::uint32_t i = corner_begin_[vertex]; i < corner_begin_[vertex + 1]; ++i)
-    result.push_back(corners_[i].other);
+  for (const detail::Corner& corner : state_->topology.corners_of(vertex)) result.push_back(corner.other);
   return result;
 }
 
 template <int D>
+void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
+                   Body_counts& counts) {
+  check_rule(options);
+  detail::Body_state<D>& body = *state_;
+  body.check_epoch();
+  counts.moves += targets.size();
+  if (options.clearance && body.region.holds_body() && body.region.holds_all(targets)) [[likely]] {
+    body.move_all(targets, counts);
+    return;
+  }
+  if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
+  if (options.edges == Edge_rule::at_target)
+    detail::Target_step<D>(body, options.sweep, counts).move_each(targets, options.reported, report);
+  else
+    detail::move_each(body, targets, options, report.contacts, counts);
+}
+
+template <int D>
+std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                                    const Body_options& options, Body_counts& counts) {
+  leave_region(counts);
+  return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
+}
+
+template <int D>
+void Body<D>::catch_up(Body_counts& counts) {
+  state_->check_epoch();
+  state_->refresh_all(counts);
+}
+
+template <int D>
+void Body<D>::leave_region(Body_counts& counts) {
+  catch_up(counts);
+  state_->give_region_up();
+}
+
+template <int D>
 void Body<D>::validate() const {
-  check_epoch();
+  state_->check_epoch();
+  const Snapshot<D>& snapshot = *state_->snapshot;
+  const auto& [positions, particles, chains] = std::tie(state_->positions, state_->particles, state_->chains);
   Walk_counts counts;
-  for (std::size_t v = 0; v < particles_.size(); ++v) {
-    const Particle<D>& p = particles_[v];
-    if (p.position == positions_[v] && p.cell != Cell::none && !snapshot_->is_solid(p.cell) &&
-        in_closure(*snapshot_, p.cell, p.position))
+  for (std::size_t v = 0; v < particles.size(); ++v) {
+    const Particle<D>& p = particles[v];
+    if (p.position == positions[v] && p.cell != Cell::none && !snapshot.is_solid(p.cell) &&
+        in_closure(snapshot, p.cell, p.position))
       continue;
     throw Error(Error_code::other,
                 fmt::format("vertex {} of a body is not in the closure of its cell, at ({})", v,
                             fmt::join(p.position, ", ")));
   }
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto [u, v] = edges_[e];
-    if (is_chain(*snapshot_, particles_[u], particles_[v], chains_[e], counts)) continue;
-    throw Error(Error_code::other,
-                fmt::format("edge {} of a body has no valid chain, from ({}) to ({})", e,
-                            fmt::join(positions_[u], ", "), fmt::join(positions_[v], ", ")));
+  for (std::size_t e = 0; e < chains.size(); ++e) {
+    const auto [u, v] = state_->topology.edges()[e];
+    if (is_chain(snapshot, particles[u], particles[v], chains[e], counts)) continue;
+    throw Error(Error_code::other, fmt::format("edge {} of a body has no valid chain, from ({}) to ({})", e,
+                                               fmt::join(positions[u], ", "), fmt::join(positions[v], ", ")));
   }
-  if (!are_faces_swept_) return;
-  Face_counts face_counts;
-  for (std::uint32_t f = 0; f < rests_.size(); ++f) {
-    const Face_registration found = register_face_here(f, face_counts);
-    if (found.piercing == Half_facet::none && found.rests == rests_[f]) continue;
-    throw Error(Error_code::other, fmt::format("a wall pierces face {} of a body, at ({})", f,
-                                               fmt::join(positions_[faces_[f][0]], ", ")));
+  if constexpr (D == 3) {
+    if (!state_->are_faces_swept) return;
+    Face_counts face_counts;
+    for (std::uint32_t f = 0; f < state_->rests.size(); ++f) {
+      const Face_registration found = detail::registered_face(*state_, f, face_counts);
+      if (found.piercing == Half_facet::none && found.rests == state_->rests[f]) continue;
+      throw Error(Error_code::other, fmt::format("a wall pierces face {} of a body, at ({})", f,
+                                                 fmt::join(positions[faces()[f][0]], ", ")));
+    }
   }
 }
 
-// With the accessors of the header, which unoptimised builds need; other members are compiled in files of their own.
 template class Body<2>;
 template class Body<3>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/body/clear_region.h>
+#include "clear_region.h"
 
 #include <boost/container/static_vector.hpp>
 
@@ -16,13 +16,8 @@
 
 #include "cut_plane.h"
 
-namespace cellwalk {
+namespace cellwalk::detail {
 namespace {
-
-using detail::Box;
-using detail::box_of;
-using detail::Cut_plane;
-using detail::furthest;
 
 /// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
 constexpr double enough_steps = 4;
@@ -149,7 +144,7 @@ class Region_search {
   unsigned facets_met(const Plane_block<D>& block) {
     std::array<Float4, D> far;
     for (std::size_t k = 0; k < D; ++k)
-      far[k] = lane_max(block.normal[k] * low_[k], block.normal[k] * high_[k]);
+      far[k] = cellwalk::lane_max(block.normal[k] * low_[k], block.normal[k] * high_[k]);
     const Float4 r = far[D - 1] + block.offset;
     Float4 value = far[0] + r;
     if constexpr (D == 3) value = (far[0] + far[1]) + r;
@@ -174,13 +169,13 @@ class Region_search {
   /// they may not be lost.
   bool cut_off(const Cell_view<D>& cell, std::size_t i, bool may_lose = true) {
     const auto loop = cell.loop(i);
-    detail::Pair_box<D> bounds(cell.point(loop[0]));
+    Pair_box<D> bounds(cell.point(loop[0]));
     for (const std::uint16_t v : loop.subspan(1)) bounds.extend(cell.point(v));
     const Box<D> facet = bounds.box();
     for (int k = 0; k < D; ++k)
       if (facet.low[k] >= region_.box().high(k) || facet.high[k] <= region_.box().low(k)) return true;
     for (const Cut_plane<D>& plane : planes_)
-      if (detail::is_beyond(plane, cell, i)) return true;
+      if (is_beyond(plane, cell, i)) return true;
     return cut_keeping(true, cell, i, facet) || cut_keeping(false, cell, i, facet) ||
            (may_lose && cut_keeping_anchor(cell, i, facet));
   }
@@ -204,7 +199,7 @@ class Region_search {
       }
     }
     if (best < enough_ && planes_.size() < Clear_region<D>::most_planes) {
-      if (cut_by_plane(cell, i, detail::outward(cell, i), with_targets, best)) return true;
+      if (cut_by_plane(cell, i, outward(cell, i), with_targets, best)) return true;
       // To part the targets as well would be in vain where they lie behind a wall.
       if (!(best > 0) && !with_targets && cut_by_plane(cell, i, apart(cell, i), false, 0)) return true;
     }
@@ -221,7 +216,7 @@ class Region_search {
   /// The cut that loses the fewest positions.
   bool cut_keeping_anchor(const Cell_view<D>& cell, std::size_t i, const Box<D>& facet) {
     const auto plane = planes_.size() < Clear_region<D>::most_planes
-                           ? detail::plane_before(cell, i, detail::outward(cell, i), sizes_)
+                           ? plane_before(cell, i, outward(cell, i), sizes_)
                            : std::nullopt;
     // Positions before the facet along each axis, behind it, and in the half-space before it.
     std::array<std::size_t, 2 * D + 1> counts{};
@@ -283,7 +278,7 @@ class Region_search {
     const double gap = best * length(normal);
     // Most that are of no use are found out before anything is bounded.
     if (!(most < dot(normal, cell.point(cell.loop(i)[0])) - gap)) return false;
-    const auto plane = detail::plane_before(cell, i, normal, sizes_);
+    const auto plane = plane_before(cell, i, normal, sizes_);
     if (!plane || !(most < plane->offset - gap)) return false;
     cut(*plane);
     if (!with_targets) lose_targets();
@@ -295,7 +290,7 @@ class Region_search {
   /// says what it is worth.
   Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
-    Vector<D> normal = detail::outward(cell, i);
+    Vector<D> normal = outward(cell, i);
     normal = (1 / length(normal)) * normal;
     for (int turn = 0; turn < most_turns; ++turn) {
       const Point<D>*last = nullptr, *first = nullptr;
@@ -353,4 +348,4 @@ template std::optional<Clear_region<2>> find_clear_region<2>(const Snapshot<2>&,
 template std::optional<Clear_region<3>> find_clear_region<3>(const Snapshot<3>&, const Particle<3>&,
                                                              const Region_request<3>&, Region_effort&);
 
-}  // namespace cellwalk
+}  // namespace cellwalk::detail

@@ -1,24 +1,41 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
-#include <cellwalk/body/body.h>
-
 #include <algorithm>
 
 #include "slide.h"
 #include "stop_candidates.h"
+#include "vertex_move.h"
 
-namespace cellwalk {
-/// Moves vertex by vertex; what edges sweep counts.
+namespace cellwalk::detail {
+namespace {
+
+/// Moves a vertex to a verified position just before a contact, if there is one.
 template <int D>
-void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& options,
-                        std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
+bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
+          const Sweep_options& options, Body_counts& counts) {
+  if (met.contact.time == Exact_time()) return false;
+  const Point<D> from = body.positions[vertex];
+  Sweep_options tried = options;
+  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
+  return try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
+    if (x == from) return false;
+    ++counts.stop_tries;
+    return !try_move(body, body.scratch, vertex, x, tried, counts, true);
+  });
+}
+
+}  // namespace
+
+template <int D>
+void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
+               std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
   std::vector<Vector<D>> normals;
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts)) continue;
+  for (std::uint32_t v = 0; v < targets.size(); ++v) {
+    if (body.try_move_in_region(v, targets[v], counts)) continue;
     Point<D> target = targets[v];
     normals.clear();
     for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
-      const auto contact = try_move(v, target, options.sweep, counts);
+      const auto contact = try_move(body, body.scratch, v, target, options.sweep, counts);
       if (!contact) break;
       ++counts.contacts;
       contacts.push_back(*contact);
@@ -26,39 +43,20 @@ void Body<D>::move_each(std::span<const Point<D>> targets, const Body_options& o
         ++counts.held;
         break;
       }
-      counts.held += !stop(v, target, *contact, options.sweep, counts);
+      counts.held += !stop(body, v, target, *contact, options.sweep, counts);
       normals.push_back(contact->contact.normal);
-      const Vector<D> left = detail::slide<D>(targets[v] - positions_[v], normals);
+      const Point<D>& position = body.positions[v];
+      const Vector<D> left = slide<D>(targets[v] - position, normals);
       if (!(length(left) > 0)) break;
-      target = positions_[v] + left + detail::lift<D>(positions_[v], left, normals.back());
+      target = position + left + lift<D>(position, left, normals.back());
       if (!is_finite(target)) break;
     }
   }
 }
 
-template <int D>
-bool Body<D>::stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
-                   const Sweep_options& options, Body_counts& counts) {
-  if (met.contact.time == Exact_time()) return false;
-  const Point<D> from = positions_[vertex];
-  Sweep_options tried = options;
-  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
-  return detail::try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
-    if (x == from) return false;
-    ++counts.stop_tries;
-    return !try_move(vertex, x, tried, counts, true);
-  });
-}
+template void move_each(Body_state<2>&, std::span<const Point<2>>, const Body_options&,
+                        std::vector<Body_contact<2>>&, Body_counts&);
+template void move_each(Body_state<3>&, std::span<const Point<3>>, const Body_options&,
+                        std::vector<Body_contact<3>>&, Body_counts&);
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::move_each(std::span<const Point<D>>, const Body_options&,                          \
-                                   std::vector<Body_contact<D>>&, Body_counts&);                            \
-  template bool Body<D>::stop(std::uint32_t, const Point<D>&, const Body_contact<D>&, const Sweep_options&, \
-                              Body_counts&);
-
-CELLWALK_INSTANTIATE(2)
-CELLWALK_INSTANTIATE(3)
-
-#undef CELLWALK_INSTANTIATE
-
-}  // namespace cellwalk
+}  // namespace cellwalk::detail

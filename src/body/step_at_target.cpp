@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide, and what meets a wall
-// stays where it is.
-#include <cellwalk/body/body.h>
+#include "step_at_target.h"
 
 #include <bit>
 #include <utility>
 
-namespace cellwalk {
+#include "vertex_move.h"
+
+namespace cellwalk::detail {
 namespace {
 
 /// The wall that is touched, as walks report walls.
@@ -21,24 +21,22 @@ std::optional<Wall_contact<D>> touched_wall(const std::optional<Contact<D>>& tou
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
-[[gnu::noinline]] void Body<D>::move_each_or_stay(std::span<const Point<D>> targets,
-                                                  const Body_options& options, Step_report<D>& report,
-                                                  Body_counts& counts) {
-  const Sweep_options& sweep = options.sweep;
-  note_apart(sweep, counts);
+[[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, Reported reported,
+                                                 Step_report<D>& report) {
+  find_out_if_apart();
   // Planes prove that nothing is touched where nothing was.
-  const bool may_be_plain = sweep.touch == Touch::pass || is_apart_;
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (moves_in_region(v, targets[v], counts) ||
-        (may_be_plain && moves_plainly(v, targets[v], sweep, counts)))
+  const bool may_be_certified = sweep_.touch == Touch::pass || body_.is_apart;
+  for (std::uint32_t v = 0; v < targets.size(); ++v) {
+    if (body_.try_move_in_region(v, targets[v], counts_) ||
+        (may_be_certified && try_certified_move(v, targets[v])))
       continue;
-    Blocked_move<D> answer = move_or_stay(v, targets[v], sweep, counts);
+    Blocked_move<D> answer = try_to_move(v, targets[v]);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
-    counts.contacts += answer.stays();
-    counts.held += answer.stays();
-    if (options.reported != Reported::blocked && answer.stays())
-      report.contacts.push_back(first_contact(answer, targets[v], sweep, counts));
-    if (options.reported == Reported::contacts) continue;
+    counts_.contacts += answer.stays();
+    counts_.held += answer.stays();
+    if (reported != Reported::blocked && answer.stays())
+      report.contacts.push_back(first_contact(answer, targets[v]));
+    if (reported == Reported::contacts) continue;
     locate_wall(answer, targets[v]);
     report.blocked.push_back(answer);
   }
@@ -46,84 +44,81 @@ template <int D>
 
 /// The edge of a vertex that is the first to be blocked.
 template <int D>
-const typename Body<D>::Corner& Body<D>::first_blocked(const Blocked_move<D>& blocked) const {
-  return corners_[corner_begin_[blocked.vertex] +
-                  static_cast<std::uint32_t>(std::countr_zero(blocked.edges))];
+const Corner& Target_step<D>::first_blocked(const Blocked_move<D>& blocked) const {
+  return body_.topology.corners_of(blocked.vertex)[static_cast<std::size_t>(std::countr_zero(blocked.edges))];
 }
 
 /// Where the wall is that keeps a vertex from moving, which walks and searches of chains left out.
 template <int D>
-void Body<D>::locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const {
+void Target_step<D>::locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const {
   if (blocked.is_vertex_blocked)
-    locate_contact(*snapshot_, positions_[blocked.vertex], target, *blocked.contact);
+    locate_contact(snapshot(), body_.positions[blocked.vertex], target, *blocked.contact);
   else if (blocked.contact)
-    locate_contact(*snapshot_, target, positions_[first_blocked(blocked).other], *blocked.contact);
+    locate_contact(snapshot(), target, body_.positions[first_blocked(blocked).other], *blocked.contact);
 }
 
 /// The contact of a vertex that stays.
 template <int D>
-Body_contact<D> Body<D>::first_contact(const Blocked_move<D>& blocked, const Point<D>& target,
-                                       const Sweep_options& options, Body_counts& counts) {
+Body_contact<D> Target_step<D>::first_contact(const Blocked_move<D>& blocked, const Point<D>& target) {
   const std::uint32_t vertex = blocked.vertex;
-  Sweep_options segments = options;
+  Sweep_options segments = sweep_;
   segments.sweep = Sweep::three_segments;
   Particle<D> to;
   for (const Touch touch : {Touch::pass, Touch::stop}) {
     segments.touch = touch;
-    if (const auto first = find_contact(vertex, target, segments, counts, false, to)) return *first;
+    if (const auto first = find_contact(body_, body_.scratch, vertex, target, segments, counts_, false, to))
+      return *first;
   }
   // It touched a wall where it started.
-  const Particle<D>& from = particles_[vertex];
+  const Particle<D>& from = body_.particles[vertex];
   const auto meeting = [&](const Point<D>& q, std::uint32_t edge) -> Body_contact<D> {
     Contact<D> contact =
-        closed_meeting<D>(*snapshot_, from.cell, {from.position, target, q}, counts.edges).value();
+        closed_meeting<D>(snapshot(), from.cell, {from.position, target, q}, counts_.edges).value();
     if (blocked.is_vertex_blocked) contact.body = Body_feature::vertex;
     return {contact, vertex, contact.body == Body_feature::vertex ? vertex : edge};
   };
   if (blocked.is_vertex_blocked) return meeting(from.position, 0);
   const Corner& corner = first_blocked(blocked);
-  return meeting(positions_[corner.other], corner.edge);
+  return meeting(body_.positions[corner.other], corner.edge);
 }
 
 /// Finds out whether the body is apart from all walls, where that matters and is not known.
 template <int D>
-void Body<D>::note_apart(const Sweep_options& options, Body_counts& counts) {
-  if (region_ && outside_ == 0)
-    is_apart_ = true;
-  else if (options.touch == Touch::pass)
-    is_apart_ = false;  // what moves now may touch
-  else if (!is_apart_)
-    is_apart_ = !touches_wall(counts);
+void Target_step<D>::find_out_if_apart() {
+  if (body_.region.holds_body())
+    body_.is_apart = true;
+  else if (sweep_.touch == Touch::pass)
+    body_.is_apart = false;  // what moves now may touch
+  else if (!body_.is_apart)
+    body_.is_apart = !touches_wall();
 }
 
 /// True if a vertex or an edge touches a wall.
 template <int D>
-bool Body<D>::touches_wall(Body_counts& counts) {
+bool Target_step<D>::touches_wall() {
   const auto touches = [&](std::uint32_t u, std::uint32_t v) {
-    catch_up_vertex(u, counts);
-    return closed_meeting<D>(*snapshot_, particles_[u].cell, {positions_[u], positions_[v], positions_[u]},
-                             counts.edges)
-        .has_value();
+    body_.refresh_vertex(u, counts_);
+    const Point<D>&p = body_.positions[u], &q = body_.positions[v];
+    return closed_meeting<D>(snapshot(), body_.particles[u].cell, {p, q, p}, counts_.edges).has_value();
   };
-  for (const auto& [u, v] : edges_)
+  for (const auto& [u, v] : body_.topology.edges())
     if (touches(u, v)) return true;
-  for (std::uint32_t v = 0; v < positions_.size(); ++v)
-    if (corner_begin_[v] == corner_begin_[v + 1] && touches(v, v)) return true;
+  for (std::uint32_t v = 0; v < body_.positions.size(); ++v)
+    if (body_.topology.corners_of(v).empty() && touches(v, v)) return true;
   return false;
 }
 
 /// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves outside of regions.
 template <int D>
-bool Body<D>::moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
-                            Body_counts& counts) {
-  catch_up_vertex(vertex, counts);
-  const Particle<D>& from = particles_[vertex];
-  if (!detail::certainly_inside(*snapshot_, from.cell, target, counts.edges.walk)) return false;
+bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& target) {
+  body_.refresh_vertex(vertex, counts_);
+  const Particle<D>& from = body_.particles[vertex];
+  if (!certainly_inside(snapshot(), from.cell, target, counts_.edges.walk)) return false;
   const Particle<D> to{target, from.cell, D, from.aimed};
-  const bool is_inside = region_ && !is_outside_[vertex] && region_->holds(target);
-  const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
+  const bool is_inside = body_.region.holds_way(vertex, target);
+  const auto corners = body_.topology.corners_of(vertex);
   // What is given up here is counted where it is decided.
-  Edge_counts& edges = counts.edges;
+  Edge_counts& edges = counts_.edges;
   const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell,
                         convex_pair = edges.convex_pair, same_chain = edges.same_chain,
                         chain_facets = edges.chain_facets] {
@@ -134,151 +129,168 @@ bool Body<D>::moves_plainly(std::uint32_t vertex, const Point<D>& target, const 
     edges.chain_facets = chain_facets;
     return false;
   };
-  std::uint64_t behind = 0;  // edges whose chain is left to be found when it is asked for
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Corner& corner = corners_[i];
-    if (!is_inside || is_outside_[corner.other]) {
-      catch_up_vertex(corner.other, counts);
-      const Particle<D>& q = particles_[corner.other];
-      if (options.sweep == Sweep::three_segments) {
-        if (!is_free_at_end(to, q, options, edges)) return give_up();
-      } else if (!is_plainly_free(from, to, q, options, edges)) {
-        if (!keeps_chain(from, to, corner, options, edges)) return give_up();
+  std::uint64_t stale = 0;  // edges whose chain is left to be found when it is asked for
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner& corner = corners[i];
+    if (!is_inside || body_.region.is_outside(corner.other)) {
+      body_.refresh_vertex(corner.other, counts_);
+      const Particle<D>& q = body_.particles[corner.other];
+      if (sweep_.sweep == Sweep::three_segments) {
+        if (!is_certified_free(to, q)) return give_up();
+      } else if (!is_certified_free(from, to, q)) {
+        if (!refresh_certified_chain(from, to, corner)) return give_up();
         continue;
       }
     }
-    behind |= std::uint64_t{1} << (i - begin);
+    stale |= std::uint64_t{1} << i;
   }
-  for (std::uint32_t i = begin; i < end; ++i)
-    if (behind >> (i - begin) & 1) edge_behind_[corners_[i].edge] = true;
-  are_faces_swept_ = false;
-  particles_[vertex] = to;
-  place(vertex, target);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (stale >> i & 1) body_.region.mark_edge(corners[i].edge, true);
+  body_.are_faces_swept = false;
+  body_.particles[vertex] = to;
+  body_.place(vertex, target);
   return true;
 }
 
 /// True if an edge certainly meets no wall where it is.
 template <int D>
-bool Body<D>::is_free_at_end(const Particle<D>& p, const Particle<D>& q, const Sweep_options& options,
-                             Edge_counts& counts) const {
-  if (options.certificates.same_cell && q.cell == p.cell)
-    ++counts.same_cell;
-  else if (options.certificates.convex_pair && snapshot_->convex_passage(p.cell, q.cell) != Half_facet::none)
-    ++counts.convex_pair;
-  else if (detail::certain_end(*snapshot_, p, q.position, counts.walk) != q.cell)
+inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q) {
+  Edge_counts& edges = counts_.edges;
+  if (sweep_.certificates.same_cell && q.cell == p.cell)
+    ++edges.same_cell;
+  else if (sweep_.certificates.convex_pair && snapshot().convex_passage(p.cell, q.cell) != Half_facet::none)
+    ++edges.convex_pair;
+  else if (certain_end(snapshot(), p, q.position, edges.walk) != q.cell)
     return false;
-  ++counts.edges;
+  ++edges.edges;
   return true;
 }
 
-/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then.
+/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
+/// ends inside of them, so that there is but one chain from one to the other.
 template <int D>
-bool Body<D>::keeps_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
-                          const Sweep_options& options, Edge_counts& counts) {
-  if (!options.certificates.same_chain) return false;
-  const Particle<D>& q = particles_[corner.other];
+inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
+                                              const Particle<D>& q) {
+  if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
+  Edge_counts& edges = counts_.edges;
+  if (sweep_.certificates.same_cell && q.cell == to.cell)
+    ++edges.same_cell;
+  else if (sweep_.certificates.convex_pair && q.cell != to.cell &&
+           snapshot().convex_passage(to.cell, q.cell) != Half_facet::none)
+    ++edges.convex_pair;
+  else
+    return false;
+  ++edges.edges;
+  return true;
+}
+
+/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then, and not stale.
+template <int D>
+bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Particle<D>& to,
+                                             const Corner& corner) {
+  if (!sweep_.certificates.same_chain) return false;
+  Edge_counts& edges = counts_.edges;
+  const Particle<D>& q = body_.particles[corner.other];
   const auto finds = [&](const Particle<D>& p, Chain& chain) {
     const Particle<D>&start = corner.is_reversed ? q : p, &end = corner.is_reversed ? p : q;
-    return detail::certain_end(*snapshot_, start, end.position, counts.walk, &chain) == end.cell;
+    return certain_end(snapshot(), start, end.position, edges.walk, &chain) == end.cell;
   };
   Chain chain;
   if (!finds(to, chain)) return false;
-  Chain& kept = chains_[corner.edge];
-  if (edge_behind_[corner.edge]) {
+  Chain& kept = body_.chains[corner.edge];
+  if (body_.region.is_edge_stale(corner.edge)) {
     kept.clear();
     if (!finds(from, kept)) return false;
-    edge_behind_[corner.edge] = false;
+    body_.region.mark_edge(corner.edge, false);
   }
   if (chain != kept) return false;
-  ++counts.edges;
-  ++counts.same_chain;
-  counts.chain_facets += chain.size();
+  ++edges.edges;
+  ++edges.same_chain;
+  edges.chain_facets += chain.size();
   return true;
 }
 
+/// Moves a vertex, or leaves it where it is.
 template <int D>
-Blocked_move<D> Body<D>::move_or_stay(std::uint32_t vertex, const Point<D>& target,
-                                      const Sweep_options& options, Body_counts& counts) {
+Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
   Blocked_move<D> answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
-  const bool is_inside = region_ && !is_outside_[vertex] && region_->holds(target);
-  catch_up_vertex(vertex, counts);
-  const Particle<D> from = particles_[vertex];
+  const bool is_inside = body_.region.holds_way(vertex, target);
+  body_.refresh_vertex(vertex, counts_);
+  const Particle<D> from = body_.particles[vertex];
   Particle<D> to = from;
-  visited_.clear();
-  crossed_.clear();
+  Move_scratch& scratch = body_.scratch;
+  scratch.clear_walk();
   // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
-  const bool needs_way = options.sweep != Sweep::three_segments;
-  const std::uint64_t signs = counts.edges.walk.predicates.orientations;
+  const bool needs_way = sweep_.sweep != Sweep::three_segments;
+  const std::uint64_t signs_before = signs();
   Walk_options recorded;
   recorded.locates_contact = false;
   if (needs_way) {
-    recorded.visited = &visited_;
-    recorded.crossed = &crossed_;
+    recorded.visited = &scratch.visited;
+    recorded.crossed = &scratch.crossed;
   }
-  if (const Walk_result<D> walked = move(*snapshot_, to, target, counts.edges.walk, recorded);
+  if (const Walk_result<D> walked = cellwalk::move(snapshot(), to, target, counts_.edges.walk, recorded);
       walked.contact) {
     answer.is_vertex_blocked = true;
     answer.contact = walked.contact;
     return answer;
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
-  const bool is_apart = is_apart_ && counts.edges.walk.predicates.orientations == signs;
-  if (options.touch == Touch::stop && !is_apart)
+  const bool is_apart = body_.is_apart && signs() == signs_before;
+  if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =
-            closed_meeting<D>(*snapshot_, from.cell, {from.position, target, from.position}, counts.edges)) {
+            closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
       answer.is_vertex_blocked = true;
       answer.contact = touched_wall(touch);
       return answer;
     }
-  const Way<D> way{from, to, visited_, crossed_, false, is_apart};
-  const std::uint32_t begin = corner_begin_[vertex], end = corner_begin_[vertex + 1];
-  moved_chains_.resize(end - begin);
-  for (std::uint32_t i = begin; i < end; ++i) {
-    Moved_chain& moved = moved_chains_[i - begin];
-    const bool is_in_region = is_inside && !is_outside_[corners_[i].other];
-    moved.is_behind = !needs_way || is_in_region;
+  const Way<D> way{from, to, scratch.visited, scratch.crossed, false, is_apart};
+  const auto corners = body_.topology.corners_of(vertex);
+  scratch.chains.resize(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Moved_chain& moved = scratch.chains[i];
+    const bool is_in_region = is_inside && !body_.region.is_outside(corners[i].other);
+    moved.is_stale = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(way, i, options, moved, answer, counts)
-                                  : meets_at_end(way, i, options, answer, counts);
-    if (is_met) answer.edges |= std::uint64_t{1} << (i - begin);
+    const bool is_met = needs_way ? sweep_meets_at_end(way, i, corners[i], moved, answer)
+                                  : meets_at_end(way, corners[i], answer);
+    if (is_met) answer.edges |= std::uint64_t{1} << i;
   }
   if (answer.stays()) return answer;
-  are_faces_swept_ = false;
-  commit(vertex, to);
+  body_.are_faces_swept = false;
+  body_.commit(vertex, to, scratch.chains);
   return answer;
 }
 
 /// True if the edge of a corner meets a wall where its vertex goes.
 template <int D>
-bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                           Blocked_move<D>& answer, Body_counts& counts) {
-  const Corner& corner = corners_[corner_number];
-  catch_up_vertex(corner.other, counts);
-  const Particle<D>& q = particles_[corner.other];
-  Edge_counts& edges = counts.edges;
+bool Target_step<D>::meets_at_end(const Way<D>& way, const Corner& corner, Blocked_move<D>& answer) {
+  body_.refresh_vertex(corner.other, counts_);
+  const Particle<D>& q = body_.particles[corner.other];
+  Edge_counts& edges = counts_.edges;
   // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
-  const bool stops = options.touch == Touch::stop;
-  if (is_free_at_end(way.to, q, options, edges)) {
-    if (!stops || (is_apart_ && way.to.dimension == D)) return false;
+  const bool stops = sweep_.touch == Touch::stop;
+  if (is_certified_free(way.to, q)) {
+    if (!stops || (body_.is_apart && way.to.dimension == D)) return false;
   } else {
     ++edges.edges;
   }
-  const std::uint64_t signs = edges.walk.predicates.orientations;
+  const std::uint64_t signs_before = signs();
   Walk_options plain;
   plain.locates_contact = false;
-  const Walk_result<D> walked = walk(*snapshot_, way.to, q.position, edges.walk, plain);
-  const bool is_plain = is_apart_ && edges.walk.predicates.orientations == signs;
+  const Walk_result<D> walked = walk(snapshot(), way.to, q.position, edges.walk, plain);
+  const bool is_plain = body_.is_apart && signs() == signs_before;
   if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
   std::optional<Wall_contact<D>> contact = walked.contact;
   if (!contact || contact->kind != Contact_kind::facet) {
     if (stops)
       contact = touched_wall(
-          closed_meeting<D>(*snapshot_, way.to.cell, {way.to.position, q.position, way.to.position}, edges));
+          closed_meeting<D>(snapshot(), way.to.cell, {way.to.position, q.position, way.to.position}, edges));
     else
-      contact = find_any_chain(*snapshot_, way.to, q, edges.walk).contact;
+      contact = find_any_chain(snapshot(), way.to, q, edges.walk).contact;
   }
   if (contact && !answer.contact) answer.contact = contact;
   return contact.has_value();
@@ -286,21 +298,21 @@ bool Body<D>::meets_at_end(const Way<D>& way, std::uint32_t corner_number, const
 
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
-bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                                 Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts) {
-  const Corner& corner = corners_[corner_number];
-  catch_up_vertex(corner.other, counts);
-  const Particle<D>& q = particles_[corner.other];
-  if (is_plainly_free(way.from, way.to, q, options, counts.edges)) {
-    moved.is_behind = true;
+bool Target_step<D>::sweep_meets_at_end(const Way<D>& way, std::size_t number, const Corner& corner,
+                                        Moved_chain& moved, Blocked_move<D>& answer) {
+  body_.refresh_vertex(corner.other, counts_);
+  const Particle<D>& q = body_.particles[corner.other];
+  if (is_certified_free(way.from, way.to, q)) {
+    moved.is_stale = true;
     return false;
   }
-  catch_up_edge(corner.edge, counts);
+  body_.refresh_edge(corner.edge, counts_);
+  Edge_counts& edges = counts_.edges;
   const auto meeting = [&](const Cell start, const Swept_triangle<D>& triangle) {
-    return closed_meeting(*snapshot_, start, triangle, counts.edges);
+    return closed_meeting(snapshot(), start, triangle, edges);
   };
-  const bool stops = options.touch == Touch::stop;
-  std::optional<Free_chain> free = free_chain(*snapshot_, way, q, seen_from(corner), options, counts.edges);
+  const bool stops = sweep_.touch == Touch::stop;
+  std::optional<Free_chain> free = free_chain(snapshot(), way, q, body_.seen_from(corner), sweep_, edges);
   if (free && stops && !free->is_apart &&
       meeting(way.from.cell, {way.from.position, way.to.position, q.position}))
     free.reset();
@@ -308,20 +320,20 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
     moved.chain = std::move(free->chain);
     return false;
   }
-  answer.swept_edges |= std::uint64_t{1} << (corner_number - corner_begin_[answer.vertex]);
-  const std::uint64_t signs = counts.edges.walk.predicates.orientations;
-  Chain_result<D> anew = find_chain(*snapshot_, way.to, q, counts.edges.walk, false);
+  answer.swept_edges |= std::uint64_t{1} << number;
+  const std::uint64_t signs_before = signs();
+  Chain_result<D> anew = find_chain(snapshot(), way.to, q, edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
   const bool is_crossed =
       anew.contact && anew.contact->kind == Contact_kind::facet && anew.contact->time != 1;
   if (stops && !is_crossed) {
-    const bool is_plain = way.is_apart && counts.edges.walk.predicates.orientations == signs;
+    const bool is_plain = way.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
       anew.contact = touched_wall(meeting(way.to.cell, {way.to.position, q.position, way.to.position}));
-      if (!anew.contact) anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
+      if (!anew.contact) anew = find_any_chain(snapshot(), way.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {
-    anew = find_any_chain(*snapshot_, way.to, q, counts.edges.walk);
+    anew = find_any_chain(snapshot(), way.to, q, edges.walk);
   }
   if (anew.contact) {
     if (!answer.contact) answer.contact = anew.contact;
@@ -331,49 +343,7 @@ bool Body<D>::sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number,
   return false;
 }
 
-/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
-/// ends inside of them, so that there is but one chain from one to the other.
-template <int D>
-bool Body<D>::is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
-                              const Sweep_options& options, Edge_counts& counts) const {
-  if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
-  if (options.certificates.same_cell && q.cell == to.cell)
-    ++counts.same_cell;
-  else if (options.certificates.convex_pair && q.cell != to.cell &&
-           snapshot_->convex_passage(to.cell, q.cell) != Half_facet::none)
-    ++counts.convex_pair;
-  else
-    return false;
-  ++counts.edges;
-  return true;
-}
+template class Target_step<2>;
+template class Target_step<3>;
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template void Body<D>::note_apart(const Sweep_options&, Body_counts&);                                    \
-  template bool Body<D>::touches_wall(Body_counts&);                                                        \
-  template void Body<D>::move_each_or_stay(std::span<const Point<D>>, const Body_options&, Step_report<D>&, \
-                                           Body_counts&);                                                   \
-  template const typename Body<D>::Corner& Body<D>::first_blocked(const Blocked_move<D>&) const;            \
-  template void Body<D>::locate_wall(Blocked_move<D>&, const Point<D>&) const;                              \
-  template Body_contact<D> Body<D>::first_contact(const Blocked_move<D>&, const Point<D>&,                  \
-                                                  const Sweep_options&, Body_counts&);                      \
-  template bool Body<D>::is_plainly_free(const Particle<D>&, const Particle<D>&, const Particle<D>&,        \
-                                         const Sweep_options&, Edge_counts&) const;                         \
-  template bool Body<D>::moves_plainly(std::uint32_t, const Point<D>&, const Sweep_options&, Body_counts&); \
-  template bool Body<D>::is_free_at_end(const Particle<D>&, const Particle<D>&, const Sweep_options&,       \
-                                        Edge_counts&) const;                                                \
-  template bool Body<D>::keeps_chain(const Particle<D>&, const Particle<D>&, const Corner&,                 \
-                                     const Sweep_options&, Edge_counts&);                                   \
-  template bool Body<D>::meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&, Blocked_move<D>&, \
-                                      Body_counts&);                                                        \
-  template bool Body<D>::sweep_meets_at_end(const Way<D>&, std::uint32_t, const Sweep_options&,             \
-                                            Moved_chain&, Blocked_move<D>&, Body_counts&);                  \
-  template Blocked_move<D> Body<D>::move_or_stay(std::uint32_t, const Point<D>&, const Sweep_options&,      \
-                                                 Body_counts&);
-
-CELLWALK_INSTANTIATE(2)
-CELLWALK_INSTANTIATE(3)
-
-#undef CELLWALK_INSTANTIATE
-
-}  // namespace cellwalk
+}  // namespace cellwalk::detail

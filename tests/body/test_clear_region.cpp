@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/body/clear_region.h>
 #include <cellwalk/environment/generate/vessel.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
@@ -11,10 +10,17 @@
 #include <limits>
 #include <vector>
 
+#include "body/clear_region.h"
 #include "body/rooms.h"
 
 namespace cellwalk::test {
 namespace {
+
+using detail::Clear_region;
+using detail::find_clear_region;
+using detail::Open_box;
+using detail::Region_effort;
+using detail::Region_request;
 
 /// A point of a region, somewhere in its box; near its border as often as not.
 template <int D>

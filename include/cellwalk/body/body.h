@@ -1,117 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body among walls: its vertices are particles, its edges carry chains of cells. Paper: section III. Theory: docs/sweep.md.
+// A body among walls: its vertices are particles, its edges carry chains of cells. Paper: section III. Theory: docs/bodies.md.
 #ifndef CELLWALK_BODY_BODY_H
 #define CELLWALK_BODY_BODY_H
 
-#include <cellwalk/body/clear_region.h>
-#include <cellwalk/edge/face.h>
-#include <cellwalk/edge/sweep.h>
-#include <cellwalk/kernel/error.h>
+#include <cellwalk/body/step.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace cellwalk {
-
-/// A contact of a body: which vertex was moving, and the number of the vertex, edge or face that met the wall.
+namespace detail {
 template <int D>
-struct Body_contact {
-  Contact<D> contact;
-  std::uint32_t vertex = 0;
-  std::uint32_t feature = 0;
-};
-
-/// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
-template <int D>
-struct Blocked_move {
-  std::uint32_t vertex = 0;
-  bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
-  std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
-  std::uint64_t swept_edges =
-      0;  ///< of these while they sweep their triangles; none for Sweep::three_segments
-  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
-  /// (time and point are along the edge then).
-  std::optional<Wall_contact<D>> contact;
-  bool stays() const { return is_vertex_blocked || edges != 0; }
-};
-
-/// What a vertex does that meets a wall, or has an edge or a face that does.
-enum class Contact_policy {
-  slide,  ///< it stops at a verified position just before, and its remaining motion is projected on the wall and tried again
-  reject  ///< it stays where it was
-};
-
-/// Which of the edges of a vertex meet a wall.
-enum class Edge_rule {
-  swept,  ///< those that do so while they sweep what Sweep_options::sweep says; faces likewise
-  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are looked at too unless
-  /// Sweep::three_segments is asked for, but only reported; faces are left alone. With Touch::stop whatever closed wall the closed way,
-  /// an edge at its end or a closed triangle meets is in the way, where the vertex or the edge starts too: one that is at a wall
-  /// stays. Of Contact_policy::reject, for vertices of at most 64 edges.
-  at_target
-};
-
-/// What a step reports; what is not reported is not computed where it can be done without.
-enum class Reported {
-  contacts,  ///< when, where and against which wall
-  blocked,  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
-  both
-};
-
-struct Body_options {
-  Sweep_options sweep;
-  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only, a vertex that comes to
-  /// lie on a border between cells may be registered in another of them, and where walls leave a choice, of the side on which a
-  /// motion in their plane goes on or of the one to report, that may be taken otherwise.
-  bool clearance = true;
-  Contact_policy policy = Contact_policy::slide;
-  Edge_rule edges = Edge_rule::swept;
-  Reported reported = Reported::contacts;
-  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at the first.
-  int most_contacts = 4;
-};
-
-/// What walls did in a step, as far as it is asked for.
-template <int D>
-struct Step_report {
-  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments finds it, or the first touch
-  /// if there is none.
-  std::vector<Body_contact<D>> contacts;
-  /// Vertex by vertex; one without an entry moved, and nothing was met.
-  std::vector<Blocked_move<D>> blocked;
-
-  void clear() {
-    contacts.clear();
-    blocked.clear();
-  }
-};
-
-/// What the moves of bodies did. All counts are machine-independent.
-struct Body_counts {
-  std::uint64_t moves = 0;         ///< moves of vertices asked for
-  std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
-  std::uint64_t regions = 0;       ///< such regions found
-  std::uint64_t no_region = 0;     ///< searches that found none
-  std::uint64_t region_cells = 0;  ///< cells looked at by these searches
-  std::uint64_t catch_ups = 0;     ///< vertices registered anew after moves in a region
-  std::uint64_t contacts = 0;
-  std::uint64_t stop_tries = 0;  ///< moves tried to find a position to stop at
-  std::uint64_t held = 0;        ///< contacts after which the vertex stayed where it was
-  Edge_counts edges;
-  Face_counts faces;
-
-  static constexpr std::array<std::string_view, 9> names{"moves",     "in_region",    "regions",
-                                                         "no_region", "region_cells", "catch_ups",
-                                                         "contacts",  "stop_tries",   "held"};
-};
-static_assert(names_all_before<Body_counts>(offsetof(Body_counts, edges)));
+struct Body_state;
+}
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is moved with
 /// Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
@@ -128,6 +36,11 @@ class Body {
   ///        pierces, and where
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
+  Body(const Body& other);
+  Body(Body&& other) noexcept;
+  Body& operator=(const Body& other);
+  Body& operator=(Body&& other) noexcept;
+  ~Body();
 
   /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex in a wall keeps the side
   /// on which it was, if the cell that it was registered in is there still and holds it, and all its edges can be passed from there; else
@@ -137,10 +50,10 @@ class Body {
   /// Cost: that of the constructor.
   void register_again(const Locator<D>& locator);
 
-  std::size_t vertex_count() const { return positions_.size(); }
-  std::span<const Point<D>> positions() const { return positions_; }
-  std::span<const std::array<std::uint32_t, 2>> edges() const { return edges_; }
-  std::span<const std::array<std::uint32_t, 3>> faces() const { return faces_; }
+  std::size_t vertex_count() const { return positions().size(); }
+  std::span<const Point<D>> positions() const;
+  std::span<const std::array<std::uint32_t, 2>> edges() const;
+  std::span<const std::array<std::uint32_t, 3>> faces() const;
   /// The other ends of the edges of a vertex, ascending.
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
@@ -168,8 +81,8 @@ class Body {
   /// Catches up and gives the region up.
   void leave_region(Body_counts& counts);
   /// The particles and chains. \pre caught up, and no edit since
-  std::span<const Particle<D>> particles() const { return particles_; }
-  const Chain& chain(std::size_t edge) const { return chains_[edge]; }
+  std::span<const Particle<D>> particles() const;
+  const Chain& chain(std::size_t edge) const;
 
   /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge has a valid chain
   /// from cell to cell, no wall pierces a face.
@@ -177,116 +90,7 @@ class Body {
   void validate() const;
 
  private:
-  struct Corner {  ///< an edge as seen from one of its ends
-    std::uint32_t edge, other;
-    bool is_reversed;
-  };
-  struct Moved_chain {
-    Chain chain;
-    bool is_free = false;
-    bool is_behind = false;  ///< it is not known, but there is one
-  };
-  struct Face_corner {  ///< a face as seen from one of its corners, the one at this place
-    std::uint32_t face, place;
-  };
-
-  Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-       std::span<const Particle<D>> before);
-  /// \throw Error(usage) if the environment was edited since the body was registered
-  void check_epoch() const {
-    snapshot_->check_epoch(epoch_, "this body was registered: call Body::register_again(), or make it anew");
-  }
-  void link_edges();
-  void link_faces();
-  void register_faces(Error_code code, Face_counts& counts);
-  void take_up_faces(Body_counts& counts);
-  Face_registration register_face_here(std::uint32_t face, Face_counts& counts) const;
-  void sweep_faces(std::uint32_t vertex, const Way<D>& way, std::optional<Body_contact<D>>& first,
-                   Body_counts& counts);
-  void move_each(std::span<const Point<D>> targets, const Body_options& options,
-                 std::vector<Body_contact<D>>& contacts, Body_counts& counts);
-  /// As move_vertex, where there is no region. If `any` is set, any contact will do.
-  std::optional<Body_contact<D>> try_move(std::uint32_t vertex, const Point<D>& target,
-                                          const Sweep_options& options, Body_counts& counts,
-                                          bool any = false);
-  /// The first contact, or what it takes to commit the move.
-  std::optional<Body_contact<D>> find_contact(std::uint32_t vertex, const Point<D>& target,
-                                              const Sweep_options& options, Body_counts& counts, bool any,
-                                              Particle<D>& to);
-  bool moves_plainly(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
-                     Body_counts& counts);
-  bool is_free_at_end(const Particle<D>& p, const Particle<D>& q, const Sweep_options& options,
-                      Edge_counts& counts) const;
-  bool keeps_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
-                   const Sweep_options& options, Edge_counts& counts);
-  void move_each_or_stay(std::span<const Point<D>> targets, const Body_options& options,
-                         Step_report<D>& report, Body_counts& counts);
-  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, const Sweep_options& options,
-                               Body_counts& counts);
-  const Corner& first_blocked(const Blocked_move<D>& blocked) const;
-  void locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const;
-  Body_contact<D> first_contact(const Blocked_move<D>& blocked, const Point<D>& target,
-                                const Sweep_options& options, Body_counts& counts);
-  bool meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                    Blocked_move<D>& answer, Body_counts& counts);
-  bool sweep_meets_at_end(const Way<D>& way, std::uint32_t corner_number, const Sweep_options& options,
-                          Moved_chain& moved, Blocked_move<D>& answer, Body_counts& counts);
-  void note_apart(const Sweep_options& options, Body_counts& counts);
-  bool touches_wall(Body_counts& counts);
-  bool is_plainly_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
-                       const Sweep_options& options, Edge_counts& counts) const;
-  void commit(std::uint32_t vertex, const Particle<D>& particle);
-  const Chain* moved_chain(std::uint32_t vertex, std::uint32_t edge) const;
-  bool moves_at_once(std::span<const Point<D>> targets, const Body_options& options, Body_counts& counts);
-  void take_all(std::span<const Point<D>> targets, Body_counts& counts);
-  bool moves_in_new_region(std::span<const Point<D>> targets, const Body_options& options,
-                           Body_counts& counts);
-  bool moves_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
-  bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
-  void note_all_behind();
-  void catch_up_vertex(std::uint32_t vertex, Body_counts& counts);
-  void catch_up_edge(std::uint32_t edge, Body_counts& counts);
-  void place(std::uint32_t vertex, const Point<D>& position);
-  void set_outside(std::uint32_t vertex, bool is_outside);
-  bool stop(std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
-            const Sweep_options& options, Body_counts& counts);
-  Chain seen_from(const Corner& corner) const;
-
-  const Snapshot<D>* snapshot_;
-  std::uint64_t epoch_;  ///< of the snapshot, when the body was registered
-  std::vector<Point<D>> positions_;
-  std::vector<Particle<D>> particles_;
-  std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<Chain> chains_;                ///< from edges_[e][0] to edges_[e][1]
-  std::vector<Corner> corners_;              ///< of vertex after vertex
-  std::vector<std::uint32_t> corner_begin_;  ///< corners of vertex v: [corner_begin_[v], corner_begin_[v+1])
-  std::vector<std::array<std::uint32_t, 3>> faces_;
-  std::vector<std::array<std::uint32_t, 3>> sides_;  ///< of each face: the edges from each corner to the next
-  std::vector<Face_rests> rests_;                    ///< of each face
-  std::vector<Face_corner> face_corners_;            ///< of vertex after vertex
-  std::vector<std::uint32_t> face_corner_begin_;
-  bool are_faces_swept_ = true;
-  bool is_apart_ = false;  ///< it is known that no vertex and no edge touches a wall
-
-  // A region free of walls, and what was moved in it without registering it.
-  std::optional<Clear_region<D>> region_;
-  std::uint32_t outside_ = 0;                ///< vertices not in it
-  std::vector<char> is_outside_;             ///< of each vertex
-  std::vector<std::uint32_t> outside_near_;  ///< of each vertex: how many of its neighbours are
-  bool are_all_behind_ = false;              ///< all vertices
-  std::vector<char> vertex_behind_;          ///< its particle is where it was; it is in the region
-  std::vector<char> edge_behind_;            ///< its chain is not known, nor is it where an end is behind
-  std::uint32_t patience_ = 0;               ///< steps until a region is looked for that holds all positions
-  std::uint32_t target_patience_ = 0;        ///< the same for targets, while all positions are held
-  std::uint32_t next_patience_ = 4;          ///< if that finds none
-  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next one is asked to hold
-  std::uint32_t anchor_vertex_ = 0;                       ///< about which it is looked for
-
-  // Scratch space of move_vertex.
-  std::vector<Cell> visited_;
-  std::vector<Half_facet> crossed_;
-  std::vector<Moved_chain> moved_chains_;  ///< of the edges of the vertex
-  std::vector<std::pair<std::uint32_t, Face_rests>> moved_rests_;
+  std::unique_ptr<detail::Body_state<D>> state_;
 };
 
 extern template class Body<2>;

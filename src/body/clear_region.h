@@ -3,7 +3,6 @@
 #ifndef CELLWALK_BODY_CLEAR_REGION_H
 #define CELLWALK_BODY_CLEAR_REGION_H
 
-#include <cellwalk/body/open_box.h>
 #include <cellwalk/walk/walk.h>
 
 #include <array>
@@ -12,7 +11,9 @@
 #include <optional>
 #include <span>
 
-namespace cellwalk {
+#include "open_box.h"
+
+namespace cellwalk::detail {
 
 /// An open box cut by open half-spaces, without a point of a wall: what is spanned by points in it meets none. Edits of the
 /// environment void it.
@@ -56,7 +57,7 @@ class Clear_region {
   }
   bool are_below_planes(std::span<const Point<D>> points) const {
     for (std::size_t i = 0; i < plane_count_; ++i)
-      if (!(detail::furthest<D>(planes_[i].normal, points) < planes_[i].offset)) return false;
+      if (!(furthest<D>(planes_[i].normal, points) < planes_[i].offset)) return false;
     return true;
   }
 
@@ -90,6 +91,6 @@ template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,
                                                  const Region_request<D>& request, Region_effort& effort);
 
-}  // namespace cellwalk
+}  // namespace cellwalk::detail
 
 #endif  // CELLWALK_BODY_CLEAR_REGION_H

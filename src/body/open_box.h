@@ -3,14 +3,14 @@
 #ifndef CELLWALK_BODY_OPEN_BOX_H
 #define CELLWALK_BODY_OPEN_BOX_H
 
-#include <cellwalk/body/point_box.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
 
-namespace cellwalk {
+#include "point_box.h"
+
+namespace cellwalk::detail {
 
 template <int D>
 class Open_box {
@@ -30,8 +30,8 @@ class Open_box {
 
   bool holds(const Point<D>& x) const {
     // In three dimensions the middle coordinate is in both pairs.
-    const detail::Double2 first = detail::load(x.data()), last = detail::load(x.data() + D - 2);
-    return detail::all_true(detail::both(between(0, first, first), between(D - 2, last, last)));
+    const Double2 first = load(x.data()), last = load(x.data() + D - 2);
+    return all_true(both(between(0, first, first), between(D - 2, last, last)));
   }
 
   /// \pre the points are finite. Cost: about half a nanosecond a point.
@@ -39,20 +39,18 @@ class Open_box {
     if (points.size() % 2 != 0 && !holds(points.back())) return false;
     if (points.size() < 2) return true;
     // Two points at a time: D pairs of coordinates.
-    const detail::Pair_bounds<D> bounds(points.front().data(), points.size() / 2);
-    detail::Truth2 inside = between(0, bounds.low[0], bounds.high[0]);
-    for (std::size_t k = 1; k < D; ++k)
-      inside = detail::both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
-    return detail::all_true(inside);
+    const Pair_bounds<D> bounds(points.front().data(), points.size() / 2);
+    Truth2 inside = between(0, bounds.low[0], bounds.high[0]);
+    for (std::size_t k = 1; k < D; ++k) inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
+    return all_true(inside);
   }
 
  private:
   static constexpr std::size_t lanes = 2 * D;  ///< each bound twice, as the coordinates of two points lie
 
   /// Whether two lanes from the given one on hold what lies from `low` to `high`.
-  detail::Truth2 between(std::size_t lane, detail::Double2 low, detail::Double2 high) const {
-    return detail::both(detail::less(detail::load(low_.data() + lane), low),
-                        detail::less(high, detail::load(high_.data() + lane)));
+  Truth2 between(std::size_t lane, Double2 low, Double2 high) const {
+    return both(less(load(low_.data() + lane), low), less(high, load(high_.data() + lane)));
   }
   static std::array<double, lanes> twice(const Point<D>& x) {
     std::array<double, lanes> result;
@@ -63,6 +61,6 @@ class Open_box {
   alignas(16) std::array<double, lanes> low_, high_;
 };
 
-}  // namespace cellwalk
+}  // namespace cellwalk::detail
 
 #endif  // CELLWALK_BODY_OPEN_BOX_H

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A step of a body: what decides it, and what it reports. Paper: section III. Theory: docs/bodies.md.
+#ifndef CELLWALK_BODY_STEP_H
+#define CELLWALK_BODY_STEP_H
+
+#include <cellwalk/edge/face.h>
+#include <cellwalk/edge/sweep.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace cellwalk {
+
+/// A contact of a body: which vertex was moving, and the number of the vertex, edge or face that met the wall.
+template <int D>
+struct Body_contact {
+  Contact<D> contact;
+  std::uint32_t vertex = 0;
+  std::uint32_t feature = 0;
+};
+
+/// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
+template <int D>
+struct Blocked_move {
+  std::uint32_t vertex = 0;
+  bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
+  std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
+  std::uint64_t swept_edges =
+      0;  ///< of these while they sweep their triangles; none for Sweep::three_segments
+  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
+  /// (time and point are along the edge then).
+  std::optional<Wall_contact<D>> contact;
+  bool stays() const { return is_vertex_blocked || edges != 0; }
+};
+
+/// What a vertex does that meets a wall, or has an edge or a face that does.
+enum class Contact_policy {
+  slide,  ///< it stops at a verified position just before, and its remaining motion is projected on the wall and tried again
+  reject  ///< it stays where it was
+};
+
+/// Which of the edges of a vertex meet a wall.
+enum class Edge_rule {
+  swept,  ///< those that do so while they sweep what Sweep_options::sweep says; faces likewise
+  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are looked at too unless
+  /// Sweep::three_segments is asked for, but only reported; faces are left alone. With Touch::stop whatever closed wall the closed way,
+  /// an edge at its end or a closed triangle meets is in the way, where the vertex or the edge starts too: one that is at a wall
+  /// stays. Of Contact_policy::reject, for vertices of at most 64 edges.
+  at_target
+};
+
+/// What a step reports; what is not reported is not computed where it can be done without.
+enum class Reported {
+  contacts,  ///< when, where and against which wall
+  blocked,  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
+  both
+};
+
+struct Body_options {
+  Sweep_options sweep;
+  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only, a vertex that comes to
+  /// lie on a border between cells may be registered in another of them, and where walls leave a choice, of the side on which a
+  /// motion in their plane goes on or of the one to report, that may be taken otherwise.
+  bool clearance = true;
+  Contact_policy policy = Contact_policy::slide;
+  Edge_rule edges = Edge_rule::swept;
+  Reported reported = Reported::contacts;
+  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at the first.
+  int most_contacts = 4;
+};
+
+/// What walls did in a step, as far as it is asked for.
+template <int D>
+struct Step_report {
+  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments finds it, or the first touch
+  /// if there is none.
+  std::vector<Body_contact<D>> contacts;
+  /// Vertex by vertex; one without an entry moved, and nothing was met.
+  std::vector<Blocked_move<D>> blocked;
+
+  void clear() {
+    contacts.clear();
+    blocked.clear();
+  }
+};
+
+/// What the moves of bodies did. All counts are machine-independent.
+struct Body_counts {
+  std::uint64_t moves = 0;         ///< moves of vertices asked for
+  std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
+  std::uint64_t regions = 0;       ///< such regions found
+  std::uint64_t no_region = 0;     ///< searches that found none
+  std::uint64_t region_cells = 0;  ///< cells looked at by these searches
+  std::uint64_t catch_ups = 0;     ///< vertices registered anew after moves in a region
+  std::uint64_t contacts = 0;
+  std::uint64_t stop_tries = 0;  ///< moves tried to find a position to stop at
+  std::uint64_t held = 0;        ///< contacts after which the vertex stayed where it was
+  Edge_counts edges;
+  Face_counts faces;
+
+  static constexpr std::array<std::string_view, 9> names{"moves",     "in_region",    "regions",
+                                                         "no_region", "region_cells", "catch_ups",
+                                                         "contacts",  "stop_tries",   "held"};
+};
+static_assert(names_all_before<Body_counts>(offsetof(Body_counts, edges)));
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_BODY_STEP_H

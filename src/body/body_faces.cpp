@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "body_faces.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace cellwalk::detail {
+namespace {
+
+/// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
+const Chain* moved_chain(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex,
+                         std::uint32_t edge) {
+  const auto corners = body.topology.corners_of(vertex);
+  const auto corner = std::ranges::lower_bound(corners, edge, {}, &Corner::edge);
+  const Moved_chain& moved = scratch.chains[static_cast<std::size_t>(corner - corners.begin())];
+  return moved.is_free ? &moved.chain : nullptr;
+}
+
+}  // namespace
+
+Face_registration registered_face(const Body_state<3>& body, std::uint32_t face, Face_counts& counts) {
+  const auto [u, v, w] = body.topology.faces()[face];
+  const auto side = [&](std::size_t k, std::uint32_t from, std::uint32_t to) {
+    return Side_chain{&body.chains[body.topology.sides(face)[k]], from > to};
+  };
+  const auto& particles = body.particles;
+  return register_face(*body.snapshot, particles[u], particles[v], particles[w],
+                       {side(0, u, v), side(1, v, w), side(2, w, u)}, counts, body.rests[face]);
+}
+
+void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts) {
+  for (std::uint32_t f = 0; f < body.rests.size(); ++f) {
+    const Face_registration found = registered_face(body, f, counts);
+    body.rests[f] = found.rests;
+    if (found.piercing == Half_facet::none) continue;
+    const auto& [u, v, w] = body.topology.faces()[f];
+    const auto place = [&](std::uint32_t x) {
+      return fmt::format("({})", fmt::join(body.positions[x], ", "));
+    };
+    const Snapshot<3>& snapshot = *body.snapshot;
+    throw Error(
+        code,
+        fmt::format(
+            "face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by a wall "
+            "of cell {}: move the body into free space",
+            f, u, place(u), v, place(v), w, place(w), snapshot.index(snapshot.cell_of(found.piercing))));
+  }
+  body.are_faces_swept = true;
+}
+
+void take_up_faces(Body_state<3>& body, Body_counts& counts) {
+  if (body.are_faces_swept || body.rests.empty()) return;
+  body.check_epoch();
+  body.refresh_all(counts);
+  register_faces(body, Error_code::usage, counts.faces);
+}
+
+void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex, const Way<3>& way,
+                 std::optional<Body_contact<3>>& first, Face_counts& counts) {
+  for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
+    const auto& corners = body.topology.faces()[f];
+    const auto& sides = body.topology.sides(f);
+    const std::uint32_t q = corners[(k + 1) % 3], r = corners[(k + 2) % 3];
+    // The edge across, of the corners that stand still, may be stale. Then it lies in a region free of walls, where it was when
+    // its ends last moved: a chain is looked into where a wall meets its edge only, and none meets this one.
+    const Chain& across = body.chains[sides[(k + 1) % 3]];
+    const Face_chains chains{{moved_chain(body, scratch, vertex, sides[k]), false},
+                             {&across, q > r},
+                             {moved_chain(body, scratch, vertex, sides[(k + 2) % 3]), true}};
+    const Face_result swept =
+        sweep_face(*body.snapshot, way, body.particles[q], body.particles[r], body.rests[f], chains, counts);
+    if (swept.contact) {
+      Contact<3> contact = *swept.contact;
+      contact.body = Body_feature::face;
+      if (!first || is_before(contact, first->contact)) first = {contact, vertex, f};
+    } else if (!first && (!swept.rests.empty() || !body.rests[f].empty())) {
+      scratch.rests.emplace_back(f, swept.rests);
+    }
+  }
+}
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "body_state.h"
+
+#include <utility>
+
+#include "registration.h"
+
+namespace cellwalk::detail {
+
+template <int D>
+Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+                          std::span<const Particle<D>> before)
+    : snapshot(&of_snapshot),
+      epoch(of_snapshot.epoch()),
+      positions(soup.points),
+      topology(soup.points.size(), soup.edges,
+               D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
+      rests(topology.faces().size()),
+      region(soup.points.size(), soup.edges.size()) {
+  Registered<D> registered = register_body(of_snapshot, locator, soup, before);
+  particles = std::move(registered.particles);
+  chains = std::move(registered.chains);
+}
+
+template <int D>
+Chain Body_state<D>::seen_from(const Corner& corner) const {
+  const Chain& chain = chains[corner.edge];
+  return corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain;
+}
+
+/// Not to be inlined: the step before is short.
+template <int D>
+[[gnu::noinline]] bool Body_state<D>::try_move_all_in_new_region(std::span<const Point<D>> targets,
+                                                                 bool clearance, Body_counts& counts) {
+  if (region.holds_body()) is_apart = true;
+  if (!clearance) {
+    const bool was_apart = is_apart;
+    refresh_all(counts);
+    give_region_up();
+    is_apart = was_apart;
+    return false;
+  }
+  if (!renew_region(targets, counts)) {
+    spread_marks();
+    return false;
+  }
+  move_all(targets, counts);
+  return true;
+}
+
+template <int D>
+bool Body_state<D>::try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
+  if (!region.holds_star(vertex, target)) return false;
+  positions[vertex] = target;
+  region.mark_moved(vertex);
+  for (const Face_corner& corner : topology.face_corners_of(vertex)) rests[corner.face].clear();
+  ++counts.in_region;
+  return true;
+}
+
+template <int D>
+void Body_state<D>::give_region_up() {
+  region.give_up();
+  is_apart = false;  // walls may be put up next
+}
+
+/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered. True if it holds
+/// all.
+template <int D>
+bool Body_state<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
+  if (region.must_wait()) return false;
+  spread_marks();
+  const std::uint32_t anchor = region.anchor_vertex();
+  refresh_vertex(anchor, counts);
+  const auto found = region.search(*snapshot, particles[anchor], positions, targets, counts);
+  // What leaves the old region is registered while that is still there.
+  if (region.loses_vertices(found, positions))
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+      const bool is_outside = !found || !found->holds(positions[v]);
+      region.set_outside(v, is_outside, topology);
+      if (is_outside) refresh_vertex(v, counts);
+    }
+  return region.take(found, targets, counts);
+}
+
+template <int D>
+void Body_state<D>::spread_marks() {
+  if (!region.are_all_stale()) return;
+  region.spread_marks();
+  for (Face_rests& of_face : rests) of_face.clear();
+}
+
+template <int D>
+void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
+  if (!region.is_vertex_stale(vertex)) return;
+  region.pass_mark_on(vertex, topology);
+  Particle<D>& particle = particles[vertex];
+  const Point<D>& position = positions[vertex];
+  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
+  if (particle.position == position) return;
+  ++counts.catch_ups;
+  // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the region is no wall.
+  Walk_counts& walks = counts.edges.walk;
+  Cell cell = particle.cell;
+  if (!certainly_inside(*snapshot, cell, position, walks))
+    cell = certain_end(*snapshot, region.anchor(), position, walks);
+  if (cell != Cell::none) {
+    particle = {position, cell, D, 0};
+    return;
+  }
+  particle = region.anchor();
+  cellwalk::move(*snapshot, particle, position, walks);
+}
+
+template <int D>
+void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
+  const auto [u, v] = topology.edges()[edge];
+  refresh_vertex(u, counts);
+  refresh_vertex(v, counts);
+  if (!region.is_edge_stale(edge)) return;
+  region.mark_edge(edge, false);
+  chains[edge] = find_any_chain(*snapshot, particles[u], particles[v], counts.edges.walk).chain;
+}
+
+template <int D>
+void Body_state<D>::refresh_all(Body_counts& counts) {
+  spread_marks();
+  for (std::uint32_t v = 0; v < positions.size(); ++v) refresh_vertex(v, counts);
+  for (std::uint32_t e = 0; e < chains.size(); ++e) refresh_edge(e, counts);
+}
+
+template <int D>
+void Body_state<D>::commit(std::uint32_t vertex, const Particle<D>& particle,
+                           const std::vector<Moved_chain>& moved) {
+  const auto corners = topology.corners_of(vertex);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner& corner = corners[i];
+    region.mark_edge(corner.edge, moved[i].is_stale);
+    if (moved[i].is_stale) continue;
+    const Chain& chain = moved[i].chain;
+    chains[corner.edge] = corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain;
+  }
+  particles[vertex] = particle;
+  place(vertex, particle.position);
+}
+
+template <int D>
+void Body_state<D>::place(std::uint32_t vertex, const Point<D>& position) {
+  positions[vertex] = position;
+  if (region.has_region()) region.set_outside(vertex, !region.holds(position), topology);
+}
+
+template struct Body_state<2>;
+template struct Body_state<3>;
+
+}  // namespace cellwalk::detail

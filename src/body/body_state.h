@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a registered body is made of, and how it is kept true: particles and chains that are stale are registered anew where they are needed.
+#ifndef CELLWALK_BODY_BODY_STATE_H
+#define CELLWALK_BODY_BODY_STATE_H
+
+#include <cellwalk/body/body.h>
+#include <cellwalk/edge/face.h>
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body_topology.h"
+#include "region_cache.h"
+
+namespace cellwalk::detail {
+
+/// The chain of an edge after the move of a vertex.
+struct Moved_chain {
+  Chain chain;
+  bool is_free = false;
+  bool is_stale = false;  ///< it is not known, but there is one
+};
+
+/// What is found out of a move of one vertex before it is made. Kept for its memory only.
+struct Move_scratch {
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  std::vector<Moved_chain> chains;  ///< of the edges of the vertex
+  std::vector<std::pair<std::uint32_t, Face_rests>> rests;
+
+  void clear_walk() {
+    visited.clear();
+    crossed.clear();
+  }
+};
+
+template <int D>
+struct Body_state {
+  /// Registers a body; faces are left. \throw Error(outside) as Body does
+  Body_state(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
+             std::span<const Particle<D>> before);
+
+  /// \throw Error(usage) if the environment was edited since the body was registered
+  void check_epoch() const {
+    snapshot->check_epoch(epoch, "this body was registered: call Body::register_again(), or make it anew");
+  }
+  Chain seen_from(const Corner& corner) const;
+
+  /// Moves all vertices without a test. \pre the region holds the body and the targets
+  void move_all(std::span<const Point<D>> targets, Body_counts& counts) {
+    std::memcpy(positions.data(), targets.data(), targets.size_bytes());
+    region.mark_all_moved();
+    counts.in_region += targets.size();
+  }
+  /// Where that region does not: moves all in a new one, if there is one for all. Else what needs one by one is prepared.
+  bool try_move_all_in_new_region(std::span<const Point<D>> targets, bool clearance, Body_counts& counts);
+  /// Moves one vertex without a test, if the region allows it.
+  bool try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  /// Gives the region up. \pre nothing is stale
+  void give_region_up();
+
+  /// Registers what is stale.
+  void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
+  void refresh_edge(std::uint32_t edge, Body_counts& counts);
+  void refresh_all(Body_counts& counts);
+
+  /// Makes a move: takes the chains of the moved vertex over, and its particle.
+  void commit(std::uint32_t vertex, const Particle<D>& particle, const std::vector<Moved_chain>& moved);
+  void place(std::uint32_t vertex, const Point<D>& position);
+
+  const Snapshot<D>* snapshot;
+  std::uint64_t epoch;  ///< of the snapshot, when the body was registered
+  std::vector<Point<D>> positions;
+  Body_topology topology;
+  std::vector<Particle<D>> particles;
+  std::vector<Chain> chains;      ///< of the edges, from their first end to their second
+  std::vector<Face_rests> rests;  ///< of each face
+  bool are_faces_swept = true;
+  bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
+  Region_cache<D> region;
+  Move_scratch scratch;
+
+ private:
+  void spread_marks();
+  bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
+};
+
+extern template struct Body_state<2>;
+extern template struct Body_state<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_BODY_STATE_H

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "vertex_move.h"
+
+#include "body_faces.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
+template <int D>
+bool meets_before(const Contact<D>& a, const Contact<D>& b) {
+  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
+  return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Body_contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                        const Point<D>& target, const Sweep_options& options,
+                                        Body_counts& counts, bool any) {
+  if constexpr (D == 3)
+    if (options.sweep == Sweep::faces) take_up_faces(body, counts);
+  if (target == body.positions[vertex]) return {};
+  Particle<D> to;
+  if (const auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
+  body.are_faces_swept &= options.sweep == Sweep::faces;
+  body.is_apart = false;
+  for (const auto& [face, rests] : scratch.rests) body.rests[face] = rests;
+  body.commit(vertex, to, scratch.chains);
+  return {};
+}
+
+template <int D>
+std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                            const Point<D>& target, const Sweep_options& options,
+                                            Body_counts& counts, bool any, Particle<D>& to) {
+  const Snapshot<D>& snapshot = *body.snapshot;
+  const auto corners = body.topology.corners_of(vertex);
+  body.refresh_vertex(vertex, counts);
+  for (const Corner& corner : corners) body.refresh_edge(corner.edge, counts);
+  const Particle<D> from = body.particles[vertex];
+  to = from;
+  scratch.clear_walk();
+  const Walk_result<D> walked =
+      cellwalk::move(snapshot, to, target, counts.edges.walk,
+                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed});
+  to.position = target;
+  const Way<D> way{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
+  std::optional<Body_contact<D>> first;
+  if (walked.contact)
+    first = {vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex,
+             vertex};
+  else if (options.touch == Touch::stop)
+    if (const auto touch = first_touch(snapshot, from, target, counts.edges))
+      first = {*touch, vertex, vertex};
+  if (any && first) return first;
+
+  scratch.chains.resize(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner& corner = corners[i];
+    Sweep_result<D> swept = sweep_edge_along(snapshot, way, body.particles[corner.other],
+                                             body.seen_from(corner), options, counts.edges);
+    if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
+      const bool is_edge = swept.contact->body == Body_feature::edge;
+      first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
+      if (any) return first;
+    }
+    Moved_chain& moved = scratch.chains[i];
+    moved.chain = swept.chain;
+    moved.is_free = !swept.contact;
+    moved.is_stale = false;
+  }
+  scratch.rests.clear();
+  if constexpr (D == 3)
+    if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, way, first, counts.faces);
+  return first;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template std::optional<Body_contact<D>> try_move(Body_state<D>&, Move_scratch&, std::uint32_t,            \
+                                                   const Point<D>&, const Sweep_options&, Body_counts&,     \
+                                                   bool);                                                   \
+  template std::optional<Body_contact<D>> find_contact(Body_state<D>&, Move_scratch&, std::uint32_t,        \
+                                                       const Point<D>&, const Sweep_options&, Body_counts&, \
+                                                       bool, Particle<D>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk::detail
