@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "confirm.h"
+#include "chain_of_walk.h"
 #include "link.h"
 
 namespace cellwalk {

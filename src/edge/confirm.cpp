@@ -3,6 +3,8 @@
 
 #include <cellwalk/walk/detail/signs.h>
 
+#include "chain_of_walk.h"
+
 namespace cellwalk {
 namespace {
 

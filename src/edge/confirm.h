@@ -3,7 +3,8 @@
 #ifndef CELLWALK_EDGE_CONFIRM_H
 #define CELLWALK_EDGE_CONFIRM_H
 
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 namespace cellwalk::detail {
 
@@ -15,12 +16,6 @@ namespace cellwalk::detail {
 template <int D>
 bool is_confirmed(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
                   const Edge_certificates& certificates, Chain_result<D>& result, Edge_counts& counts);
-
-/// As cellwalk::find_chain(), with a contact left to locate_contact(), unless the segment arrives at q on another side: its time is 1
-/// then. Also whether q lies on the plane of a facet of a cell that the segment was walked through.
-template <int D>
-Chain_result<D> chain_of_walk(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                              Walk_counts& counts, bool& on_planes);
 
 }  // namespace cellwalk::detail
 

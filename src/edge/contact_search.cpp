@@ -10,9 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "events.h"
 #include "exit_time.h"
-#include "may_meet.h"
 #include "swept_meeting.h"
 
 namespace cellwalk::detail {
@@ -57,35 +55,16 @@ std::size_t nearest_corner(const Snapshot<D>& snapshot, Half_facet wall, const P
   return static_cast<std::size_t>(nearest - loop.begin());
 }
 
-/// The cells that the edge passes at its end.
-template <int D>
-Flooded traversed(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& q, Walk_counts& counts) {
-  std::vector<Cell> visited;
-  Walk_options options;
-  options.visited = &visited;
-  walk(snapshot, p, q, counts, options);
-  return {visited.begin(), visited.end()};
-}
-
-template <int D>
-Flooded flooded(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
-                Edge_counts& counts) {
-  Flooded cells;
-  flood(snapshot, start, triangle, counts, std::numeric_limits<std::size_t>::max(), cells,
-        [](Half_facet) { return true; });
-  return cells;
-}
-
 }  // namespace
 
 template <int D>
 Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                             const Chain& before, double tolerance, Edge_counts& counts) {
+                             const Sweep_until<D>& sweep_until, double tolerance, Edge_counts& counts) {
   ++counts.searches;
   std::optional<Contact<D>> last;
   const auto is_free_until = [&](std::optional<double> time) {
     ++counts.search_sweeps;
-    const Sweep_result<D> sweep = follow_events(snapshot, way, q, before, counts.walk, time);
+    const Sweep_result<D> sweep = sweep_until(time);
     if (sweep.contact) last = sweep.contact;
     return !sweep.contact;
   };
@@ -141,23 +120,39 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<
 }
 
 template <int D>
+Flooded traversed_cells(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                        Edge_counts& counts) {
+  std::vector<Cell> visited;
+  Walk_options options;
+  options.visited = &visited;
+  walk(snapshot, way.to, q.position, counts.walk, options);
+  return {visited.begin(), visited.end()};
+}
+
+template <int D>
+Flooded flooded_cells(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                      Edge_counts& counts) {
+  Flooded cells;
+  flood<D>(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts,
+           std::numeric_limits<std::size_t>::max(), cells, [](Half_facet) { return true; });
+  return cells;
+}
+
+template <int D>
 std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const Way<D>& way,
-                                            const Particle<D>& q, const Search_limits& limits,
+                                            const Particle<D>& q, std::span<const Cell> cells, bool below,
                                             Edge_counts& counts) {
   ++counts.searches;
   const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  const Flooded cells = limits.cells == Search_cells::flooded
-                            ? flooded(snapshot, way.from.cell, triangle, counts)
-                            : traversed(snapshot, way.to, q.position, counts.walk);
   std::optional<Contact<D>> first;
   for (const Cell c : cells) {
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (!snapshot.is_impassable(f) || (limits.below && !may_meet(cell, i, triangle, counts.walk))) continue;
+      if (!snapshot.is_impassable(f) || (below && !may_meet(cell, i, triangle, counts.walk))) continue;
       ++counts.search_walls;
       for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
-        if (limits.below && !may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
+        if (below && !may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
         const auto meeting = first_meeting<D>(triangle, half_spaces_of_ridge(cell, i, k));
         if (!meeting) continue;
         const Contact<D> contact = contact_with(snapshot, triangle, f, *meeting);
@@ -169,13 +164,15 @@ std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const W
   return first;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                   \
-  template Contact<D> dichotomic_search<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
-                                           const Chain&, double, Edge_counts&);                   \
-  template std::optional<Contact<D>> segment_search<D>(const Snapshot<D>&, const Way<D>&,         \
-                                                       const Particle<D>&, double, Edge_counts&); \
-  template std::optional<Contact<D>> exhaustive_search<D>(                                        \
-      const Snapshot<D>&, const Way<D>&, const Particle<D>&, const Search_limits&, Edge_counts&);
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Contact<D> dichotomic_search<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,           \
+                                           const Sweep_until<D>&, double, Edge_counts&);                    \
+  template std::optional<Contact<D>> segment_search<D>(const Snapshot<D>&, const Way<D>&,                   \
+                                                       const Particle<D>&, double, Edge_counts&);           \
+  template Flooded traversed_cells<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, Edge_counts&); \
+  template Flooded flooded_cells<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, Edge_counts&);   \
+  template std::optional<Contact<D>> exhaustive_search<D>(                                                  \
+      const Snapshot<D>&, const Way<D>&, const Particle<D>&, std::span<const Cell>, bool, Edge_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

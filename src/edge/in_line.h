@@ -3,7 +3,9 @@
 #ifndef CELLWALK_EDGE_IN_LINE_H
 #define CELLWALK_EDGE_IN_LINE_H
 
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/contact.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include "rational_segment.h"
 

@@ -3,7 +3,8 @@
 #ifndef CELLWALK_EDGE_MAY_MEET_H
 #define CELLWALK_EDGE_MAY_MEET_H
 
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <boost/container/small_vector.hpp>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_PIERCED_H
 #define CELLWALK_EDGE_PIERCED_H
 
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 namespace cellwalk::detail {
 

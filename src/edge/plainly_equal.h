@@ -3,6 +3,8 @@
 #ifndef CELLWALK_EDGE_PLAINLY_EQUAL_H
 #define CELLWALK_EDGE_PLAINLY_EQUAL_H
 
+#include <cellwalk/edge/chain.h>
+
 #include "moving_line.h"
 
 namespace cellwalk::detail {

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_RATIONAL_SEGMENT_H
 #define CELLWALK_EDGE_RATIONAL_SEGMENT_H
 
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/walk/detail/signs.h>
 
 #include <cstddef>

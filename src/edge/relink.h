@@ -3,6 +3,8 @@
 #ifndef CELLWALK_EDGE_RELINK_H
 #define CELLWALK_EDGE_RELINK_H
 
+#include <cellwalk/edge/chain.h>
+
 #include "moving_line.h"
 
 namespace cellwalk::detail {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/edge/three_segments.h>
+#include <cellwalk/edge/triangle.h>
 
 #include <utility>
 #include <vector>
@@ -79,16 +80,25 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle
     case Contact_search::exact:
       break;
     case Contact_search::dichotomic:
-      return detail::dichotomic_search(snapshot, way, q, before, options.tolerance, counts);
+      return detail::dichotomic_search<D>(
+          snapshot, way, q,
+          [&](std::optional<double> until) {
+            return detail::follow_events(snapshot, way, q, before, counts.walk, until);
+          },
+          options.tolerance, counts);
     case Contact_search::dichotomic_segment:
       if (const auto contact = detail::segment_search(snapshot, way, q, options.tolerance, counts))
         return *contact;
       break;
-    case Contact_search::exhaustive:
-      if (const auto contact =
-              detail::exhaustive_search(snapshot, way, q, {options.cells, options.below}, counts))
+    case Contact_search::exhaustive: {
+      const detail::Flooded cells = options.cells == Search_cells::flooded
+                                        ? detail::flooded_cells(snapshot, way, q, counts)
+                                        : detail::traversed_cells(snapshot, way, q, counts);
+      if (const auto contact = detail::exhaustive_search<D>(snapshot, way, q, {cells.data(), cells.size()},
+                                                            options.below, counts))
         return *contact;
       break;
+    }
   }
   Contact<D> contact = first;
   contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), first, first.normal);

@@ -4,7 +4,7 @@
 #define CELLWALK_EDGE_SWEPT_MEETING_H
 
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <optional>
 

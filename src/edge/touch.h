@@ -3,8 +3,9 @@
 #ifndef CELLWALK_EDGE_TOUCH_H
 #define CELLWALK_EDGE_TOUCH_H
 
+#include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <optional>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/edge/flood.h>
 #include <cellwalk/edge/triangle.h>
 
 #include <utility>

@@ -3,10 +3,12 @@
 #ifndef CELLWALK_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_H
 
+#include <cellwalk/edge/chain.h>
 #include <cellwalk/kernel/exact_time.h>
 #include <cellwalk/walk/walk.h>
 
 #include <cstdint>
+#include <optional>
 #include <tuple>
 
 namespace cellwalk {
@@ -49,6 +51,16 @@ bool is_before(const Contact<D>& a, const Contact<D>& b) {
   return std::tie(a.body, a.kind, a.point, a.normal, a.facet) <
          std::tie(b.body, b.kind, b.point, b.normal, b.facet);
 }
+
+/// The result of the sweep of an edge.
+template <int D>
+struct Sweep_result {
+  std::optional<Contact<D>> contact;  ///< none: the move is free
+  Chain chain;                        ///< of the edge after the move
+  // Of sweep_edge() only:
+  Particle<D> p{};          ///< after the move, or before it if there is a contact
+  std::uint32_t cells = 0;  ///< number of cells visited by p
+};
 
 }  // namespace cellwalk
 

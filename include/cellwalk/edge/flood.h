@@ -5,16 +5,11 @@
 #define CELLWALK_EDGE_FLOOD_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <cstddef>
 
 namespace cellwalk {
-
-/// The triangle that the edge pq sweeps while p moves from a to b and q stands still.
-template <int D>
-struct Swept_triangle {
-  Point<D> a, b, q;
-};
 
 /// True proves that no wall meets the closed triangle. Then the sweep is free, and all chains of bq are equal
 /// to its result. False is inconclusive: a wall may only touch the triangle or lie in its plane, the triangle

@@ -4,8 +4,9 @@
 #ifndef CELLWALK_EDGE_SWEEP_H
 #define CELLWALK_EDGE_SWEEP_H
 
+#include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <optional>
 

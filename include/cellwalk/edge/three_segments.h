@@ -5,7 +5,8 @@
 #ifndef CELLWALK_EDGE_THREE_SEGMENTS_H
 #define CELLWALK_EDGE_THREE_SEGMENTS_H
 
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 namespace cellwalk {
 

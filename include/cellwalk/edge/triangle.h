@@ -4,36 +4,15 @@
 #ifndef CELLWALK_EDGE_TRIANGLE_H
 #define CELLWALK_EDGE_TRIANGLE_H
 
+#include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/edge/flood.h>
+#include <cellwalk/edge/swept_triangle.h>
 
 #include <cstdint>
 #include <optional>
 #include <span>
 
 namespace cellwalk {
-
-/// The path of p, as reported by Walk_options. The spans refer to memory of the caller.
-template <int D>
-struct Way {
-  Particle<D> from, to;
-  std::span<const Cell> visited;
-  std::span<const Half_facet> crossed;
-  /// True if a wall blocked p. Then to.position is the target, and the edge is swept until p is blocked.
-  bool blocked = false;
-  /// True if p is known to have met no wall on its path, and to have crossed each facet in its interior.
-  bool is_apart = false;
-};
-
-/// The result of the sweep of an edge.
-template <int D>
-struct Sweep_result {
-  std::optional<Contact<D>> contact;  ///< none: the move is free
-  Chain chain;                        ///< of the edge after the move
-  // Of sweep_edge() only:
-  Particle<D> p{};          ///< after the move, or before it if there is a contact
-  std::uint32_t cells = 0;  ///< number of cells visited by p
-};
 
 /// Sweeps the edge pq while p moves along its path and q stands still. Returns the chain of the edge after
 /// the move, or the first contact: its normal is that of the wall.
