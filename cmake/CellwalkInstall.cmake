@@ -38,6 +38,14 @@ install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/c
               ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake
         DESTINATION ${package_dir} COMPONENT dev)
 
+# Of the internal headers those that public ones include; tests/architecture knows if one is missing, or one too many.
+set(installed_internals)
+foreach(header IN LISTS installed_internals)
+  get_filename_component(layer ${header} DIRECTORY)
+  cellwalk_package_of(package ${layer})
+  install(FILES ${PROJECT_SOURCE_DIR}/src/shared/cellwalk/internal/${header}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk/internal/${layer} COMPONENT ${package})
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
         FILES_MATCHING PATTERN *.h PATTERN cli EXCLUDE PATTERN io EXCLUDE PATTERN meshing EXCLUDE PATTERN loading EXCLUDE)
 foreach(component IN LISTS CELLWALK_COMPONENTS)

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# cellwalk_layer(NAME [COMPONENT core|io|meshing] SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# cellwalk_layer(NAME [COMPONENT core|io|meshing|loading|none] SOURCES ... LINKS ... PRIVATE_LINKS ...)
 #
-# One static library per layer, linked downward only, installed and exported with its component. The compiler refuses
-# GPL headers of CGAL in every component but meshing, however deep they are included.
+# One static library per layer, linked downward only, installed and exported with its component, or not at all: none. The compiler
+# refuses GPL headers of CGAL in every component but meshing, however deep they are included.
+#
+# Three folders of headers: include/ is what users include; src/shared/ what layers share, <cellwalk/internal/LAYER/...>, of which
+# only what public headers need is installed; and in src/LAYER/ lies what is a layer's own.
 function(cellwalk_layer name)
   cmake_parse_arguments(LAYER "" "COMPONENT" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   if(NOT LAYER_COMPONENT)
@@ -11,8 +14,10 @@ function(cellwalk_layer name)
   set(target cellwalk_${name})
   if(LAYER_SOURCES)
     add_library(${target} STATIC ${LAYER_SOURCES})
-    target_include_directories(${target} PUBLIC
-      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_include_directories(${target}
+      PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src/shared>
+             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+      PRIVATE ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target} PUBLIC cellwalk::options ${LAYER_LINKS}
       PRIVATE $<BUILD_INTERFACE:cellwalk_warnings> ${LAYER_PRIVATE_LINKS})
     if(NOT LAYER_COMPONENT STREQUAL meshing)
@@ -21,11 +26,15 @@ function(cellwalk_layer name)
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE
-      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src/shared>
+      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} INTERFACE cellwalk::options ${LAYER_LINKS})
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   add_library(cellwalk::${name} ALIAS ${target})
+  if(LAYER_COMPONENT STREQUAL none)
+    return()
+  endif()
   cellwalk_package_of(package ${LAYER_COMPONENT})
   install(TARGETS ${target} EXPORT cellwalk_${LAYER_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
           COMPONENT ${package})
