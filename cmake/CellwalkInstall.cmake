@@ -39,7 +39,15 @@ install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/c
         DESTINATION ${package_dir} COMPONENT dev)
 
 # Of the internal headers those that public ones include; tests/architecture knows if one is missing, or one too many.
-set(installed_internals)
+set(installed_internals
+  environment/planes.h
+  io/output.h
+  kernel/predicates.h
+  walk/certified_exit.h
+  walk/in_boundary.h
+  walk/link_search.h
+  walk/signs.h
+  walk/star.h)
 foreach(header IN LISTS installed_internals)
   get_filename_component(layer ${header} DIRECTORY)
   cellwalk_package_of(package ${layer})

@@ -2,7 +2,7 @@
 // Replays traces with all methods, in one process, and writes figure_8.csv and manifest.json.
 //
 //   figure_8 TRACE ... -o DIR [--rounds N] [--seconds S] [--only REGEX] [--commit NAME]
-#include <cellwalk/io/trace_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

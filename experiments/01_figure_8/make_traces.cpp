@@ -2,7 +2,7 @@
 // Records a trace of the scene of figure 8.
 //
 //   make_traces OUT.bin [--cells NX NY NZ] [--solid SHARE] [--side CELLS] [--steps N] [--bodies N] [--speed CELLS] [--seed N]
-#include <cellwalk/io/trace_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

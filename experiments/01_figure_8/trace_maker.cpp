@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "trace_maker.h"
 
-#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
+#include <cellwalk/internal/simulation/trace_recorder.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/trace_environment.h>
-#include <cellwalk/simulation/trace_recorder.h>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_TRACE_MAKER_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_TRACE_MAKER_H
 
-#include <cellwalk/records/trace.h>
+#include <cellwalk/internal/records/trace.h>
 
 #include <array>
 #include <cstdint>

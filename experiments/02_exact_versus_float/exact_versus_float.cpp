@@ -3,7 +3,7 @@
 //
 //   exact_versus_float -o DIR [--part walks|sweeps|flights|failures|times ...] [--motions N] [--sweeps N]
 //                            [--moves N] [--timed N] [--seed S] [--threads N] [--commit NAME]
-#include <cellwalk/io/json_file.h>
+#include <cellwalk/internal/io/json_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

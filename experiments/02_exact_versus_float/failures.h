@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 
-#include <cellwalk/io/motion_record_file.h>
+#include <cellwalk/internal/io/motion_record_file.h>
 
 #include "kernels.h"
 #include "run_options.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "sweeps.h"
 
-#include <cellwalk/edge/three_segments.h>
-#include <cellwalk/edge/triangle.h>
-#include <cellwalk/io/csv.h>
+#include <cellwalk/internal/edge/three_segments.h>
+#include <cellwalk/internal/edge/triangle.h>
+#include <cellwalk/internal/io/csv.h>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

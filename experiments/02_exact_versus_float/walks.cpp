@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "walks.h"
 
-#include <cellwalk/io/csv.h>
+#include <cellwalk/internal/io/csv.h>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

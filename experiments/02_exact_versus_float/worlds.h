@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 
-#include <cellwalk/environment/generate/lattice_map.h>
+#include <cellwalk/generators/lattice_map.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 

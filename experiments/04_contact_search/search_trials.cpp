@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "search_trials.h"
 
-#include <cellwalk/environment/generate/room.h>
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/room.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 

@@ -3,8 +3,8 @@
 //
 //   degenerate_worlds -o DIR [--motions N] [--seed S] [--threads N] [--commit NAME]
 #include <cellwalk/edge/sweep.h>
-#include <cellwalk/io/csv.h>
-#include <cellwalk/io/json_file.h>
+#include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/json_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

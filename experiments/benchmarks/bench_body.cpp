@@ -4,8 +4,8 @@
 // include the response to contacts. Beside it, what the searches for a contact cost where there is one.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/body/transform.h>
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/flight.h>

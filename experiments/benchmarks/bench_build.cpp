@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // From a soup of tetrahedra to a certified environment: time, and bytes a tetrahedron, of each stage.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 

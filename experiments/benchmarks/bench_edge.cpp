@@ -9,10 +9,10 @@
 // Faces are swept in the same grid, far from all walls, and in one in which some facets are walls: there, times are of
 // sweep_face alone, of moves that are free.
 #include <cellwalk/edge/face.h>
-#include <cellwalk/edge/three_segments.h>
-#include <cellwalk/edge/triangle.h>
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/edge/three_segments.h>
+#include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 

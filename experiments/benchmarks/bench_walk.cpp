@@ -7,8 +7,8 @@
 // warm:     the same with 4,000 particles: the cells are in the cache, the ways are too many to learn.
 // cold:     100,000 particles all over the grid, moved once each: memory is read from where it lies.
 // "crossing" subtracts nothing: it is the time of a whole move divided by the facets crossed (or tetrahedra visited).
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The paper's figure 6: a spike comes through a face, and none of the edges meets it.
 #include <cellwalk/edge/face.h>
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/internal/edge/triangle.h>
+#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/json_file.h>
 #include <cellwalk/walk/locate.h>
 
 #include "figures.h"
@@ -20,7 +20,7 @@ constexpr std::uint32_t spike_x = 2, spike_y = 1;
 constexpr double spike_height = 0.875;
 constexpr Point<3> tip{spike_x + 0.5, spike_y + 0.5, spike_height};
 constexpr double edge_radius = 0.022, dash_radius = 0.014;
-constexpr io::Color face_color{0.30, 0.45, 0.80, 0.55}, blocked_face{0.85, 0.35, 0.30, 0.60},
+constexpr drawing::Color face_color{0.30, 0.45, 0.80, 0.55}, blocked_face{0.85, 0.35, 0.30, 0.60},
     swept_by_edges{0.98, 0.75, 0.25, 0.38};
 
 /// Sweeps of the edges from p, then of the face.
@@ -64,7 +64,8 @@ Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot) {
   return plot;
 }
 
-void add_face(Space_plot& plot, const Point<3>& p, const io::Color& inside, const io::Color& edges) {
+void add_face(Space_plot& plot, const Point<3>& p, const drawing::Color& inside,
+              const drawing::Color& edges) {
   plot.triangle(p, q, r, inside);
   const std::array<Point<3>, 3> corners{p, q, r};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -104,17 +105,18 @@ void draw_face_3d(const std::filesystem::path& folder) {
   after.label(stop, "p(s*)", 12, -8);
   after.contact(contact);
 
-  const std::vector<io::Key> keys{{io::Key::patch, face_color, "the face at its start"},
-                                  {io::Key::patch, blocked_face, "at the contact; point and normal"},
-                                  {io::Key::dashes, colors::start, "where its edges are to go"},
-                                  {io::Key::patch, swept_by_edges, "swept by its edges: no wall"},
-                                  {io::Key::patch, colors::spike, "spikes"}};
-  io::Sheet_options sheet;
+  const std::vector<drawing::Key> keys{
+      {drawing::Key::patch, face_color, "the face at its start"},
+      {drawing::Key::patch, blocked_face, "at the contact; point and normal"},
+      {drawing::Key::dashes, colors::start, "where its edges are to go"},
+      {drawing::Key::patch, swept_by_edges, "swept by its edges: no wall"},
+      {drawing::Key::patch, colors::spike, "spikes"}};
+  drawing::Sheet_options sheet;
   sheet.panel_width = 660;
   sheet.panel_height = 420;
   sheet.camera = {{0.7, -1, 0.38}, {0, 0, 1}, 24};
-  io::write_file(folder / "face_3d.png",
-                 io::encode_png(io::make_sheet(std::vector{before.panel(), after.panel()}, keys, sheet)));
+  io::write_file(folder / "face_3d.png", drawing::encode_png(drawing::make_sheet(
+                                             std::vector{before.panel(), after.panel()}, keys, sheet)));
   io::write_json(folder / "face_3d.json",
                  Json{{"motion", {{"p", a}, {"target", b}, {"q", q}, {"r", r}}},
                       {"vertex_is_free", move.is_vertex_free},

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "numbers.h"
 
+#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/kernel/exact_value.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/exact_value.h>
 
 #include <algorithm>
 #include <limits>
 #include <sstream>
-
-#include "edge/may_meet.h"
 
 namespace cellwalk::figures {
 

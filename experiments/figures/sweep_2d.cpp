@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The paper's figure 4, and what three segments miss in the plane.
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/drawing/drawing.h>
+#include <cellwalk/internal/drawing/sheet.h>
+#include <cellwalk/internal/io/json_file.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/drawing.h>
-#include <cellwalk/io/json_file.h>
-#include <cellwalk/io/sheet.h>
-#include <cellwalk/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
 #include <fmt/core.h>
@@ -20,7 +20,7 @@
 namespace cellwalk::figures {
 namespace {
 
-using io::Color;
+using drawing::Color;
 
 constexpr int width = 10, height = 6;
 constexpr Point<2> a{9.25, 5.25}, b{9.25, 1}, q{0.75, 2};  // p moves from a to b
@@ -89,10 +89,10 @@ class Plot {
       std::vector<Point<3>> loop;
       for (std::size_t k = 0; k < view.facet_count(); ++k)
         loop.push_back(at(view.point(view.loop(k)[0]), snapshot.is_solid(cell) ? 3 : 0));
-      io::add_patch(panel_.drawing, loop,
-                    material(snapshot.is_solid(cell) ? solid
-                             : is_tinted             ? flooded
-                                                     : free_space));
+      drawing::add_patch(panel_.drawing, loop,
+                         material(snapshot.is_solid(cell) ? solid
+                                  : is_tinted             ? flooded
+                                                          : free_space));
       if (snapshot.is_solid(cell)) continue;
       for (std::size_t k = 0; k < loop.size(); ++k)
         if (!snapshot.is_impassable(Snapshot<2>::half_facet(cell, k)))
@@ -103,44 +103,46 @@ class Plot {
                                    {{width, height}, {0, height}},
                                    {{0, height}, {0, 0}}})
       line(at(from, 0), at(to, 0), 4, thick, solid);
-    io::add_patch(panel_.drawing, std::vector{at(a, 2), at(b, 2), at(q, 2)}, material(swept));
+    drawing::add_patch(panel_.drawing, std::vector{at(a, 2), at(b, 2), at(q, 2)}, material(swept));
     line(at(a, 0), at(q, 0), 6, thick, edge_color);
     dashes(a, b, medium, edge_color);
     dashes(b, q, 0.7 * thick, edge_color);
-    for (const Point<2>& x : {a, b, q}) io::add_disc(panel_.drawing, x, dot, layer(8), material(edge_color));
+    for (const Point<2>& x : {a, b, q})
+      drawing::add_disc(panel_.drawing, x, dot, layer(8), material(edge_color));
     label(a, "p(0)", -16, 18);
     label(b, "p(1)", -16, -30);
     label(q, "q", -26, -6);
   }
 
   void line(const Point<3>& from, const Point<3>& to, int z, double size, const Color& color) {
-    io::add_flat_line(panel_.drawing, {from[0], from[1]}, {to[0], to[1]}, size, layer(z), material(color));
+    drawing::add_flat_line(panel_.drawing, {from[0], from[1]}, {to[0], to[1]}, size, layer(z),
+                           material(color));
   }
   void edge(double s, double size, const Color& color) { line(at(p_at(s), 0), at(q, 0), 5, size, color); }
   void dashes(const Point<2>& from, const Point<2>& to, double size, const Color& color) {
-    io::add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(color));
+    drawing::add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(color));
   }
   void spot(const Point<2>& x, double size, const Color& color) {
-    io::add_disc(panel_.drawing, x, size, layer(9), material(color));
+    drawing::add_disc(panel_.drawing, x, size, layer(9), material(color));
   }
   void contact(const Contact<2>& c, const std::string& time) {
     edge(c.rounded_time(), thick, contact_color);
     spot(c.point, 1.2 * dot, contact_color);
-    io::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10),
-                       material(contact_color));
+    drawing::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10),
+                            material(contact_color));
     label(p_at(c.rounded_time()), time, 14, -6);
   }
   void label(const Point<2>& x, const std::string& text, double right, double up) {
     panel_.labels.push_back({at(x, 0), text, right, up});
   }
-  const io::Panel& panel() const { return panel_; }
+  const drawing::Panel& panel() const { return panel_; }
 
  private:
   static double layer(int z) { return 1e-3 * z; }
   static Point<3> at(const Point<2>& x, int z) { return {x[0], x[1], layer(z)}; }
   std::uint32_t material(const Color& c) { return panel_.drawing.add_material({c, 0, false}); }
 
-  io::Panel panel_;
+  drawing::Panel panel_;
 };
 
 /// When the edge passes an obstacle's vertex: where the orientation of p(s), q and the vertex is 0.
@@ -169,7 +171,7 @@ std::map<Exact_time, Point<2>> vertices_inside(const Case& c) {
   return result;
 }
 
-io::Panel draw_three_segments(Case& c, Json& json) {
+drawing::Panel draw_three_segments(Case& c, Json& json) {
   Sweep_options options;
   options.sweep = Sweep::three_segments;
   const auto contact = c.sweep(options).contact;
@@ -179,7 +181,7 @@ io::Panel draw_three_segments(Case& c, Json& json) {
   return plot.panel();
 }
 
-io::Panel draw_triangle(Case& c, Json& json) {
+drawing::Panel draw_triangle(Case& c, Json& json) {
   const auto contact = c.contact(Contact_search::exact);
   require(contact.has_value(), "2D: the sweep of the triangle finds it");
   require(contact->time == time_of(floating[2]), "2D: at the time of its vertex");
@@ -189,7 +191,7 @@ io::Panel draw_triangle(Case& c, Json& json) {
   return plot.panel();
 }
 
-io::Panel draw_exhaustive(Case& c, Json& json) {
+drawing::Panel draw_exhaustive(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::exhaustive);
   require(exact && found && exact->time == found->time, "2D: the exhaustive search finds the exact time");
   const auto vertices = vertices_inside(c);
@@ -213,7 +215,7 @@ io::Panel draw_exhaustive(Case& c, Json& json) {
   return plot.panel();
 }
 
-io::Panel draw_dichotomic(Case& c, Json& json) {
+drawing::Panel draw_dichotomic(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
   require(found && found->time <= exact->time, "2D: the dichotomic search is never late");
   Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance, text_of(found->time)),
@@ -250,27 +252,28 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
 
   const Json motion{{"p", a}, {"target", b}, {"q", q}};
   Json json{{"motion", motion}, {"floating", Json::object()}, {"spikes", Json::object()}};
-  std::vector<io::Panel> panels;
+  std::vector<drawing::Panel> panels;
   panels.push_back(draw_three_segments(between, json["floating"]));
   panels.push_back(draw_triangle(between, json["floating"]));
   panels.push_back(draw_exhaustive(spikes, json["spikes"]));
   panels.push_back(draw_dichotomic(spikes, json["spikes"]));
   json["spikes"]["three_segments"] = {{"contact", to_json(spikes.snapshot, *by_segments)}};
 
-  const std::vector<io::Key> keys{{io::Key::line, edge_color, "the edge at its start"},
-                                  {io::Key::dashes, edge_color, "where it is to go"},
-                                  {io::Key::line, contact_color, "at the contact; point and normal"},
-                                  {io::Key::patch, swept, "swept triangle"},
-                                  {io::Key::patch, flooded, "cells looked at"},
-                                  {io::Key::patch, solid, "obstacles"},
-                                  {io::Key::line, free_step, "bisection: free until here (+)"},
-                                  {io::Key::line, blocked_step, "blocked (-); vertices met later"}};
-  io::Sheet_options options;
+  const std::vector<drawing::Key> keys{
+      {drawing::Key::line, edge_color, "the edge at its start"},
+      {drawing::Key::dashes, edge_color, "where it is to go"},
+      {drawing::Key::line, contact_color, "at the contact; point and normal"},
+      {drawing::Key::patch, swept, "swept triangle"},
+      {drawing::Key::patch, flooded, "cells looked at"},
+      {drawing::Key::patch, solid, "obstacles"},
+      {drawing::Key::line, free_step, "bisection: free until here (+)"},
+      {drawing::Key::line, blocked_step, "blocked (-); vertices met later"}};
+  drawing::Sheet_options options;
   options.camera = {{0, 0, 1}, {0, 1, 0}, 0};
   options.panel_width = 600;
   options.panel_height = 360;
-  const io::Image sheet = io::make_sheet(panels, keys, options);
-  io::write_file(folder / "sweep_2d.png", io::encode_png(sheet));
+  const drawing::Image sheet = drawing::make_sheet(panels, keys, options);
+  io::write_file(folder / "sweep_2d.png", drawing::encode_png(sheet));
   io::write_json(folder / "sweep_2d.json", json);
 }
 

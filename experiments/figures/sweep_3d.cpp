@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A thin spike through the inside of a swept triangle: its three sides are free, the sweep is not.
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/json_file.h>
 #include <cellwalk/walk/locate.h>
 
 #include "figures.h"
@@ -77,17 +77,18 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   triangle.contact(*exact);
   triangle.label(stop, "s*", 12, -8);
 
-  const std::vector<io::Key> keys{{io::Key::line, colors::start, "the edge at its start"},
-                                  {io::Key::dashes, colors::start, "where it is to go"},
-                                  {io::Key::line, colors::contact, "at the contact; point and normal"},
-                                  {io::Key::patch, colors::swept, "swept triangle"},
-                                  {io::Key::line, colors::cell, "cells looked at"},
-                                  {io::Key::patch, colors::spike, "spikes"}};
-  io::Sheet_options sheet;
+  const std::vector<drawing::Key> keys{
+      {drawing::Key::line, colors::start, "the edge at its start"},
+      {drawing::Key::dashes, colors::start, "where it is to go"},
+      {drawing::Key::line, colors::contact, "at the contact; point and normal"},
+      {drawing::Key::patch, colors::swept, "swept triangle"},
+      {drawing::Key::line, colors::cell, "cells looked at"},
+      {drawing::Key::patch, colors::spike, "spikes"}};
+  drawing::Sheet_options sheet;
   sheet.panel_width = 660;
   sheet.panel_height = 380;
   sheet.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
-  io::write_file(folder / "sweep_3d.png", io::encode_png(io::make_sheet(
+  io::write_file(folder / "sweep_3d.png", drawing::encode_png(drawing::make_sheet(
                                               std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
   io::write_json(
       folder / "sweep_3d.json",

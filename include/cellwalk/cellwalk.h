@@ -10,9 +10,9 @@
 #include <cellwalk/body/transform.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
-#include <cellwalk/environment/generate/room.h>
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/room.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "stop_candidates.h"
 
-#include <cellwalk/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/exact_value.h>
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "cli/command.h"
-#include "cli/environment_file.h"
-#include "cli/outputs.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
 
 namespace cellwalk::cli {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk generate KIND ... -o ENV.ovm: environments that need no file.
-#include <cellwalk/io/numbers.h>
+#include <cellwalk/internal/io/numbers.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/generators.h>
 
@@ -11,10 +11,10 @@
 #include <memory>
 #include <utility>
 
-#include "cli/command.h"
-#include "cli/environment_file.h"
-#include "cli/outputs.h"
-#include "cli/progress.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
+#include "cli/common/progress.h"
 
 namespace cellwalk::cli {
 namespace {

@@ -11,10 +11,10 @@
 #include <optional>
 #include <string>
 
-#include "cli/command.h"
-#include "cli/environment_file.h"
-#include "cli/outputs.h"
-#include "cli/progress.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
+#include "cli/common/progress.h"
 
 namespace cellwalk::cli {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The program: parses the command line, runs one command, turns exceptions into one line and an exit code.
-#include <cellwalk/io/output.h>
+#include <cellwalk/internal/io/output.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/command.h"
+#include "cli/common/command.h"
 
 namespace {
 

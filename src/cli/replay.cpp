@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk replay TRACE: answers and times a recorded motion.
-#include <cellwalk/io/trace_file.h>
-#include <cellwalk/simulation/replay.h>
-#include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/internal/io/trace_file.h>
+#include <cellwalk/internal/simulation/replay.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.h"
-#include "cli/environment_file.h"
-#include "cli/kind_names.h"
-#include "cli/machine.h"
-#include "cli/outputs.h"
-#include "cli/progress.h"
-#include "cli/run_bodies.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/kind_names.h"
+#include "cli/common/machine.h"
+#include "cli/common/outputs.h"
+#include "cli/common/progress.h"
+#include "cli/run/bodies.h"
 
 namespace cellwalk::cli {
 namespace {

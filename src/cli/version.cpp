@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/json_file.h>
+#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/command.h"
-#include "cli/machine.h"
-#include "cli/viewer_page.h"
+#include "cli/common/command.h"
+#include "cli/common/machine.h"
+#include "cli/common/viewer_page.h"
 
 namespace cellwalk::cli {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk view DIR -o run.html: one page that replays a run in a browser, without network.
-#include <cellwalk/io/motion_file.h>
+#include <cellwalk/internal/io/motion_file.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/command.h"
-#include "cli/environment_file.h"
-#include "cli/outputs.h"
-#include "cli/run_results.h"
-#include "cli/viewer_page.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
+#include "cli/common/viewer_page.h"
+#include "cli/run/results.h"
 
 namespace cellwalk::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Edits of an environment. Each first finds out whether the result would be certified, then changes map and snapshot.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/flatten.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <utility>
 
-#include "boundary_index.h"
-#include "certify_complex.h"
-#include "edit_map.h"
+#include "environment/certify/boundary_index.h"
+#include "environment/certify/complex.h"
+#include "environment/map/edit_map.h"
 
 namespace cellwalk {
 namespace {

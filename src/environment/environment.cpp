@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/flatten.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "boundary_index.h"
-#include "in_step.h"
+#include "environment/certify/boundary_index.h"
+#include "environment/map/in_step.h"
 #include "prepare_soup.h"
 
 namespace cellwalk {

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "parallel.h"
+#include "environment/soup/parallel.h"
 
 namespace cellwalk {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/fraction.h>
+#include <cellwalk/internal/kernel/fraction.h>
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/predicates.h>
 
 #include <CGAL/Interval_nt.h>
 

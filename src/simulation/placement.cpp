@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Where the particles of a scene start.
+#include <cellwalk/internal/simulation/route.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/route.h>
 #include <cellwalk/simulation/world.h>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/simulation/route.h>
+#include <cellwalk/internal/simulation/route.h>
 
 #include <algorithm>
 #include <cstdint>

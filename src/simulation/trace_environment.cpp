@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/generate/grid.h>
-#include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/simulation/trace_rule.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/trace_rule.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/fraction.h>
-#include <cellwalk/walk/detail/in_boundary.h>
+#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/walk/in_boundary.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/walk/detail/link_search.h>
-#include <cellwalk/walk/detail/signs.h>
-#include <cellwalk/walk/detail/star.h>
+#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
 #include <cellwalk/walk/locate.h>
 
 #include <boost/geometry.hpp>

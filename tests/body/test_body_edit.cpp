@@ -2,7 +2,7 @@
 // Bodies in an environment that is edited: none goes on as if nothing had happened.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/generators/grid.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 

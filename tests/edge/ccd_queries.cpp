@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge/ccd_queries.h"
 
-#include <cellwalk/io/numbers.h>
+#include <cellwalk/internal/io/numbers.h>
 
 #include <zlib.h>
 

@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_EDGE_FACE_BODY_H
 
 #include <cellwalk/edge/face.h>
-#include <cellwalk/edge/triangle.h>
+#include <cellwalk/internal/edge/triangle.h>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge/membrane_environment.h"
 
-#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/internal/kernel/predicates.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_TESTS_EDGE_SLIT_WORLDS_H
 #define CELLWALK_TESTS_EDGE_SLIT_WORLDS_H
 
-#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 

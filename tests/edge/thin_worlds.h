@@ -3,11 +3,11 @@
 #ifndef CELLWALK_TESTS_EDGE_THIN_WORLDS_H
 #define CELLWALK_TESTS_EDGE_THIN_WORLDS_H
 
-#include <cellwalk/environment/generate/lattice_world.h>
-#include <cellwalk/environment/generate/slits.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/generators/slits.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/predicates.h>
 
 #include <algorithm>
 #include <array>

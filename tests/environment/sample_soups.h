@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 
-#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/generators/lattice_world.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

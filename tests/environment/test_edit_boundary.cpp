@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Vertices of the boundary that move: what they may not run into, and what is not asked.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

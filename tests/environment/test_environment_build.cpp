@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/flatten.h>
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

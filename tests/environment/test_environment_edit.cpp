@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/flatten.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

@@ -2,8 +2,8 @@
 // Cells from bytes: a small complex with a few things done to it, most of them harm. What is refused is refused; what is certified
 // is certified again from its own soup, and moved about in.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
-#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/lattice_world.h>
 
 #include <algorithm>
 #include <array>

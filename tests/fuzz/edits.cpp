@@ -2,8 +2,8 @@
 // Edits from bytes. After each, map and snapshot must be valid and in step, the snapshot what compiling from scratch gives, and
 // certification from scratch of the same mind; particles must not pass walls, be they registered before the edit or after it.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/grid.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

@@ -3,8 +3,8 @@
 #include <cellwalk/io/mesh_file.h>
 
 #include "fuzz/targets.h"
-#include "io/gmsh_input.h"
-#include "io/vtk_text.h"
+#include "io/mesh/gmsh_input.h"
+#include "io/mesh/vtk_text.h"
 
 namespace cellwalk::fuzz {
 

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "fuzz/targets.h"
-#include "io/surface_parsers.h"
+#include "io/mesh/surface_parsers.h"
 
 namespace cellwalk::fuzz {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Readers of tables, scenes, recorded motions, traces, and of what is compressed.
-#include <cellwalk/io/csv.h>
-#include <cellwalk/io/gzip.h>
-#include <cellwalk/io/motion_record_file.h>
-#include <cellwalk/io/query_file.h>
+#include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/gzip.h>
+#include <cellwalk/internal/io/motion_record_file.h>
+#include <cellwalk/internal/io/query_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 #include <cellwalk/io/scene.h>
-#include <cellwalk/io/trace_file.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 #include "fuzz/decoder.h"
 #include "fuzz/targets.h"
-#include "io/motion_format.h"
-#include "io/text.h"
+#include "io/files/text.h"
+#include "io/results/motion_format.h"
 
 namespace cellwalk::fuzz {
 namespace {

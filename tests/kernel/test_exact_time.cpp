@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/exact_value.h>
 #include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/fraction.h>
-#include <cellwalk/kernel/orientation_value.h>
-#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/orientation_value.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/random.h>
 
 #include <boost/multiprecision/cpp_int.hpp>

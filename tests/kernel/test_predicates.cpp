@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/predicates.h>
+#include <cellwalk/internal/kernel/predicates.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>

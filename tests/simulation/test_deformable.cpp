@@ -2,7 +2,7 @@
 // Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity they come to rest.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/body/transform.h>
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/deformable.h>

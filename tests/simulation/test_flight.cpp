@@ -2,7 +2,7 @@
 // Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes anything, and nothing
 // gets stuck.
 #include <cellwalk/body/generate.h>
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/vessel.h>
 
 #include <gtest/gtest.h>
 

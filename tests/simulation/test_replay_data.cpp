@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The traces of the published benchmark: every answer is the recorded, exact one.
-#include <cellwalk/io/trace_file.h>
-#include <cellwalk/simulation/replay.h>
-#include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/internal/io/trace_file.h>
+#include <cellwalk/internal/simulation/replay.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Replays count touches as hits: on traces that land on walls, graze their edges and start at them.
-#include <cellwalk/simulation/replay.h>
+#include <cellwalk/internal/simulation/replay.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Catheters: the shape of a rod in free space, and what walls make of it.
-#include <cellwalk/environment/generate/vessel.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/world.h>
 

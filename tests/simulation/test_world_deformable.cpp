@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The scene of the paper in small: deformable hexahedra bounce in a grid with a tenth of its cells solid.
 #include <cellwalk/body/generate.h>
-#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 #define CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 
-#include <cellwalk/records/trace.h>
+#include <cellwalk/internal/records/trace.h>
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_TESTS_SIMULATION_WORLDS_H
 #define CELLWALK_TESTS_SIMULATION_WORLDS_H
 
-#include <cellwalk/environment/generate/lattice_world.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/generators/lattice_world.h>
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>

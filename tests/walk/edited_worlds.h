@@ -4,9 +4,9 @@
 #define CELLWALK_TESTS_WALK_EDITED_WORLDS_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/generate/lattice_world.h>
+#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/predicates.h>
 #include <cellwalk/kernel/random.h>
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "walk/oracle_worlds.h"
 
-#include <cellwalk/environment/generate/lattice_world.h>
-#include <cellwalk/environment/generate/slits.h>
+#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/generators/slits.h>
 
 #include <algorithm>
 #include <array>

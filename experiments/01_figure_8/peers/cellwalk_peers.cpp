@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Cellwalk itself: the library's replay, exact and with contacts reported, in the certified environment of the trace.
-#include <cellwalk/simulation/replay.h>
-#include <cellwalk/simulation/trace_environment.h>
+#include <cellwalk/internal/simulation/replay.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
 
 #include <algorithm>
 #include <memory>

@@ -7,8 +7,8 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 
+#include <cellwalk/internal/records/trace.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/records/trace.h>
 
 #include <cstddef>
 #include <cstdint>

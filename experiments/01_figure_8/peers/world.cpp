@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "world.h"
 
-#include <cellwalk/environment/generate/grid.h>
+#include <cellwalk/generators/grid.h>
 
 #include <span>
 

@@ -4,9 +4,9 @@
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_WORLD_H
 
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/records/trace.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
-#include <cellwalk/records/trace.h>
 
 #include <array>
 #include <cstddef>

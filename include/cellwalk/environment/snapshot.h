@@ -9,7 +9,7 @@
 
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/gluing.h>
-#include <cellwalk/environment/planes.h>
+#include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <bit>

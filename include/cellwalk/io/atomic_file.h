@@ -3,7 +3,7 @@
 #ifndef CELLWALK_IO_ATOMIC_FILE_H
 #define CELLWALK_IO_ATOMIC_FILE_H
 
-#include <cellwalk/io/output.h>
+#include <cellwalk/internal/io/output.h>
 
 #include <cstddef>
 #include <filesystem>

@@ -5,10 +5,10 @@
 #ifndef CELLWALK_WALK_WALK_IMPL_H
 #define CELLWALK_WALK_WALK_IMPL_H
 
-#include <cellwalk/walk/detail/certified_exit.h>
-#include <cellwalk/walk/detail/in_boundary.h>
-#include <cellwalk/walk/detail/signs.h>
-#include <cellwalk/walk/detail/star.h>
+#include <cellwalk/internal/walk/certified_exit.h>
+#include <cellwalk/internal/walk/in_boundary.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
 #include <cellwalk/walk/walk.h>
 
 #include <boost/container/small_vector.hpp>

@@ -5,7 +5,6 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/ovm.h>
-#include <cellwalk/io/query_file.h>
 #include <cellwalk/io/vtu.h>
 #include <cellwalk/records/make_body.h>
 #include <cellwalk/simulation/world.h>
@@ -118,7 +117,7 @@ void keep_simulation() {
 
 template <int D>
 void keep_readers() {
-  keep(&io::query_rows<D, 1>, &io::read_moves<D>, &io::read_sweeps<D>, &io::read_body<D>,
+  keep(&io::read_body<D>,
        static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&)>(&io::write_ovm<D>),
        static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&)>(&io::write_ovm<D>), &io::vtu_of_cells<D>,
        &io::vtu_of_walls<D>);

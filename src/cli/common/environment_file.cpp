@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "environment_file.h"
+
+#include <cellwalk/internal/io/json_file.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+#include "progress.h"
+
+namespace cellwalk::cli {
+
+Loaded_environment load_with_progress(const std::string& path, const Build_options& options) {
+  const Progress progress("reading and certifying " + path);
+  return load_environment(path, options);
+}
+
+void add_duplicates(CLI::App& command, Duplicate_vertices& value) {
+  add_choice(command, "--duplicates", value,
+             {{"refuse", Duplicate_vertices::refuse},
+              {"merge", Duplicate_vertices::merge},
+              {"keep", Duplicate_vertices::keep}},
+             "Vertices in the same place: refuse the file, merge them, or keep them apart (a slit)");
+}
+
+void add_environment_output(CLI::App& command, std::string& path) {
+  command.add_option("-o,--output", path, "The environment to write (OpenVolumeMesh ASCII, *.ovm)")
+      ->required()
+      ->type_name("ENV.ovm")
+      ->check([](const std::string& text) {
+        const bool fine = std::filesystem::path(text).extension() == ".ovm" || text.starts_with("/dev/");
+        return fine ? std::string{}
+                    : "environments are written as OpenVolumeMesh: name the file *.ovm, not " + text;
+      });
+}
+
+void add_json(CLI::App& command, std::string& path) {
+  command.add_option("--json", path, "Write the report as JSON too")->type_name("FILE");
+}
+
+void write_json(io::Atomic_file* file, const nlohmann::ordered_json& report) {
+  if (file != nullptr) io::write_json(*file, report);
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "interruption.h"
+
+#include <cstdlib>
+
+namespace cellwalk::cli {
+namespace {
+
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+volatile std::sig_atomic_t noted = 0;
+
+void note(int signal) { noted = signal; }
+
+}  // namespace
+
+Interruption::Interruption() {
+  noted = 0;
+  for (int i = 0; i < 3; ++i) before_[i] = std::signal(signals[i], note);
+}
+
+Interruption::~Interruption() {
+  for (int i = 0; i < 3; ++i) std::signal(signals[i], before_[i]);
+}
+
+void Interruption::check() const {
+  if (noted) throw Interrupted{noted};
+}
+
+void end_by(const Interrupted& interrupted) {
+  std::signal(interrupted.signal, SIG_DFL);
+  std::raise(interrupted.signal);
+  std::abort();  // only if the signal is blocked
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A folder of results that appears complete or not at all.
+#ifndef CELLWALK_CLI_COMMON_OUTPUT_FOLDER_H
+#define CELLWALK_CLI_COMMON_OUTPUT_FOLDER_H
+
+#include <cellwalk/internal/io/output.h>
+
+#include <filesystem>
+
+namespace cellwalk::cli {
+
+/// A folder written beside its destination. Destroyed before put() it leaves nothing behind.
+class Output_folder final : public io::Output {
+ public:
+  /// \throw Error(usage) if the destination exists, unless `replace` is set and it holds a run.json (so that nothing but
+  ///        an earlier run is ever replaced); Error(other) if the folder cannot be made
+  Output_folder(const std::filesystem::path& destination, bool replace);
+  ~Output_folder() override;
+
+  /// Where to write.
+  const std::filesystem::path& path() const { return temporary_; }
+
+  void prepare() override {}
+  void put() override;
+  void take_back() noexcept override;
+  void settle() noexcept override;
+  bool can_be_taken_back() const override { return true; }
+
+ private:
+  std::filesystem::path name_, destination_, temporary_;  ///< the name as given, and what it leads to
+  io::Unfinished unfinished_;
+  io::Replacement replacement_;
+};
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_COMMON_OUTPUT_FOLDER_H

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "outputs.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace cellwalk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::usage, what); }
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error(Error_code::other, "standard output cannot be written");
+}
+
+}  // namespace
+
+Named_file::Named_file(std::string name) : name_(std::move(name)) {
+  std::error_code failure;
+  path_ = fs::weakly_canonical(fs::absolute(name_, failure), failure);
+  if (failure) path_ = fs::absolute(name_, failure);
+  if (!path_.has_filename()) path_ = path_.parent_path();  // a name that ends in a slash
+  struct stat status;
+  exists_ = stat(name_.c_str(), &status) == 0;
+  if (!exists_) return;
+  device_ = status.st_dev;
+  inode_ = status.st_ino;
+  keeps_nothing_ = S_ISCHR(status.st_mode);
+}
+
+bool Named_file::is_same(const Named_file& other) const {
+  if (exists_ && other.exists_) return device_ == other.device_ && inode_ == other.inode_;
+  return !path_.empty() && path_ == other.path_;
+}
+
+bool Named_file::is_within(const Named_file& folder) const {
+  const auto [in_folder, in_path] =
+      std::mismatch(folder.path_.begin(), folder.path_.end(), path_.begin(), path_.end());
+  return in_folder == folder.path_.end() && in_path != path_.end();
+}
+
+Outputs::Outputs(const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs)
+    if (!input.empty()) inputs_.emplace_back(input);
+}
+
+void Outputs::refuse_clash(const Named_file& output, const Named_file& input) const {
+  if (!output.keeps_nothing() && output.is_same(input))
+    refuse(output.name() + ": is read by this command, and would be replaced; give the output another name");
+  if (&output == folder_name_.get() && input.is_within(output))
+    refuse(output.name() + ": holds " + input.name() +
+           ", which is read by this command, and would be replaced; give another folder");
+}
+
+void Outputs::add(const Named_file& output) {
+  for (const Named_file& input : inputs_) refuse_clash(output, input);
+  for (const Named_file& other : outputs_)
+    if (!output.keeps_nothing() && output.is_same(other))
+      refuse(output.name() +
+             ": is named for two outputs, and one would replace the other; give each its own name");
+  if (folder_name_ && &output != folder_name_.get() && output.is_within(*folder_name_))
+    refuse(output.name() + ": lies in " + folder_name_->name() +
+           ", which appears as a whole; give a place outside of it");
+  outputs_.push_back(output);
+}
+
+void Outputs::also_reads(const std::string& name) {
+  const Named_file input(name);
+  for (const Named_file& output : outputs_) refuse_clash(output, input);
+  if (folder_name_) refuse_clash(*folder_name_, input);
+  inputs_.push_back(input);
+}
+
+io::Atomic_file* Outputs::file(const std::string& name) {
+  if (name.empty()) return nullptr;
+  add(Named_file(name));
+  files_.push_back(std::make_unique<io::Atomic_file>(name));
+  return files_.back().get();
+}
+
+Output_folder& Outputs::folder(const std::string& name, bool replace) {
+  folder_name_ = std::make_unique<Named_file>(name);
+  add(*folder_name_);
+  folder_ = std::make_unique<Output_folder>(name, replace);
+  return *folder_;
+}
+
+void Outputs::commit(const std::string& summary) {
+  std::vector<io::Output*> all;
+  for (const auto& file : files_) all.push_back(file.get());
+  if (folder_) all.push_back(folder_.get());
+  io::put_in_place(all, [&summary] { print(summary); });
+}
+
+}  // namespace cellwalk::cli

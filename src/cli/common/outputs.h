@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a command writes: all of it appears, or nothing; and nothing replaces what the command reads.
+#ifndef CELLWALK_CLI_COMMON_OUTPUTS_H
+#define CELLWALK_CLI_COMMON_OUTPUTS_H
+
+#include <cellwalk/io/atomic_file.h>
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output_folder.h"
+
+namespace cellwalk::cli {
+
+/// A name on the command line, and what it stands for whatever it is called: two names of one file, by links or otherwise, are equal.
+class Named_file {
+ public:
+  explicit Named_file(std::string name);
+
+  const std::string& name() const { return name_; }
+  bool is_same(const Named_file& other) const;
+  /// Whether it lies in a folder, at any depth.
+  bool is_within(const Named_file& folder) const;
+  /// Terminals and /dev/null can stand for several things: they keep nothing that could be lost.
+  bool keeps_nothing() const { return keeps_nothing_; }
+
+ private:
+  std::string name_;
+  std::filesystem::path path_;  ///< absolute, without links
+  bool exists_ = false, keeps_nothing_ = false;
+  dev_t device_ = 0;
+  ino_t inode_ = 0;
+};
+
+/// The outputs of one command, opened before it begins to work.
+class Outputs {
+ public:
+  /// `inputs` are the files that the command reads; empty names are left out.
+  explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
+  explicit Outputs(const std::vector<std::string>& inputs);
+
+  /// Files that turn out to be read as well. \throw Error(usage) if one is an output
+  void also_reads(const std::string& input);
+
+  /// An output, or nullptr where the name is empty.
+  /// \throw Error(usage) if it is an input or another output; Error(other) if it cannot be written
+  io::Atomic_file* file(const std::string& name);
+
+  /// A folder of results. \throw Error as file() and Output_folder
+  Output_folder& folder(const std::string& name, bool replace);
+
+  /// Puts all outputs in their places and prints the summary; if any of that fails, there is neither.
+  /// \throw Error(other)
+  void commit(const std::string& summary);
+
+ private:
+  void refuse_clash(const Named_file& output, const Named_file& input) const;
+  void add(const Named_file& output);
+
+  std::vector<Named_file> inputs_, outputs_;
+  std::unique_ptr<Named_file> folder_name_;
+  std::vector<std::unique_ptr<io::Atomic_file>> files_;
+  std::unique_ptr<Output_folder> folder_;
+};
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_COMMON_OUTPUTS_H

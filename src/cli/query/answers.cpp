@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "answers.h"
+
+#include <cellwalk/internal/io/csv.h>
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include "cli/common/kind_names.h"
+
+namespace cellwalk::cli {
+namespace {
+
+/// Not a number, which a table leaves empty.
+constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
+/// Three fields, without negative zeros; in the plane the third is empty.
+template <std::size_t D>
+std::array<double, 3> fields(const std::array<double, D>& p) {
+  std::array<double, 3> f{absent, absent, absent};
+  std::transform(p.begin(), p.end(), f.begin(), [](double x) { return x + 0.0; });
+  return f;
+}
+
+}  // namespace
+
+template <int D, std::size_t N>
+void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
+                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
+  constexpr bool has_body = N == 3;
+  std::vector<std::string> columns{"row",  "status", "time", "x",  "y",     "z",
+                                   "kind", "nx",     "ny",   "nz", "cells", "cell"};
+  if (has_body) columns.insert(columns.begin() + 7, "body");
+  io::Csv_writer table(file, columns);
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    const Answer<D>& answer = answers[row];
+    double time = absent;
+    std::array<double, 3> end{absent, absent, absent}, normal = end;
+    const char *kind = "", *body = "";
+    if (answer.status == Motion_status::free) {
+      time = 1;
+      end = fields(rows[row].points[1]);
+    } else if (const auto& contact = answer.contact) {
+      time = contact->rounded_time();
+      end = fields(contact->point);
+      normal = fields(contact->normal);
+      kind = kind_names[static_cast<std::size_t>(contact->kind)];
+      body = feature_names[static_cast<std::size_t>(contact->body)];
+    }
+    const auto write = [&](const auto&... body_field) {
+      table.row(row, motion_status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1],
+                end[2], kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
+                answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell)));
+    };
+    if constexpr (has_body)
+      write(body);
+    else
+      write();
+  }
+}
+
+template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 2>>&,
+                            const std::vector<Answer<2>>&);
+template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 2>>&,
+                            const std::vector<Answer<3>>&);
+
+template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 3>>&,
+                            const std::vector<Answer<2>>&);
+template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 3>>&,
+                            const std::vector<Answer<3>>&);
+
+}  // namespace cellwalk::cli

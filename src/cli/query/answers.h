@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The answers to a table of motions, whatever moves, and the table `cellwalk query` writes of them.
+#ifndef CELLWALK_CLI_QUERY_ANSWERS_H
+#define CELLWALK_CLI_QUERY_ANSWERS_H
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/records/queries.h>
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/query/answer.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/common/progress.h"
+
+namespace cellwalk::cli {
+
+/// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on the number of
+/// threads.
+template <class Counts, int D, std::size_t N, class Answer_row>
+std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Counts& total,
+                                   Answer_row answer) {
+  constexpr std::size_t batch = 1 << 16;  // rows between two looks at the progress bar
+  std::vector<Answer<D>> answers(rows.size());
+  tbb::enumerable_thread_specific<Counts> counts;
+  Progress progress(label, rows.size());
+  for (std::size_t begin = 0; begin < rows.size(); begin += batch) {
+    const std::size_t end = std::min(begin + batch, rows.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        if (rows[i].invalid.empty()) answers[i] = answer(rows[i], counts.local());
+    });
+    progress.update(end);
+  }
+  for (const Counts& c : counts) total += c;
+  return answers;
+}
+
+/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three points, with
+/// `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not apply is empty. A free motion
+/// ends at the second point of its row.
+/// \throw Error(other) where it cannot be written
+template <int D, std::size_t N>
+void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
+                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_QUERY_ANSWERS_H

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table, of points or of edges, exactly.
+#include <cellwalk/internal/io/query_file.h>
+#include <cellwalk/query/move.h>
+#include <cellwalk/query/sweep.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "answers.h"
+#include "cli/common/command.h"
+#include "cli/common/counts_json.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
+#include "kernel_words.h"
+#include "picture.h"
+#include "replay_failure.h"
+
+namespace cellwalk::cli {
+namespace {
+
+enum class Query_mode { move, sweep };
+struct Query_options {
+  std::string environment, queries, output, json;
+  std::string failure;             // if set, a record to replay, and nothing else
+  std::string record;              // if set, where the motion of a row is recorded
+  std::string picture;             // if set, where it is drawn
+  std::optional<std::size_t> row;  // the row
+  Query_mode mode = Query_mode::move;
+  Move_options move;
+  Sweep_options sweep;                    // its `touch` holds for moves too
+  std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
+  int threads = 0;
+  Build_options build{.keep_map = false};
+};
+
+/// The files of a query; null where one is not wanted.
+struct Query_files {
+  explicit Query_files(const Query_options& options)
+      : all({options.environment, options.queries}),
+        answers(all.file(options.output)),
+        json(all.file(options.json)),
+        record(all.file(options.record)),
+        picture(all.file(options.picture)) {}
+
+  Outputs all;
+  io::Atomic_file *answers, *json, *record, *picture;
+};
+
+/// Completes all files and says how many answers there are of each status.
+template <int D, std::size_t N>
+void report(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
+            const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
+            const nlohmann::ordered_json& counts) {
+  write_answers(*files.answers, snapshot, rows, answers);
+  std::array<std::size_t, std::size(motion_status_names)> tally{};
+  for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
+  nlohmann::ordered_json by_status;
+  std::string line;
+  for (std::size_t s = 0; s < tally.size(); ++s) {
+    by_status[motion_status_names[s]] = tally[s];
+    if (tally[s] != 0)
+      line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], motion_status_names[s]);
+  }
+  write_json(files.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
+  files.all.commit(fmt::format("{}: {} motions{}\n", options.output, answers.size(), line));
+  const auto invalid =
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
+  if (invalid != rows.end())
+    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, invalid->line,
+               invalid->invalid, tally[static_cast<std::size_t>(Motion_status::invalid)]);
+}
+
+/// Nothing is answered where the record or picture that is wanted cannot be made.
+template <int D, std::size_t N>
+void check_row(const Query_options& options, const std::vector<Query_row<D, N>>& rows) {
+  if (options.row && (*options.row >= rows.size() || !rows[*options.row].invalid.empty()))
+    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
+  if (D == 3 && !options.picture.empty())
+    throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
+}
+
+/// Draws the row that is wanted.
+template <int D, std::size_t N>
+void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
+              const Locator<D>& locator, const std::vector<Query_row<D, N>>& rows,
+              const std::vector<Answer<D>>& answers) {
+  if constexpr (D == 2)
+    if (files.picture != nullptr)
+      write_picture(*files.picture, snapshot, locator, *options.row, rows[*options.row].points,
+                    answers[*options.row]);
+}
+
+/// Writes the record of the row that is wanted.
+template <int D>
+void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
+                const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
+  if (files.record == nullptr) return;
+  const std::size_t row = *options.row;
+  const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
+  record_motion(*files.record, environment, moves[row].points[0], moves[row].points[1], options.move,
+                fmt::format("row {} of a query: {}", row, status));
+}
+
+template <int D>
+void query_environment(const Query_options& options, Query_files& files, const Environment<D>& environment) {
+  const Snapshot<D>& snapshot = environment.snapshot();
+  Edge_counts counts;
+  if (options.mode == Query_mode::move) {
+    const auto moves = io::read_moves<D>(options.queries);
+    check_row(options, moves);
+    const Locator<D> locator(snapshot);
+    const auto answers =
+        answer_rows(moves, "walking", counts, [&](const Move_query<D>& move, Edge_counts& local) {
+          return answer_move(snapshot, locator, move.points[0], move.points[1], options.move, local);
+        });
+    record_row(options, files, environment, moves, answers);
+    draw_row(options, files, snapshot, locator, moves, answers);
+    report(options, files, snapshot, moves, answers, cli::to_json(counts.walk));
+  } else {
+    const auto sweeps = io::read_sweeps<D>(options.queries);
+    check_row(options, sweeps);
+    const Locator<D> locator(snapshot);
+    const auto answers =
+        answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& sweep, Edge_counts& local) {
+          const auto& [p, target, q] = sweep.points;
+          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
+        });
+    nlohmann::ordered_json work = cli::to_json(counts);
+    work["walk"] = cli::to_json(counts.walk);
+    draw_row(options, files, snapshot, locator, sweeps, answers);
+    report(options, files, snapshot, sweeps, answers, work);
+  }
+}
+
+/// A record to replay stands alone; otherwise an environment, queries and output are needed.
+void refuse_missing(const Query_options& options, const CLI::App& command) {
+  constexpr std::array<const char*, 3> names{"environment", "queries", "--output"};
+  if (options.failure.empty()) {
+    for (const char* name : names)
+      if (command.count(name) == 0)
+        throw Error(Error_code::usage, fmt::format("{} is required; see cellwalk query --help", name));
+  } else if (command.get_options([](const CLI::Option* option) { return option->count() > 0; }).size() > 1) {
+    throw Error(Error_code::usage, "--replay-failure takes everything from its file: give no other option");
+  }
+}
+
+/// Options that say nothing where others are as they are, or that contradict them, are mistakes.
+void refuse_misfits(const Query_options& options, const CLI::App& command) {
+  const auto need = [&command](std::initializer_list<const char*> names, const char* condition) {
+    for (const char* name : names)
+      if (command.count(name) != 0)
+        throw Error(Error_code::usage,
+                    fmt::format("{} needs {}; see cellwalk query --help", name, condition));
+  };
+  const bool is_exact = options.move.kernel == Kernel_choice::exact;
+  if (options.row.has_value() != (!options.record.empty() || !options.picture.empty()))
+    throw Error(Error_code::usage,
+                "--row says what --record or --picture is of: give both; see cellwalk query --help");
+  if (!options.picture.empty() && (!is_exact || options.sweep.touch == Touch::stop))
+    throw Error(Error_code::usage,
+                "--picture needs --kernel exact and --touch pass: it shows the exact walk, to its end");
+  if (options.mode == Query_mode::move) {
+    need({"--sweep", "--contact", "--tolerance", "--search-cells", "--search-limit"}, "--mode sweep");
+    if (options.strategy == Walk_strategy::certified && !is_exact)
+      throw Error(Error_code::usage,
+                  "--strategy certified needs --kernel exact; take exit_rule or predictive_simplex");
+    if (options.sweep.touch == Touch::stop && !is_exact)
+      throw Error(Error_code::usage, "--touch stop needs --kernel exact: touches are found exactly only");
+    return;
+  }
+  need({"--strategy", "--record"}, "--mode move");
+  if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
+  if (options.sweep.search != Contact_search::dichotomic &&
+      options.sweep.search != Contact_search::dichotomic_segment)
+    need({"--tolerance"}, "--contact dichotomic");
+  if (options.sweep.search != Contact_search::exhaustive)
+    need({"--search-cells", "--search-limit"}, "--contact exhaustive");
+}
+
+void query(Query_options& options, const CLI::App& command) {
+  refuse_missing(options, command);
+  if (!options.failure.empty()) return replay_failure(options.failure);
+  refuse_misfits(options, command);
+  options.move.strategy = options.strategy.value_or(
+      options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
+  options.move.touch = options.sweep.touch;
+  Query_files files(options);
+  const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
+                                           : std::max(1u, std::thread::hardware_concurrency());
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  const Loaded_environment loaded = load_with_progress(options.environment, options.build);
+  std::visit([&](const auto& environment) { query_environment(options, files, environment); },
+             loaded.environment);
+}
+
+void add_move_options(CLI::App& command, Query_options& options) {
+  constexpr const char* group = "With --mode move";
+  add_choice(command, "--kernel", options.move.kernel, kernel_words,
+             "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
+             "determinants up to that count as 0")
+      ->group(group);
+  add_choice(command, "--strategy", options.strategy,
+             {{"certified", std::optional(Walk_strategy::certified)},
+              {"exit_rule", std::optional(Walk_strategy::exit_rule)},
+              {"predictive_simplex", std::optional(Walk_strategy::predictive_simplex)}},
+             "How the exit of a cell is found (default: certified, with other kernels exit_rule)")
+      ->group(group);
+  command
+      .add_option("--record", options.record,
+                  "Write the motion of a row with all that --replay-failure needs")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+void add_sweep_options(CLI::App& command, Sweep_options& options) {
+  constexpr const char* group = "With --mode sweep";
+  add_choice(
+      command, "--sweep", options.sweep,
+      {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}},
+      "What is checked. three_segments: the way of p, then the edge, as in the paper; misses what fits "
+      "between. "
+      "triangle: all that the edge sweeps. faces: the same here, since an edge has no face")
+      ->group(group);
+  add_choice(
+      command, "--contact", options.search,
+      {{"exact", Contact_search::exact},
+       {"dichotomic", Contact_search::dichotomic},
+       {"dichotomic_segment", Contact_search::dichotomic_segment},
+       {"exhaustive", Contact_search::exhaustive}},
+      "How a contact of the edge is located. exact: where the motion cannot go on. dichotomic: by bisection "
+      "of "
+      "the sweep. dichotomic_segment: by bisection of walks along the edge, as in the paper; may be late. "
+      "exhaustive: the first obstacle vertex (2D) or edge (3D) in the swept triangle")
+      ->group(group);
+  command
+      .add_option(
+          "--tolerance", options.tolerance,
+          "With --contact dichotomic or dichotomic_segment: when the motion is halved no more; in (0,1]. "
+          "The time of dichotomic is at most this much too early")
+      ->check([](const std::string& text) {
+        double value = 0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1;
+        return fits ? std::string{} : "takes a number in (0,1], not " + text;
+      })
+      ->type_name("T")
+      ->default_str("2^-20")
+      ->group(group);
+  add_choice(
+      command, "--search-cells", options.cells,
+      {{"flooded", Search_cells::flooded}, {"traversed", Search_cells::traversed}},
+      "With --contact exhaustive: the obstacles of which cells are looked at. flooded: those that the swept "
+      "triangle meets. traversed: those that the edge passes at its end, as in the paper")
+      ->group(group);
+  add_choice(
+      command, "--search-limit", options.below, {{"below", true}, {"none", false}},
+      "With --contact exhaustive: which of their obstacles are computed with. below: those that are not "
+      "beyond the edge at its end. none: all, which finds the same and costs more")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_query(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<Query_options>();
+  CLI::App* command = app.add_subcommand(
+      "query", "Answer every motion of a table, of points or of edges, exactly: free, or a contact");
+  command->add_option("environment", options->environment, "A certified environment")->type_name("ENV");
+  command
+      ->add_option(
+          "queries", options->queries,
+          "A table with a motion in each row; --mode says which columns it has. Numbers are decimal, "
+          "hexadecimal, or fractions n/d that are exactly a double")
+      ->type_name("QUERIES.csv");
+  command->add_option("-o,--output", options->output, "The answers, a row each")->type_name("OUT.csv");
+  add_choice(*command, "--mode", options->mode, {{"move", Query_mode::move}, {"sweep", Query_mode::sweep}},
+             "What moves. move: a point from a to b, columns ax,ay,az,bx,by,bz. sweep: an edge, its end p to "
+             "t while "
+             "its end q stands still, columns px,py,pz,tx,ty,tz,qx,qy,qz. Without z in 2D");
+  add_choice(*command, "--touch", options->sweep.touch, {{"pass", Touch::pass}, {"stop", Touch::stop}},
+             "Whether a motion may touch a wall that it does not cross, or stops there");
+  command->add_option("--threads", options->threads, "Threads; 0: all. The answers do not depend on it")
+      ->check(whole_number(0, 1024))
+      ->type_name("N");
+  command
+      ->add_option("--picture", options->picture,
+                   "In the plane: draw the motion of a row, the cells it passes and what is in its way")
+      ->type_name("FILE.png");
+  command->add_option("--row", options->row, "The row to draw or to record, from 0")->type_name("N");
+  command
+      ->add_option(
+          "--replay-failure", options->failure,
+          "Walk one recorded motion again and print every cell, sign and choice; takes all else from the "
+          "file")
+      ->type_name("FILE");
+  add_duplicates(*command, options->build.duplicates);
+  add_json(*command, options->json);
+  add_move_options(*command, *options);
+  add_sweep_options(*command, options->sweep);
+  add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
+                          "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",
+                          "cellwalk query rooms.ovm moves.csv -o answers.csv --picture first.png --row 0"});
+  command->callback(
+      [options, command, &chosen] { chosen = [options, command] { query(*options, *command); }; });
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
+#include <cellwalk/internal/io/json_file.h>
+#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/loading/generators.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bodies.h"
+#include "cli/common/command.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/interruption.h"
+#include "cli/common/kind_names.h"
+#include "cli/common/outputs.h"
+#include "cli/common/progress.h"
+#include "files.h"
+#include "motion.h"
+#include "picture.h"
+#include "record.h"
+#include "scene_source.h"
+
+namespace cellwalk::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Run_options {
+  std::string scene, folder;
+  std::string record;  ///< a trace to write; empty: none
+  std::string json;    ///< where the report goes as well; empty: nowhere
+  std::vector<std::string> changes;
+  std::string scene_text;   ///< with the changes
+  std::uint32_t steps = 0;  ///< 0: as many as the scene says
+  std::size_t threads = 0;  ///< 0: as many as there are cores
+  bool force = false;
+  Body_options body;
+};
+
+/// What a run writes; null where it is not wanted.
+struct Run_outputs {
+  explicit Run_outputs(const Run_options& options)
+      : all({options.scene}),
+        folder(all.folder(options.folder, options.force)),
+        record(all.file(options.record)),
+        json(all.file(options.json)) {}
+
+  Outputs all;
+  Output_folder& folder;
+  io::Atomic_file *record, *json;
+};
+
+struct Prepared_environment {
+  Any_environment environment;
+  Certificate certificate;
+};
+
+Prepared_environment prepare(const Environment_source& source, const std::string& scene) {
+  if (const auto* file = std::get_if<std::string>(&source)) {
+    Build_options options;
+    options.keep_map = false;
+    Loaded_environment loaded = load_with_progress(*file, options);
+    return {std::move(loaded.environment), loaded.built.certificate};
+  }
+  const auto& recipe = std::get<Recipe>(source);
+  const Progress progress("generating and certifying the environment");
+  Build_report report;
+  const auto build = [&](auto soup) -> Any_environment {
+    constexpr int D = std::tuple_size_v<typename decltype(soup.points)::value_type>;
+    return Environment<D>::build(std::move(soup), build_of_generated, &report);
+  };
+  try {
+    auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },
+                                  generate(recipe.generator, recipe.options));
+    return {std::move(environment), report.certificate};
+  } catch (const Error& error) {
+    // A recipe is input here, whatever it would be on a command line.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: environment: {}", scene, error.what()));
+  }
+}
+
+template <int D>
+struct Run {
+  const Scene<D>& scene;
+  const Run_options& options;
+  Run_outputs& outputs;
+  const Environment<D>& environment;
+  const Certificate& certificate;
+  const Scene_bodies<D>& bodies;
+
+  std::uint32_t steps() const { return options.steps > 0 ? options.steps : scene.steps; }
+  void operator()() const;
+
+ private:
+  World<D> make_world() const;
+  std::string caption(const World<D>& world, std::uint64_t contacts) const;
+  ordered_json scene_text() const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_motion<D>* motion) const;
+  std::string summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
+};
+
+template <int D>
+World<D> Run<D>::make_world() const {
+  try {
+    const Body_options& how = options.record.empty() ? options.body : recorded_options();
+    return World<D>(environment.snapshot(), scene, bodies.shapes, how);
+  } catch (const Error& error) {
+    // What a scene asks for is input, whatever it would be in a call.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: {}", options.scene, error.what()));
+  }
+}
+
+template <int D>
+void Run<D>::operator()() const {
+  World<D> world = make_world();
+  const auto record = start_record(outputs.record, options.scene, environment, world, scene);
+  const Cell_soup<D> soup = environment.soup();
+  const std::filesystem::path& folder = outputs.folder.path();
+  const Interruption interruption;
+  Run_files<D> files(folder, soup, world, scene);
+  std::optional<Run_motion<D>> motion;
+  if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
+    motion.emplace(folder / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
+  std::optional<Run_picture<D>> picture;
+  if (scene.output.picture) picture.emplace(world);
+  {
+    Progress progress("running " + options.scene, steps());
+    for (std::uint32_t i = 1; i <= steps(); ++i) {
+      world.step();
+      files.record(world, i == steps());
+      if (motion) motion->record(world, i == steps());
+      if (record) record->record(world);
+      if (picture) picture->record(world);
+      progress.update(i);
+      interruption.check();
+    }
+  }
+  world.validate();
+  files.finish();
+  if (motion) motion->commit();
+  if (picture) {
+    const Progress progress("drawing");
+    const std::uint64_t contacts = files.contacts()[0] + files.contacts()[1] + files.contacts()[2];
+    const Picture_request& request = *scene.output.picture;
+    drawing::Picture_options how;
+    how.width = request.width;
+    how.height = request.height;
+    const auto direction = [](const std::vector<double>& v) {
+      return v.empty() ? Vector<3>{} : Vector<3>{v[0], v[1], v[2]};
+    };
+    how.camera.toward = direction(request.toward);
+    how.camera.up = direction(request.up);
+    if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
+    const drawing::Image image =
+        drawing::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
+    io::write_file(folder / "picture.png", drawing::encode_png(image));
+  }
+  const ordered_json said = report(world, files, motion ? &*motion : nullptr);
+  io::write_json(folder / "run.json", said);
+  if (record) record->write();
+  write_json(outputs.json, said);
+  interruption.check();
+  outputs.all.commit(summary(world, files, motion.has_value(), picture.has_value()));
+}
+
+template <int D>
+std::string Run<D>::caption(const World<D>& world, std::uint64_t contacts) const {
+  const std::string title = scene.title.empty() ? "" : scene.title + ": ";
+  std::string text = title;
+  if (const Rod<D>* rod = world.catheter())
+    text += fmt::format("catheter of {} vertices, ", rod->body().vertex_count());
+  if (!world.particles().empty()) text += fmt::format("{} free particles, ", world.particles().size());
+  if (const std::size_t count = world.bodies().size() - scene.catheter.has_value(); count > 0)
+    text += fmt::format("{} {}, ", count, count == 1 ? "body" : "bodies");
+  return text + fmt::format("{} steps, {} contacts", steps(), contacts);
+}
+
+/// The scene as it was run, for the manifest.
+template <int D>
+ordered_json Run<D>::scene_text() const {
+  constexpr bool throws = true, skips_comments = true;
+  return ordered_json::parse(options.scene_text, nullptr, throws, skips_comments);
+}
+
+template <int D>
+ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
+                            const Run_motion<D>* motion) const {
+  ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
+  result["environment"] = cli::to_json(certificate, D);
+  result["particles"] = {{"free", world.particles().size()}};
+  ordered_json kinds;
+  for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
+  result["contacts"] = kinds;
+  if (!world.bodies().empty())
+    result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
+  if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
+  result["frames"] = files.frame_count();
+  if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->record_count()}};
+  result["validated"] = true;  // World::validate has returned
+  result["counts"] = to_json(world.counts());
+  if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());
+  // Everything needed to repeat the run, and nothing that differs between machines or days.
+  result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
+  if (!world.bodies().empty())
+    result["manifest"]["sweep"] = sweep_names[static_cast<std::size_t>(options.body.sweep.sweep)];
+  if (!options.record.empty()) result["manifest"]["recorded"] = true;
+  return result;
+}
+
+template <int D>
+std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion,
+                            bool picture) const {
+  std::string text = fmt::format("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  const auto& contacts = files.contacts();
+  line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
+  if (!world.particles().empty()) line("particles", fmt::format("{} free", world.particles().size()));
+  const Body_sizes sizes = sizes_of(world, scene);
+  if (sizes.bodies > 0)
+    line("bodies", fmt::format("{}, with {} vertices, {} edges, {} faces", sizes.bodies, sizes.vertices,
+                               sizes.edges, sizes.faces));
+  line("contacts",
+       fmt::format("{} ({} with facets, {} with edges, {} with vertices)",
+                   contacts[0] + contacts[1] + contacts[2], contacts[2], contacts[1], contacts[0]));
+  if (sizes.bodies > 0) {
+    line("of bodies", describe_contacts(files.body_contacts()));
+    line("moves", describe_moves(world.body_counts()));
+    line("edges", describe_edges(world.body_counts().edges));
+  }
+  if (sizes.guided > 0)
+    line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
+  if (const Rod<D>* rod = world.catheter()) line("catheter", describe_catheter(*rod));
+  line("validated",
+       sizes.bodies > 0
+           ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
+           : "every particle lies in its cell, by exact predicates");
+  std::string written = "run.json, contacts.csv";
+  if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
+  if (motion) written += ", motion.gz";
+  if (picture) written += ", picture.png";
+  line("written", fmt::format("{}: {}", options.folder, written));
+  if (!options.record.empty()) line("recorded", options.record);
+  return text;
+}
+
+template <int D>
+void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>& scene) {
+  if (const auto* file = std::get_if<std::string>(&scene.environment)) outputs.all.also_reads(*file);
+  for (const auto& body : scene.bodies)
+    if (const auto* file = std::get_if<std::string>(&body.source)) outputs.all.also_reads(*file);
+  const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
+  if (!options.record.empty()) check_recordable(scene, bodies.shapes, options.scene);
+  const Prepared_environment prepared = prepare(scene.environment, options.scene);
+  const auto* environment = std::get_if<Environment<D>>(&prepared.environment);
+  if (!environment)
+    throw Error(Error_code::input,
+                fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",
+                            options.scene, 5 - D, D));
+  Run<D>{scene, options, outputs, *environment, prepared.certificate, bodies}();
+}
+
+void run(Run_options options) {
+  Run_outputs outputs(options);
+  Scene_source source = load_scene(options.scene, options.changes);
+  options.scene = source.name;
+  options.scene_text = std::move(source.text);
+  std::visit([&](const auto& scene) { run_scene(options, outputs, scene); }, source.scene);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a scene: bodies, particles and a catheter among walls");
+  const auto options = std::make_shared<Run_options>();
+  command
+      ->add_option("scene", options->scene,
+                   "The scene, see docs/scenes.md; without one 225 hexahedra bounce among 1000 cells "
+                   "(data/hexahedra.json)")
+      ->type_name("SCENE.json");
+  command->add_option("-o,--output", options->folder, "Folder for the results; must not exist yet")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--set", options->changes,
+                   "Replace a value of the scene: environment.cells=[46,46,47], bodies[0].count=50")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
+      ->type_name("N")
+      ->check(whole_number(1, 100000000));
+  command->add_option("--threads", options->threads, "Use at most so many threads; the results are the same")
+      ->type_name("N")
+      ->check(whole_number(1, 1024));
+  const CLI::Option* sweep = add_choice(
+      *command, "--sweep", options->body.sweep.sweep,
+      {{sweep_names[0], Sweep::three_segments},
+       {sweep_names[1], Sweep::triangle},
+       {sweep_names[2], Sweep::faces}},
+      "What is checked of bodies: edges by the paper's three segments, which miss what fits between them; "
+      "the triangles that edges sweep; or faces as well");
+  command
+      ->add_option(
+          "--record", options->record,
+          "Record the motion with its exact answers, for cellwalk replay: of hexahedra in a grid of unit "
+          "cubes. A vertex that meets a wall stays where it is, and edges are checked by three segments")
+      ->type_name("TRACE");
+  add_json(*command, options->json);
+  command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
+  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
+                          "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
+  command->callback([options, sweep, &chosen] {
+    const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
+    chosen = [options, other_sweep] {
+      if (!options->record.empty()) {
+        if (other_sweep)
+          throw Error(Error_code::usage,
+                      "bodies that are recorded move by three segments: leave --sweep out, or --record");
+        options->body.sweep.sweep = Sweep::three_segments;
+      }
+      std::optional<tbb::global_control> limit;
+      if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);
+      try {
+        run(*options);
+      } catch (const Interrupted& interrupted) {
+        end_by(interrupted);
+      }
+    };
+  });
+}
+
+}  // namespace cellwalk::cli

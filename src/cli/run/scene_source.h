@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The scene that `cellwalk run` is asked for: a file or the built-in one, with what the command line changes of it.
+#ifndef CELLWALK_CLI_RUN_SCENE_SOURCE_H
+#define CELLWALK_CLI_RUN_SCENE_SOURCE_H
+
+#include <cellwalk/records/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace cellwalk::cli {
+
+struct Scene_source {
+  std::string name;  ///< as errors say it
+  std::string text;  ///< JSON, maybe with comments
+  Any_scene scene;
+};
+
+/// Reads a scene, or takes the one built in (data/hexahedra.json) where no file is named. \throw Error as io::change_scene and
+/// io::read_scene
+Scene_source load_scene(const std::string& path, const std::vector<std::string>& changes);
+
+/// What data/hexahedra.json says.
+extern const char* const built_in_scene;
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_SCENE_SOURCE_H

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The contact of an edge with a wall at a point.
+#ifndef CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
+#define CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
+
+#include <cellwalk/edge/contact.h>
+
+#include "edge/exact/rational_segment.h"
+
+namespace cellwalk::detail {
+
+/// x is a point of the wall. The normal is that of the wall.
+template <int D>
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
+                        const Exact_point<D>& x);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "touch.h"
+
+#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/walk/signs.h>
+
+#include <limits>
+#include <vector>
+
+#include "swept_meeting.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// True if the edge comes from the side of a wall that a contact names.
+template <int D>
+bool is_faced(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
+              Walk_counts& counts) {
+  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
+  const std::size_t i = snapshot.facet_of(contact.facet);
+  const int of_a = side<Exact>(cell, i, triangle.a, counts);
+  return (of_a != 0 ? of_a : side<Exact>(cell, i, triangle.q, counts)) <= 0;
+}
+
+/// The order of contacts; but of two sides of a wall, or several walls at one place, one from whose side the edge comes. A
+/// triangle may reach round a rim, so that both sides are met.
+template <int D>
+bool is_preferred(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
+                  const Contact<D>& other, Walk_counts& counts) {
+  if (contact.time == other.time && contact.body == other.body && contact.kind == other.kind) {
+    const bool is_first = is_faced(snapshot, triangle, contact, counts);
+    if (is_first != is_faced(snapshot, triangle, other, counts)) return is_first;
+  }
+  return is_before(contact, other);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
+                                      const Swept_triangle<D>& triangle, Edge_counts& counts,
+                                      bool with_start) {
+  std::optional<Contact<D>> first;
+  const auto look_at = [&](Half_facet wall) {
+    ++counts.search_walls;
+    const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
+    const auto facet = half_spaces(cell, snapshot.facet_of(wall));
+    const auto meeting =
+        with_start ? first_closed_meeting<D>(triangle, facet) : first_meeting<D>(triangle, facet);
+    if (!meeting) return true;
+    const Contact<D> contact = contact_with(snapshot, triangle, wall, *meeting);
+    if (!first || is_preferred(snapshot, triangle, contact, *first, counts.walk)) first = contact;
+    return true;
+  };
+  Flooded cells;
+  flood(snapshot, start, triangle, counts, std::numeric_limits<std::size_t>::max(), cells, look_at);
+  return first;
+}
+
+template std::optional<Contact<2>> first_touch<2>(const Snapshot<2>&, Cell, const Swept_triangle<2>&,
+                                                  Edge_counts&, bool);
+template std::optional<Contact<3>> first_touch<3>(const Snapshot<3>&, Cell, const Swept_triangle<3>&,
+                                                  Edge_counts&, bool);
+
+}  // namespace cellwalk::detail

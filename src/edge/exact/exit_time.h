@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// When a moving point leaves a cell.
+#ifndef CELLWALK_EDGE_EXACT_EXIT_TIME_H
+#define CELLWALK_EDGE_EXACT_EXIT_TIME_H
+
+#include <optional>
+
+#include "moving_line.h"
+
+namespace cellwalk::detail {
+
+/// The share of the way from a to b at which it leaves a cell: where it passes the plane of the first facet that has b outside.
+/// \pre the way passes the closed cell, and b lies outside
+template <int D>
+Moment<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+  std::optional<Moment<D>> first;
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    const Moving_orientation<D> side = moving_side<D>(cell, i, a, b, counts);
+    if (side.at_1() <= 0) continue;
+    if (!side.has_root()) return {};  // a lies in the plane
+    const auto time = Moment<D>::root_of(side);
+    if (!first || time < *first) first = time;
+  }
+  return *first;
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_EXACT_EXIT_TIME_H

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A segment with a rational end, and where it meets facets, exactly: for chains that lie in planes of facets.
+#ifndef CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
+#define CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
+
+#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/walk/signs.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "half_space.h"
+
+namespace cellwalk::detail {
+
+/// Closed interval of parameters.
+struct Span {
+  Fraction low, high;
+  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders it begins and ends; none where it does at
+  /// an end of the segment.
+  int low_border = -1, high_border = -1;
+};
+
+/// The segment from p (parameter 0) to q (parameter 1).
+template <int D>
+class Rational_segment {
+ public:
+  Rational_segment(const Point<D>& p, const Point<D>& q) : p_{exact<D>(p)}, q_(exact<D>(q)) {}
+  /// The edge that sweeps a triangle, at a time.
+  Rational_segment(const Swept_triangle<D>& triangle, const Fraction& time)
+      : p_(Rational_segment(triangle.a, triangle.b).at(time)), q_(exact<D>(triangle.q)) {}
+
+  Exact_point<D> at(const Fraction& t) const;
+  /// Parameters of the points in closed facet i of a cell.
+  std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
+  /// Where it passes the border of a half-space of facet i, see Span; 1 if all of it, or its end, lies there.
+  Fraction at_border(const Cell_view<D>& cell, std::size_t i, int border) const;
+  /// The parameter of the point in the plane of facet i. \pre there is one
+  Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
+
+ private:
+  bool clip(Span& span, const Half_space<D>& h, int border) const;
+
+  Exact_point<D> p_;
+  Ring_vector<D> q_;
+};
+
+/// The lowest vertex, edge or facet of closed facet i of a cell that holds x, a point of it.
+template <int D>
+Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Exact_point<D>& x);
+
+extern template class Rational_segment<2>;
+extern template class Rational_segment<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H

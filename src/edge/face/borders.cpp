@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "borders.h"
+
+#include <cellwalk/internal/walk/signs.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "edge/chain/chain_side.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// An edge of a face, and the corner opposite to it: the face begins at the edge in the direction of that.
+class Border {
+ public:
+  Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
+      : snapshot_(snapshot), side_(side), opposite_(opposite), counts_(counts) {}
+
+  Half_facet wall_between(const Near_walls& near) {
+    boost::container::small_vector<Half_facet, 4> holding;
+    for (const Half_facet wall : near.walls)
+      if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0 && side(wall, opposite_) != 0)
+        holding.push_back(wall);  // and not the face
+    if (holding.empty()) return Half_facet::none;
+    edge_.emplace(snapshot_, side_.from, side_.to);
+    // Between the ends of the pieces that walls hold, all is as in the middle.
+    std::vector<Fraction> ends;
+    for (const Half_facet wall : near.walls) {
+      const std::optional<Span> met = edge_->in_facet(wall);
+      if (met) ends.insert(ends.end(), {met->low, met->high});
+    }
+    std::sort(ends.begin(), ends.end());
+    for (const Half_facet wall : holding) {
+      const std::optional<Span> met = edge_->in_facet(wall);
+      for (std::size_t k = 0; met && k + 1 < ends.size(); ++k) {
+        if (!(ends[k] < ends[k + 1]) || ends[k] < met->low || ends[k + 1] > met->high) continue;
+        if (!begins_at(middle(ends[k], ends[k + 1]))) return towards_face(wall);
+      }
+    }
+    return Half_facet::none;
+  }
+
+ private:
+  int side(Half_facet f, const Point<3>& x) const {
+    return detail::side<Exact>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), x, counts_);
+  }
+
+  /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
+  bool begins_at(const Fraction& t) const {
+    for (const Cell c : linked_cells(*edge_, side_.start, *side_.chain.chain, t)) {
+      bool holds_face = true;
+      for (std::size_t i = 0; i < snapshot_.facet_count(c) && holds_face; ++i) {
+        const Half_facet f = Snapshot<3>::half_facet(c, i);
+        const std::optional<Span> met = edge_->in_facet(f);
+        if (!met || t < met->low || met->high < t) continue;
+        // The point lies in the plane of f: the side of the opposite corner is that of the face. If the face lies in a wall,
+        // its rests say where, and agree with the chain.
+        holds_face = side(f, opposite_) <= 0;
+      }
+      if (holds_face) return true;
+    }
+    return false;
+  }
+
+  /// The side of a wall on which the face lies.
+  Half_facet towards_face(Half_facet wall) const {
+    const Half_facet other = snapshot_.opposite(wall);
+    return side(wall, opposite_) > 0 && other != Half_facet::none ? other : wall;
+  }
+
+  const Snapshot<3>& snapshot_;
+  const Face_side& side_;
+  const Point<3>& opposite_;
+  std::optional<Exact_edge> edge_;  ///< made where a wall holds it, which is rare
+  Walk_counts& counts_;
+};
+
+}  // namespace
+
+Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
+                          const Near_walls& near, Walk_counts& counts) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Face_side& next = sides[(k + 1) % 3];
+    const Point<3>& opposite = next.chain.is_reversed ? next.from : next.to;
+    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(near);
+    if (wall != Half_facet::none) return wall;
+  }
+  return Half_facet::none;
+}
+
+}  // namespace cellwalk::detail

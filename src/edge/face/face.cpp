@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
+
+#include <cmath>
+
+#include "borders.h"
+#include "edge/exact/exit_time.h"
+#include "find_rests.h"
+#include "near_walls.h"
+#include "swept_tetrahedron.h"
+#include "triangle_in_plane.h"
+
+namespace cellwalk {
+namespace {
+
+using detail::Corners;
+using detail::Near_walls;
+using detail::Swept_tetrahedron;
+using detail::Triangle_in_plane;
+
+/// A face whose swept tetrahedron has a volume, near walls.
+class Face_sweep {
+ public:
+  Face_sweep(const Snapshot<3>& snapshot, const Corners& corners, Face_counts& counts)
+      : snapshot_(snapshot), corners_(corners), tetrahedron_(corners, counts), counts_(counts) {}
+
+  std::optional<Contact<3>> first_contact(const Near_walls& near, const Face_rests& rests) {
+    for (const Half_facet rest : rests)
+      if (side(rest, corners_[1]) > 0) note(rest);
+    for (const Half_facet wall : near.walls)
+      if (tetrahedron_.meets(view(wall), snapshot_.facet_of(wall))) note(wall);
+    if (wall_ == Half_facet::none) return {};
+    return contact();
+  }
+
+  /// The rests of the face at the end of a free motion.
+  Face_rests rests_at_end(const Near_walls& near) const {
+    Face_rests rests;
+    std::optional<Triangle_in_plane> face;
+    for (const Half_facet wall : near.walls) {
+      if (side(wall, corners_[1]) != 0) continue;
+      if (!face) face.emplace(std::array{corners_[1], corners_[2], corners_[3]}, counts_.walk);
+      const std::size_t i = snapshot_.facet_of(wall);
+      if (!face->holds(view(wall), i) || !face->overlaps(view(wall), i)) continue;
+      // Of walls that coincide without being glued, the face lies on the one whose cell is on its side.
+      const Half_facet rest = side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall);
+      if (rest != Half_facet::none) rests.push_back(rest);
+    }
+    detail::sort(rests);
+    return rests;
+  }
+
+ private:
+  Cell_view<3> view(Half_facet f) const { return snapshot_.view(snapshot_.cell_of(f)); }
+  int side(Half_facet f, const Point<3>& x) const {
+    return detail::side<Exact>(view(f), snapshot_.facet_of(f), x, counts_.walk);
+  }
+
+  /// Keeps the first touch of all walls: earliest, then on the lowest feature, then of the lowest half-facet.
+  void note(Half_facet wall) {
+    const Swept_tetrahedron::Touch touch = tetrahedron_.first_touch(view(wall), snapshot_.facet_of(wall));
+    if (wall_ != Half_facet::none) {
+      if (first_.time < touch.time) return;
+      if (first_.time == touch.time && (first_.feature.kind < touch.feature.kind ||
+                                        (first_.feature.kind == touch.feature.kind && wall_ < wall)))
+        return;
+    }
+    first_ = touch;
+    wall_ = wall;
+  }
+
+  Contact<3> contact() const {
+    Contact<3> contact;
+    contact.time = to_time(first_.time);
+    contact.point = first_.point.rounded();
+    contact.kind = first_.feature.kind;
+    contact.corner = first_.feature.corner;
+    contact.body = first_.body;
+    contact.facet = wall_;
+    contact.cell = snapshot_.cell_of(wall_);
+    contact.normal = first_.feature.kind == Contact_kind::facet
+                         ? detail::inner_normal(view(wall_), snapshot_.facet_of(wall_))
+                         : tetrahedron_.normal_at(first_.time);
+    return contact;
+  }
+
+  const Snapshot<3>& snapshot_;
+  Corners corners_;
+  Swept_tetrahedron tetrahedron_;
+  Face_counts& counts_;
+  Swept_tetrahedron::Touch first_;
+  Half_facet wall_ = Half_facet::none;
+};
+
+/// The contact of a face of which an edge lies on the other side of a wall.
+Face_result astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
+  Contact<3> contact;
+  contact.point = start;
+  contact.body = Body_feature::edge;
+  contact.facet = wall;
+  contact.cell = snapshot.cell_of(wall);
+  contact.normal = detail::inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
+  return {{}, contact, true};
+}
+
+/// Rests of a face that moved in its plane, or was put there.
+Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
+                           const Particle<3>& r, const Face_chains& chains, const Near_walls& near,
+                           const Face_rests& known, detail::Known use, Face_counts& counts) {
+  if (are_collinear(p.position, q.position, r.position)) return {};
+  const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
+  return detail::find_rests(snapshot, triangle, detail::sides_of(chains, p, q, r), near, known, use);
+}
+
+}  // namespace
+
+Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
+                       const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
+                       Face_counts& counts) {
+  ++counts.faces;
+  const Corners corners{way.from.position, way.to.position, q.position, r.position};
+  Near_walls near(way.from.cell);
+  detail::find_near_walls(snapshot, corners, near, counts);
+  if (near.walls.empty()) {
+    ++counts.clear;
+    return {};
+  }
+  counts.walls += near.walls.size();
+  const bool is_made = !way.blocked && chains.are_complete();
+  Face_result result;
+  if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
+    if (!is_made) return result;
+    ++counts.flat;
+    const Face_registration end =
+        standing(snapshot, way.to, q, r, chains, near, rests, detail::Known::binding, counts);
+    if (end.piercing != Half_facet::none) return astray(snapshot, end.piercing, corners[0]);
+    result.rests = end.rests;
+  } else {
+    Face_sweep sweep(snapshot, corners, counts);
+    result.contact = sweep.first_contact(near, rests);
+    if (result.contact && way.blocked) {
+      const Cell last = way.visited.back();
+      const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
+      if (result.contact->time >= to_time(blocked.value())) result.contact.reset();
+    }
+    if (result.contact || !is_made) return result;
+    result.rests = sweep.rests_at_end(near);
+  }
+  if (are_collinear(corners[1], corners[2], corners[3])) return result;
+  const Half_facet wall =
+      detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near, counts.walk);
+  if (wall == Half_facet::none) return result;
+  return astray(snapshot, wall, corners[0]);
+}
+
+Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
+                                const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
+                                const Face_rests& known) {
+  ++counts.faces;
+  Near_walls near(p.cell);
+  detail::find_near_walls(snapshot, {p.position, p.position, q.position, r.position}, near, counts);
+  if (near.walls.empty()) {
+    ++counts.clear;
+    return {};
+  }
+  counts.walls += near.walls.size();
+  Face_registration result =
+      standing(snapshot, p, q, r, chains, near, known, detail::Known::preferred, counts);
+  if (result.piercing != Half_facet::none || are_collinear(p.position, q.position, r.position)) return result;
+  const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
+  for (const Half_facet wall : near.walls)
+    if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
+      result.piercing = wall;
+  if (result.piercing == Half_facet::none)
+    result.piercing = detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), near, counts.walk);
+  return result;
+}
+
+}  // namespace cellwalk

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "events.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "edge/chain/equal_chains.h"
+#include "edge/chain/plainly_equal.h"
+#include "edge/contact/edge_contact.h"
+#include "edge/exact/exit_time.h"
+#include "edge/exact/rational_segment.h"
+#include "in_line.h"
+#include "moving_walk.h"
+#include "relink.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// p leaves a cell: when, through which facets, and for which cell.
+template <int D>
+struct Step {
+  Moment<D> time;
+  std::span<const Half_facet> facets;
+  Cell next;
+};
+
+template <int D>
+class Events {
+ public:
+  Events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, Walk_counts& counts,
+         std::optional<double> until)
+      : snapshot_(snapshot),
+        triangle_{way.from.position, way.to.position, q.position},
+        first_(way.from.cell),
+        start_(way.from.cell),
+        q_(q),
+        counts_(counts) {
+    plan(way);
+    if (until) limit_ = Moment<D>(*until);
+    if (!way.blocked) return;
+    const auto blocked = exit_time<D>(snapshot.view(way.visited.back()), triangle_.a, triangle_.b, counts);
+    if (!limit_ || blocked < *limit_) limit_ = blocked;
+  }
+
+  Sweep_result<D> run(const Chain& before) {
+    Sweep_result<D> result{{}, before};
+    Chain& chain = result.chain;
+    Moment<D> time;
+    for (auto step = steps_.begin(); !limit_ || time < *limit_;) {
+      for (; step != steps_.end() && !(time < step->time); ++step) {
+        walk_start(snapshot_, chain, step->facets);
+        start_ = step->next;
+      }
+      const Moving_line<D> line(triangle_, time, counts_);
+      std::optional<Rational_segment<D>> segment;
+      const auto exact_segment = [&]() -> const Rational_segment<D>& {
+        if (!segment) segment.emplace(triangle_, time.value());
+        return *segment;
+      };
+      Half_facet parting = Half_facet::none;
+      const auto accept = [&](const Chain& other) {
+        return are_plainly_equal(snapshot_, line, chain, other) ||
+               are_equal(snapshot_, exact_segment(), start_, chain, other, parting);
+      };
+      Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
+      std::optional<Moment<D>> next;
+      const bool is_found = walk.from(start_);
+      // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell which one it goes.
+      const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
+      const auto relinked =
+          is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
+      if (relinked) {
+        chain = relinked->chain;
+        if (relinked->end < Moment<D>(1.0)) next = relinked->end;
+      } else if (is_found) {
+        chain = walk.chain();
+      } else {
+        chain.clear();
+        result.contact = contact(to_time(time.value()), line, exact_segment(),
+                                 walk.wall() != Half_facet::none ? walk.wall() : parting);
+        return result;
+      }
+      if (const auto end = end_of(chain, line); end && (!next || *end < *next)) next = *end;
+      if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
+      if (!next) break;
+      time = *next;
+    }
+    return result;
+  }
+
+ private:
+  /// Whether a wall near the triangle lies in its plane; looked for once.
+  bool lies_in_wall_plane(const Moving_line<D>& line) {
+    if (!in_wall_plane_) in_wall_plane_ = has_wall_in_plane(snapshot_, line, first_);
+    return *in_wall_plane_;
+  }
+
+  void plan(const Way<D>& way) {
+    std::size_t passed = 0;
+    for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
+      const std::size_t first = passed;
+      Cell cell = way.visited[i];
+      while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
+      const auto facets = way.crossed.subspan(first, passed - first);
+      steps_.push_back({passing_time(facets), facets, cell});
+    }
+  }
+
+  /// The first time at which p lies in all of some facets, which it passes together.
+  Moment<D> passing_time(std::span<const Half_facet> facets) const {
+    if (facets.size() == 1) {
+      const Half_facet f = facets.front();
+      const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f),
+                                       triangle_.a, triangle_.b, counts_);
+      if (side.has_root()) return Moment<D>::root_of(side);
+      if (side.at_1() != 0) return {};  // a lies in it
+    }
+    const Rational_segment<D> way_of_p(triangle_.a, triangle_.b);
+    Fraction time = 0;
+    for (const Half_facet f : facets)
+      if (const auto met = way_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
+        time = std::max<Fraction>(time, met->low);
+    return Moment<D>(time);
+  }
+
+  /// The next time at which one of the signs changes that make the edge pass its chain.
+  std::optional<Moment<D>> end_of(const Chain& chain, const Moving_line<D>& line) const {
+    std::optional<Moment<D>> end;
+    const auto note = [&](const Moment<D>& root) {
+      if (!end || root < *end) end = root;
+    };
+    for (const Half_facet f : chain)
+      line.for_all_roots(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), note);
+    return end;
+  }
+
+  Contact<D> contact(const Exact_time& time, const Moving_line<D>& line, const Rational_segment<D>& segment,
+                     Half_facet wall) const {
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(wall));
+    const std::size_t i = snapshot_.facet_of(wall);
+    std::optional<Fraction> at;
+    if (leaves_through(cell, i, line))
+      at = segment.in_plane(cell, i);
+    else if (const auto met = segment.in_facet(cell, i))
+      at = met->low;
+    return edge_contact<D>(snapshot_, time, wall, segment.at(at ? *at : Fraction(1)));
+  }
+
+  /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time of a line.
+  bool leaves_through(const Cell_view<D>& cell, std::size_t i, const Moving_line<D>& line) const {
+    if (side<Exact>(cell, i, triangle_.q, counts_) <= 0) return false;
+    const Moment<D>& now = line.time();
+    if (now.sign_of(line.side_of(cell, i)) > 0) return false;
+    const std::size_t ridges = cell.loop(i).size();
+    for (std::size_t k = 0; k < ridges; ++k)
+      if (now.sign_of(line.along_of(cell, i, k)) < 0) return false;
+    return true;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Swept_triangle<D> triangle_;
+  const Cell first_;  ///< of p before it moves
+  Cell start_;        ///< of p
+  const Particle<D>& q_;
+  Walk_counts& counts_;
+  std::vector<Step<D>> steps_;
+  std::optional<Moment<D>> limit_;  ///< no event from then on matters
+  std::optional<bool> in_wall_plane_;
+};
+
+}  // namespace
+
+template <int D>
+Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                              const Chain& before, Walk_counts& counts, std::optional<double> until) {
+  if (are_collinear(way.from.position, way.to.position, q.position))
+    return sweep_in_line(snapshot, way, q, before, counts, until);
+  return Events<D>(snapshot, way, q, counts, until).run(before);
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                    \
+  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+                                            const Chain&, Walk_counts&, std::optional<double>);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweep of an edge from event to event, exactly. Theory: docs/sweep.md, events.
+#ifndef CELLWALK_EDGE_SWEEP_EVENTS_H
+#define CELLWALK_EDGE_SWEEP_EVENTS_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/contact.h>
+#include <cellwalk/edge/swept_triangle.h>
+
+#include <optional>
+
+namespace cellwalk::detail {
+
+/// Carries the chain along until p arrives, is blocked, or `until`; contacts from then on do not count. Any position is legal,
+/// p moving in the line of its edge too.
+template <int D>
+Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                              const Chain& before, Walk_counts& counts, std::optional<double> until = {});
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_SWEEP_EVENTS_H

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/may_meet.h>
+
+#include "confirm.h"
+#include "edge/flood/pierced.h"
+#include "events.h"
+
+namespace cellwalk {
+namespace {
+
+template <int D>
+std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Way<D>& way,
+                                          const Particle<D>& q, const Chain& before, Edge_counts& counts) {
+  ++counts.event_sweeps;
+  Sweep_result<D> result = detail::follow_events(snapshot, way, q, before, counts.walk);
+  if (result.contact) return {};
+  return Free_chain{std::move(result.chain)};
+}
+
+/// What the walls near a swept triangle prove of it.
+enum class Walls_say { free, blocked, nothing };
+
+template <int D>
+Walls_say ask_walls(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
+                    Edge_counts& counts) {
+  detail::Flooded found;
+  bool is_met = false, is_pierced = false;
+  const auto on_wall = [&](Half_facet f) {
+    is_met = true;
+    const Cell_view<D> cell = snapshot.view(snapshot.cell_of(f));
+    is_pierced = detail::is_pierced(cell, snapshot.facet_of(f), triangle, counts.walk);
+    return !is_pierced;
+  };
+  const bool is_whole =
+      detail::flood(snapshot, start, triangle, counts, detail::most_flooded, found, on_wall);
+  if (is_pierced) {
+    ++counts.pierced;
+    return Walls_say::blocked;
+  }
+  if (!is_whole || is_met) return Walls_say::nothing;
+  ++counts.clear;
+  return Walls_say::free;
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+                                     const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+  if (way.from.position == way.to.position) {
+    ++counts.edges;
+    ++counts.same_chain;
+    return Free_chain{before, way.is_apart};
+  }
+  Chain_result<D> result;
+  const std::uint64_t signs = counts.walk.predicates.orientations;
+  if (detail::is_confirmed(snapshot, way, q, before, options.certificates, result, counts)) {
+    // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside, or its ends lie
+    // strictly inside of cells. With the way of p, so does the edge at all times before, but perhaps where it started.
+    return Free_chain{result.chain, way.is_apart && counts.walk.predicates.orientations == signs};
+  }
+  ++counts.changed;
+  // Where a facet is passed in its inside, the edge is on both sides of it, wherever it came from.
+  const bool is_crossed =
+      result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
+  if (is_crossed) return {};
+  if (options.sweep == Sweep::three_segments)
+    return result.contact || result.has_choice ? chain_by_events(snapshot, way, q, before, counts)
+                                               : Free_chain{result.chain};
+  if (options.certificates.flood) {
+    const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
+    switch (ask_walls(snapshot, way.from.cell, triangle, counts)) {
+      case Walls_say::blocked:
+        return {};
+      case Walls_say::free:
+        if (!result.contact) return Free_chain{result.chain, true};
+        break;
+      case Walls_say::nothing:
+        break;
+    }
+  }
+  return chain_by_events(snapshot, way, q, before, counts);
+}
+
+template std::optional<Free_chain> free_chain<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
+                                                 const Chain&, const Sweep_options&, Edge_counts&);
+template std::optional<Free_chain> free_chain<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
+                                                 const Chain&, const Sweep_options&, Edge_counts&);
+
+}  // namespace cellwalk

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "relink.h"
+
+#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/walk/link_search.h>
+
+#include <algorithm>
+
+#include "edge/chain/equal_chains.h"
+#include "edge/chain/ordered_ways.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// True if a facet of a cell does.
+template <int D>
+bool holds_triangle(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell c) {
+  const Cell_view<D> cell = snapshot.view(c);
+  for (std::size_t i = 0; i < cell.facet_count(); ++i)
+    if (line.holds_triangle(cell, i)) return true;
+  return false;
+}
+
+template <int D>
+class Relinking {
+ public:
+  Relinking(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, const Particle<D>& q,
+            const Chain& chain)
+      : snapshot_(snapshot),
+        line_(line),
+        start_(start),
+        q_(q),
+        chain_(chain),
+        now_(at(line.time().value())),
+        pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)),
+        cells_(linked_cells(snapshot, start, [&](const Cell_view<D>& cell, std::size_t i) {
+          return now_.in_facet(cell, i).has_value();
+        })) {}
+
+  std::optional<Relinked<D>> run() {
+    if (!lies_in_plane()) return {};
+    const Moment<D> end = next_root();
+    const Rational_segment<D> after = at(middle(line_.time().value(), end.value()));
+    Ordered_ways<D, Relinking> ways(snapshot_, after, q_, *this, line_.counts());
+    if (!ways.find(start_)) return {};
+    return Relinked<D>{ways.chain(), end};
+  }
+
+  /// True if a way is not equal to the chain up to a place.
+  bool is_wrong(const Chain& way, const Fraction& end) const {
+    const auto pieces = pieces_of<D>(snapshot_, now_, start_, {way.data(), way.size()}, end);
+    return parting_of(snapshot_, now_, pieces_, pieces).has_value();
+  }
+  /// Where the place at which the edge passes a border just after this time ends up at this time.
+  Fraction limit_of(const Cell_view<D>& cell, std::size_t i, int border) const {
+    return now_.at_border(cell, i, border);
+  }
+  bool is_accepted(const Chain& way) const {
+    Half_facet wall = Half_facet::none;
+    return are_equal(snapshot_, now_, start_, chain_, way, wall);
+  }
+  /// There are two sides only: which of them comes after the one preferred is no question.
+  bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
+
+ private:
+  Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
+
+  bool lies_in_plane() const {
+    return std::any_of(cells_.begin(), cells_.end(),
+                       [&](Cell c) { return holds_triangle(snapshot_, line_, c); });
+  }
+
+  /// Until then, the edge passes the facets of these cells in the same way.
+  Moment<D> next_root() const {
+    Moment<D> end(1.0);
+    const auto note = [&](const Moment<D>& root) {
+      if (root < end) end = root;
+    };
+    for (const Cell c : cells_) {
+      const Cell_view<D> cell = snapshot_.view(c);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i) line_.for_all_roots(cell, i, note);
+    }
+    return end;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Moving_line<D>& line_;
+  const Cell start_;
+  const Particle<D>& q_;
+  const Chain& chain_;
+  const Rational_segment<D> now_;
+  const std::vector<Piece> pieces_;  ///< of the chain
+  const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
+};
+
+/// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the triangle.
+template <int D>
+bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, bool of_walls) {
+  Flooded cells{start};
+  for (std::size_t head = 0; head < cells.size(); ++head) {
+    const Cell c = cells[head];
+    const Cell_view<D> cell = snapshot.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      const bool is_wall = snapshot.is_impassable(f);
+      if ((is_wall || !of_walls) && line.holds_triangle(cell, i)) return true;
+      if (is_wall) continue;
+      const Cell next = snapshot.neighbor(f);
+      if (std::find(cells.begin(), cells.end(), next) == cells.end() &&
+          may_be_near(cell, i, line.triangle(), line.counts()))
+        cells.push_back(next);
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, Cell start) {
+  return may_lie_in_plane(snapshot, line, start, true);
+}
+
+template <int D>
+std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
+                                  const Particle<D>& q, const Chain& chain) {
+  if (!may_lie_in_plane(snapshot, line, start, false)) return {};
+  return Relinking<D>(snapshot, line, start, q, chain).run();
+}
+
+template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
+                                              const Particle<2>&, const Chain&);
+template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
+                                              const Particle<3>&, const Chain&);
+
+}  // namespace cellwalk::detail

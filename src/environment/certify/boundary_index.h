@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Boundary facets by where they are, kept while an environment is edited. Internal.
+#ifndef CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_INDEX_H
+#define CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_INDEX_H
+
+#include <cellwalk/environment/snapshot.h>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace cellwalk::detail {
+
+template <int D>
+using Box_corner = boost::geometry::model::point<double, D, boost::geometry::cs::cartesian>;
+template <int D>
+using Box = boost::geometry::model::box<Box_corner<D>>;
+
+/// The box of some points.
+template <int D>
+Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices);
+
+/// The box of some cells. \pre at least one
+template <int D>
+Box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells);
+
+/// An R-tree over the boxes of all boundary facets. Does not refer to the snapshot.
+template <int D>
+class Boundary_index {
+ public:
+  /// A boundary facet and its box.
+  using Entry = std::pair<Box<D>, std::uint32_t>;
+
+  /// Cost: a look at each facet, and a sort of those on the boundary.
+  explicit Boundary_index(const Snapshot<D>& snapshot);
+
+  /// The boundary facets of cells as they are now.
+  static std::vector<Entry> entries(const Snapshot<D>& snapshot, std::span<const Cell> cells);
+
+  /// Follows an edit: `old` are the entries before, `now` those after it, of the cells that it changed.
+  /// Cost: logarithmic in the size of the boundary for each that differs.
+  void replace(std::span<const Entry> old, std::span<const Entry> now);
+
+  /// The facets whose boxes meet a box, ascending.
+  std::vector<Half_facet> meeting(const Box<D>& box) const;
+
+ private:
+  boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> tree_;
+};
+
+extern template class Boundary_index<2>;
+extern template class Boundary_index<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_INDEX_H

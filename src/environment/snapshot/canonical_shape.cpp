@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "canonical_shape.h"
+
+#include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace cellwalk {
+namespace {
+
+constexpr std::uint16_t unseen = std::numeric_limits<std::uint16_t>::max();
+
+/// Where the traversal enters a facet: its number in the cell, and the position in its loop that comes first.
+struct Entry {
+  std::uint16_t facet;
+  std::uint16_t start;
+};
+
+/// Facet entered through each directed edge of the cell, by local vertex numbers of first appearance.
+class Edge_table {
+ public:
+  void reset(std::size_t vertex_count) {
+    count_ = vertex_count;
+    entries_.assign(vertex_count * vertex_count, Entry{unseen, 0});
+  }
+  Entry& at(std::size_t u, std::size_t v) { return entries_[u * count_ + v]; }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<Entry> entries_;
+};
+
+/// Buffers of one thread.
+struct Scratch {
+  std::vector<std::uint32_t> points;    // distinct point indices by first appearance
+  std::vector<std::uint16_t> local;     // local number by first appearance, for each loop entry of the cell
+  std::vector<std::uint16_t> renumber;  // canonical number of each local vertex
+  std::vector<std::uint8_t> reached;    // per facet
+  std::vector<Entry> queue;
+  Edge_table edges;
+};
+
+template <int D>
+void number_by_appearance(const Cell_soup<D>& soup, std::size_t c, Scratch& s) {
+  s.points.clear();
+  s.local.clear();
+  const std::size_t begin = soup.facet_begin[soup.cell_begin[c]],
+                    end = soup.facet_begin[soup.cell_begin[c + 1]];
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t v = soup.vertices[i];
+    const auto it = std::find(s.points.begin(), s.points.end(), v);
+    s.local.push_back(static_cast<std::uint16_t>(it - s.points.begin()));
+    if (it == s.points.end()) s.points.push_back(v);
+  }
+  if (s.points.size() >= unseen / 4 || s.local.size() >= unseen)
+    throw Error(Error_code::input, "cell " + std::to_string(c) + " has more than 16,000 vertices: split it");
+}
+
+}  // namespace
+
+void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
+                   std::span<std::uint16_t> loop) {
+  const std::size_t n = loop.size();
+  if (n <= 3) return;
+  const auto at = [&](std::size_t i) -> const Point<3>& { return points[vertices[loop[i % n]]]; };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (are_collinear(at(i), at(i + 1), at(i + 2))) continue;
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
+    return;
+  }
+}
+
+template <int D>
+void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
+                  Canonical_cell& out) {
+  thread_local Scratch s;
+  number_by_appearance(soup, c, s);
+  const std::uint32_t first_facet = soup.cell_begin[c];
+  const std::size_t facets = soup.cell_begin[c + 1] - first_facet;
+  const std::uint32_t first_entry = soup.facet_begin[first_facet];
+  const auto loop_of = [&](std::size_t f) {
+    const std::uint32_t begin = soup.facet_begin[first_facet + f] - first_entry;
+    const std::uint32_t end = soup.facet_begin[first_facet + f + 1] - first_entry;
+    return std::span<const std::uint16_t>(s.local.data() + begin, s.local.data() + end);
+  };
+  s.edges.reset(s.points.size());
+  for (std::size_t f = 0; f < facets; ++f) {
+    const auto loop = loop_of(f);
+    // In 2D a facet is one directed edge; the next one round the cell starts where it ends.
+    const std::size_t edges_of_loop = D == 2 ? 1 : loop.size();
+    for (std::size_t i = 0; i < edges_of_loop; ++i) {
+      const Entry entry{static_cast<std::uint16_t>(f), static_cast<std::uint16_t>(i)};
+      if constexpr (D == 2)
+        s.edges.at(loop[0], 0) = entry;
+      else
+        s.edges.at(loop[i], loop[(i + 1) % loop.size()]) = entry;
+    }
+  }
+
+  out.shape.loop_begin.assign(1, 0);
+  out.shape.loops.clear();
+  out.shape.vertex_count = static_cast<std::uint16_t>(s.points.size());
+  out.vertices.clear();
+  out.facets.clear();
+  s.renumber.assign(s.points.size(), unseen);
+  s.reached.assign(facets, 0);
+  s.queue.clear();
+  for (std::size_t seed = 0; seed < facets; ++seed) {
+    if (s.reached[seed]) continue;
+    s.reached[seed] = 1;
+    std::size_t head = s.queue.size();
+    s.queue.push_back({static_cast<std::uint16_t>(seed), 0});
+    for (; head < s.queue.size(); ++head) {
+      const Entry entry = s.queue[head];
+      const auto loop = loop_of(entry.facet);
+      const std::size_t n = loop.size(), loop_start = out.shape.loops.size();
+      out.facets.push_back(first_facet + entry.facet);
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::uint16_t u = loop[(entry.start + k) % n];
+        if (s.renumber[u] == unseen) {
+          s.renumber[u] = static_cast<std::uint16_t>(out.vertices.size());
+          out.vertices.push_back(s.points[u]);
+        }
+        out.shape.loops.push_back(s.renumber[u]);
+        const std::uint16_t v = loop[(entry.start + k + 1) % n];
+        const Entry next = D == 2 ? s.edges.at(loop[1], 0) : s.edges.at(v, u);
+        if (next.facet == unseen || s.reached[next.facet]) continue;
+        s.reached[next.facet] = 1;
+        s.queue.push_back(next);
+      }
+      if constexpr (D == 3) turn_off_line(points, out.vertices, {out.shape.loops.data() + loop_start, n});
+      out.shape.loop_begin.push_back(static_cast<std::uint16_t>(out.shape.loops.size()));
+    }
+  }
+}
+
+template void canonicalize<2>(const Cell_soup<2>&, const std::vector<Point<2>>&, std::size_t,
+                              Canonical_cell&);
+template void canonicalize<3>(const Cell_soup<3>&, const std::vector<Point<3>>&, std::size_t,
+                              Canonical_cell&);
+
+}  // namespace cellwalk

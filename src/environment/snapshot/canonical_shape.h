@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Numbering the vertices and facets of a cell so that cells of one combinatorial type get one shape.
+#ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
+#define CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
+
+#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/records/cell_soup.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cellwalk {
+
+/// A cell of a soup with its facets and vertices renumbered. Reused from cell to cell: no allocation once
+/// warm.
+struct Canonical_cell {
+  Cell_shape shape;
+  std::vector<std::uint32_t> vertices;  ///< point index of each local vertex
+  std::vector<std::uint32_t> facets;    ///< half-facet of the soup for each facet of the shape
+};
+
+/// Renumbers cell c by a breadth-first traversal of its facets from the first vertex of its first facet, then
+/// turns each loop until its first three vertices (3D) do not lie on one line. Facets that the traversal does
+/// not reach (the cell is not closed; certification refuses it) follow in input order.
+template <int D>
+void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
+                  Canonical_cell& out);
+
+/// Turns a loop until its first three vertices do not lie on one line, if three in a row do not. `vertices` are the points of
+/// the cell's local vertices.
+void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
+                   std::span<std::uint16_t> loop);
+
+extern template void canonicalize<2>(const Cell_soup<2>&, const std::vector<Point<2>>&, std::size_t,
+                                     Canonical_cell&);
+extern template void canonicalize<3>(const Cell_soup<3>&, const std::vector<Point<3>>&, std::size_t,
+                                     Canonical_cell&);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "compiler.h"
+
+#include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/policies.h>
+
+#include <algorithm>
+
+#include "plane_compiler.h"
+
+namespace cellwalk {
+namespace {
+
+/// Side of x against facet i of a cell: > 0 strictly outside.
+int side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
+  Predicate_counts counts;
+  const auto loop = cell.loop(i);
+  return -Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), x);
+}
+
+int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x) {
+  Predicate_counts counts;
+  const auto loop = cell.loop(i);
+  return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), x);
+}
+
+/// The facet of a cell other than `facet` with the ridge that leads from point u to point v in facet's loop
+/// (2D: with the vertex u); facet_count() if there is none.
+template <int D>
+std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint32_t u, std::uint32_t v) {
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    if (i == facet) continue;
+    const auto loop = cell.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if constexpr (D == 2) {
+        if (cell.point_index(loop[k]) == u) return i;
+      } else {
+        const std::uint16_t next = loop[k + 1 == loop.size() ? 0 : k + 1];
+        if (cell.point_index(loop[k]) == v && cell.point_index(next) == u) return i;
+      }
+    }
+  }
+  return cell.facet_count();
+}
+
+/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its plane.
+template <int D>
+bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::uint32_t u, std::uint32_t v) {
+  const auto loop = cell.loop(j);
+  return std::all_of(loop.begin(), loop.end(), [&](std::uint16_t w) {
+    const std::uint32_t point = cell.point_index(w);
+    return point == u || (D == 3 && point == v) || side(cell, i, cell.point(w)) == 0;
+  });
+}
+
+}  // namespace
+
+template <int D>
+std::uint32_t Snapshot_compiler<D>::shape_number(const Cell_shape& shape) {
+  const std::lock_guard lock(shapes_mutex_);
+  // Meshes have a handful of shapes, polyhedral ones up to thousands: the last one found is the likeliest.
+  for (std::size_t i = s_.shapes_.size(); i-- > 0;)
+    if (s_.shapes_[i] == shape) return static_cast<std::uint32_t>(i);
+  s_.shapes_.push_back(shape);
+  return static_cast<std::uint32_t>(s_.shapes_.size() - 1);
+}
+
+template <int D>
+void Snapshot_compiler<D>::write_cell(const Canonical_cell& cell, std::uint32_t block, std::uint32_t vertex,
+                                      std::uint32_t index, bool solid) {
+  const std::size_t blocks = blocks_for(cell.shape.facet_count());
+  for (std::uint32_t i = 0; i < blocks; ++i) {
+    clear_block(block + i);
+    s_.shape_[block + i] = Snapshot<D>::continuation_bit | i;
+    s_.index_[block + i] = index;
+    s_.vertex_begin_[block + i] = vertex;
+  }
+  s_.shape_[block] = shape_number(cell.shape) | (solid ? Snapshot<D>::solid_bit : 0);
+  std::copy(cell.vertices.begin(), cell.vertices.end(), s_.vertices_.begin() + vertex);
+  s_.cell_of_index_[index] = block;
+}
+
+template <int D>
+void Snapshot_compiler<D>::clear_block(std::uint32_t block) {
+  Plane_block<D>& planes = s_.planes_[block];
+  for (Float4& n : planes.normal) n = Float4{0, 0, 0, 0};
+  planes.offset = Float4{-1, -1, -1, -1};
+  for (std::size_t lane = 0; lane < 4; ++lane)
+    s_.links_[4 * std::size_t{block} + lane] = Snapshot<D>::link_mask;
+}
+
+template <int D>
+void Snapshot_compiler<D>::remove_cell(Cell c) {
+  const std::size_t blocks = s_.block_count(c);
+  for (std::size_t block = to_index(c); block < to_index(c) + blocks; ++block) {
+    clear_block(static_cast<std::uint32_t>(block));
+    s_.planes_[block].offset = Float4{1, 1, 1, 1};
+    for (std::size_t lane = 0; lane < 4; ++lane) s_.links_[4 * block + lane] |= Snapshot<D>::wall_bit;
+    s_.index_[block] = to_index(Cell::none);
+  }
+  s_.shape_[to_index(c)] |= Snapshot<D>::removed_bit | Snapshot<D>::solid_bit;
+}
+
+template <int D>
+void Snapshot_compiler<D>::turn_loops(Cell c) {
+  if constexpr (D == 3) {
+    const Cell_view<3> cell = s_.view(c);
+    const auto is_off_line = [&](std::span<const std::uint16_t> loop) {
+      return loop.size() <= 3 ||
+             !are_collinear(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+    };
+    std::size_t facet = 0;
+    while (facet < cell.facet_count() && is_off_line(cell.loop(facet))) ++facet;
+    if (facet == cell.facet_count()) return;
+    Cell_shape shape = *cell.shape;
+    for (; facet < shape.facet_count(); ++facet) {
+      const std::uint16_t begin = shape.loop_begin[facet], end = shape.loop_begin[facet + 1];
+      turn_off_line(s_.points_, cell.vertices, {shape.loops.data() + begin, shape.loops.data() + end});
+    }
+    const std::uint32_t solid = s_.shape_[to_index(c)] & Snapshot<D>::solid_bit;
+    s_.shape_[to_index(c)] = shape_number(shape) | solid;
+  }
+}
+
+template <int D>
+std::size_t Snapshot_compiler<D>::count_uncertified(Cell c) const {
+  std::size_t uncertified = 0;
+  for (std::size_t i = 0; i < s_.facet_count(c); ++i) {
+    const Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
+    bool certified = block.offset[i % 4] != 0;
+    for (int k = 0; k < D; ++k) certified |= block.normal[k][i % 4] != 0;
+    uncertified += !certified;
+  }
+  return uncertified;
+}
+
+template <int D>
+std::size_t Snapshot_compiler<D>::write_planes(Cell c) {
+  const Cell_view<D> cell = s_.view(c);
+  std::size_t uncertified = 0;
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    const auto loop = cell.loop(i);
+    Float_plane<D> plane;
+    if constexpr (D == 2)
+      plane = make_plane(s_.frame_, cell.point(loop[0]), cell.point(loop[1]));
+    else
+      plane = make_plane(s_.frame_, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+    bool certified = false;
+    Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
+    for (int k = 0; k < D; ++k) {
+      block.normal[k][i % 4] = plane.normal[k];
+      certified |= plane.normal[k] != 0;
+    }
+    block.offset[i % 4] = plane.offset;
+    uncertified += !certified;
+  }
+  return uncertified;
+}
+
+template <int D>
+void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
+  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
+  const Half_facet opposite = s_.opposite(f);
+  if (opposite == Half_facet::none) return;
+  const Cell a = s_.cell_of(f), b = s_.cell_of(opposite);
+  const Cell_view<D> va = s_.view(a), vb = s_.view(b);
+  const auto is_convex = [&] {
+    for (std::size_t i = 0; i < va.facet_count(); ++i) {
+      const Half_facet shared = s_.half_facet(a, i);
+      if (s_.neighbor(shared) != b) continue;
+      if (s_.is_impassable(shared)) return false;
+      const std::size_t j = s_.facet_of(s_.opposite(shared));
+      const auto loop = va.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::uint32_t u = va.point_index(loop[k]), v = va.point_index(loop[(k + 1) % loop.size()]);
+        const std::size_t ga = across_ridge(va, i, u, v), gb = across_ridge(vb, j, D == 2 ? u : v, u);
+        if (ga == va.facet_count() || gb == vb.facet_count()) return false;
+        // A ridge between two shared facets lies inside the union.
+        if (s_.neighbor(s_.half_facet(a, ga)) == b &&
+            s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
+          continue;
+        bool in_one_plane = true;
+        for (const std::uint16_t w : vb.loop(gb)) {
+          // The ridge itself lies in both facets: exact zeros that need not be computed.
+          const std::uint32_t point = vb.point_index(w);
+          if (point == u || (D == 3 && point == v)) continue;
+          const int s = side(va, ga, vb.point(w));
+          if (s > 0) return false;
+          in_one_plane &= s == 0;
+        }
+        // Where that plane is the one of the shared facet, both cells go on in it without being glued: a slit.
+        if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
+      }
+    }
+    return true;
+  };
+  const bool convex = is_convex();
+  for (const Half_facet h : {f, opposite}) {
+    std::uint32_t& word = s_.links_[to_index(h)];
+    word = convex ? word | bit : word & ~bit;
+  }
+}
+
+template <int D>
+void Snapshot_compiler<D>::link(Half_facet f, Half_facet g, bool wall) {
+  const std::uint32_t bits = wall ? Snapshot<D>::wall_bit : 0;
+  s_.links_[to_index(f)] = to_index(s_.cell_of(g)) | bits;
+  s_.links_[to_index(g)] = to_index(s_.cell_of(f)) | bits;
+}
+
+template <int D>
+void Snapshot_compiler<D>::link_boundary(Half_facet f) {
+  s_.links_[to_index(f)] = Snapshot<D>::link_mask | Snapshot<D>::wall_bit;
+}
+
+template class Snapshot_compiler<2>;
+template class Snapshot_compiler<3>;
+
+}  // namespace cellwalk

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <string>
+
+#include "canonical_shape.h"
+#include "compiler.h"
+
+namespace cellwalk {
+namespace {
+
+/// The lowest free run of a length, taken, or else one at the end of its array; and whether it is that.
+std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::uint32_t>>& runs,
+                                        std::size_t length, std::size_t end) {
+  const auto run = runs.lower_bound({static_cast<std::uint32_t>(length), 0});
+  if (run == runs.end() || run->first != length) return {static_cast<std::uint32_t>(end), true};
+  const std::uint32_t first = run->second;
+  runs.erase(run);
+  return {first, false};
+}
+
+}  // namespace
+
+template <int D>
+Half_facet Snapshot<D>::opposite(Half_facet f) const {
+  const Cell other = neighbor(f);
+  if (other == Cell::none) return Half_facet::none;
+  const Cell own = cell_of(f);
+  const Cell_view<D> a = view(own), b = view(other);
+  const auto loop = a.loop(facet_of(f));
+  const std::uint32_t u = a.point_index(loop[0]), v = a.point_index(loop[1]);
+  // The edge uv of one loop is the edge vu of the other; a cell has each directed edge once.
+  for (std::size_t i = 0; i < b.facet_count(); ++i) {
+    if (neighbor(half_facet(other, i)) != own) continue;
+    const auto candidate = b.loop(i);
+    for (std::size_t k = 0; k < candidate.size(); ++k)
+      if (b.point_index(candidate[k]) == v && b.point_index(candidate[(k + 1) % candidate.size()]) == u)
+        return half_facet(other, i);
+  }
+  return Half_facet::none;
+}
+
+template <int D>
+std::vector<std::uint32_t> Snapshot<D>::loop(Half_facet f) const {
+  const Cell c = cell_of(f);
+  const Cell_view<D> cell = view(c);
+  std::vector<std::uint32_t> result;
+  for (const std::uint16_t v : cell.loop(facet_of(f))) result.push_back(cell.point_index(v));
+  return result;
+}
+
+template <int D>
+void Snapshot<D>::refuse_edited(const char* what_and_advice) {
+  throw Error(Error_code::usage, std::string("the environment was edited after ") + what_and_advice);
+}
+
+template <int D>
+void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
+  const Half_facet g = opposite(f);
+  if (g == Half_facet::none || is_impassable(f) == wall) return;  // the boundary stays a wall
+  for (const Half_facet h : {f, g}) {
+    std::uint32_t& word = links_[to_index(h)];
+    word = wall ? word | wall_bit : word & ~wall_bit;
+  }
+  // Other facets shared by the two cells carry the same convex-pair condition.
+  const Cell a = cell_of(f), b = cell_of(g);
+  Snapshot_compiler<D> compiler(*this);
+  for (std::size_t i = 0; i < facet_count(a); ++i)
+    if (neighbor(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
+  ++epoch_;
+}
+
+template <int D>
+void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
+  geometry_epoch_ = ++epoch_;
+  Snapshot_compiler<D> compiler(*this);
+  // Convex pairs are told by the first vertices of loops, those of neighbours too.
+  for (const Cell c : cells) compiler.turn_loops(c);
+  for (const Cell c : cells) {
+    uncertified_planes_ -= compiler.count_uncertified(c);
+    uncertified_planes_ += compiler.write_planes(c);
+  }
+  std::vector<Cell> sorted(cells.begin(), cells.end());
+  std::sort(sorted.begin(), sorted.end());
+  for (const Cell c : sorted)
+    for (std::size_t i = 0; i < facet_count(c); ++i) {
+      const Half_facet f = half_facet(c, i);
+      // A facet between two of the cells is written from the first of them, for both sides.
+      if (neighbor(f) < c && std::binary_search(sorted.begin(), sorted.end(), neighbor(f))) continue;
+      compiler.write_convex_pair(f);
+    }
+}
+
+/// Finds room for a cell, and writes all of it but its links and certificates.
+template <int D>
+Cell Snapshot<D>::add_cell(const Canonical_cell& cell, std::uint32_t index, bool solid) {
+  const std::size_t blocks = Snapshot_compiler<D>::blocks_for(cell.shape.facet_count());
+  if (blocks != uniform_blocks_) uniform_blocks_ = 0;
+  const auto [block, is_new_block] = take_run(free_blocks_, blocks, planes_.size());
+  const auto [vertex, is_new_vertex] = take_run(free_vertices_, cell.vertices.size(), vertices_.size());
+  if (is_new_block) {
+    planes_.resize(block + blocks);
+    links_.resize(4 * (block + blocks));
+    vertex_begin_.resize(block + blocks);
+    shape_.resize(block + blocks);
+    index_.resize(block + blocks);
+  }
+  if (is_new_vertex) vertices_.resize(vertex + cell.vertices.size());
+  if (index == cell_of_index_.size()) cell_of_index_.push_back(0);
+  Snapshot_compiler<D>(*this).write_cell(cell, block, vertex, index, solid);
+  return Cell{block};
+}
+
+template <int D>
+std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
+                                             const Gluing& gluing, std::vector<Half_facet>* slots) {
+  // What can fail for want of sense comes first.
+  std::vector<Canonical_cell> cells(soup.cell_count());
+  for (std::size_t c = 0; c < cells.size(); ++c) canonicalize(soup, points_, c, cells[c]);
+
+  // The outer facets that the removed cells leave open: neighbours keep them, whoever comes.
+  std::vector<Half_facet> open;
+  for (const Cell c : removed) {
+    free_indices_.insert(index(c));
+    for (std::size_t i = 0; i < facet_count(c); ++i) {
+      const Half_facet f = half_facet(c, i), g = opposite(f);
+      if (g != Half_facet::none && std::find(removed.begin(), removed.end(), cell_of(g)) == removed.end())
+        open.push_back(g);
+    }
+  }
+  std::vector<bool> open_is_wall;
+  for (const Half_facet g : open) open_is_wall.push_back(is_impassable(g));
+
+  // The indices of those that go in their order, then the lowest free ones, then new ones.
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < std::min(removed.size(), cells.size()); ++i) {
+    indices.push_back(index(removed[i]));
+    free_indices_.erase(indices.back());
+  }
+  while (indices.size() < cells.size() && !free_indices_.empty())
+    indices.push_back(free_indices_.extract(free_indices_.begin()).value());
+  for (auto next = static_cast<std::uint32_t>(cell_of_index_.size()); indices.size() < cells.size(); ++next)
+    indices.push_back(next);
+
+  Snapshot_compiler<D> compiler(*this);
+  Free_runs left_blocks, left_vertices;
+  for (const Cell c : removed) {
+    left_blocks.emplace(block_count(c), to_index(c));
+    left_vertices.emplace(view(c).vertex_count(), vertex_begin_[to_index(c)]);
+    uncertified_planes_ -= compiler.count_uncertified(c);
+    cell_of_index_[index(c)] = to_index(Cell::none);
+    compiler.remove_cell(c);
+  }
+
+  std::vector<Cell> added;
+  std::vector<Half_facet> slot(soup.facet_count());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    added.push_back(add_cell(cells[c], indices[c], soup.solid[c]));
+    for (std::size_t k = 0; k < cells[c].facets.size(); ++k)
+      slot[cells[c].facets[k]] = half_facet(added.back(), k);
+  }
+  // Not before: a name that went now must not be that of another cell at once.
+  free_blocks_.merge(left_blocks);
+  free_vertices_.merge(left_vertices);
+
+  for (const Half_facet g : open) compiler.link_boundary(g);  // until a new cell comes there
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
+    const std::uint32_t g = gluing.opposite[f];
+    if (g != no_facet) {
+      if (f < g) compiler.link(slot[f], slot[g], soup.impassable[f] || soup.impassable[g]);
+      continue;
+    }
+    compiler.link_boundary(slot[f]);
+    const std::vector<std::uint32_t> own = loop(slot[f]);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      std::vector<std::uint32_t> other = loop(open[i]);
+      if (!std::is_permutation(own.begin(), own.end(), other.begin(), other.end())) continue;
+      compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
+      break;
+    }
+  }
+  update_geometry(added);
+  if (slots) *slots = std::move(slot);
+  return added;
+}
+
+template <int D>
+std::size_t Snapshot<D>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::size_t n = of(planes_) + of(links_) + of(vertex_begin_) + of(shape_) + of(index_) + of(vertices_) +
+                  of(cell_of_index_) + of(points_);
+  for (const Cell_shape& shape : shapes_) n += sizeof shape + of(shape.loops) + of(shape.loop_begin);
+  return n;
+}
+
+template class Snapshot<2>;
+template class Snapshot<3>;
+
+}  // namespace cellwalk

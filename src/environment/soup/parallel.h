@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#ifndef CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
+#define CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace cellwalk {
+
+/// Calls f(i) for i in [0, n), in any order and on any thread.
+template <class F>
+void for_each_parallel(std::size_t n, const F& f) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
+  });
+}
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/csv.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "text.h"
+
+namespace cellwalk::io {
+namespace {
+
+std::string_view trimmed(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t"), last = s.find_last_not_of(" \t");
+  return first == std::string_view::npos ? std::string_view{} : s.substr(first, last - first + 1);
+}
+
+/// The fields of a line; "" within quotes is one quote.
+std::vector<std::string> split(const Line_reader& in) {
+  std::string_view rest = in.rest();
+  std::vector<std::string> fields;
+  for (bool more = true; more;) {
+    const std::size_t first = rest.find_first_not_of(" \t");
+    if (first == std::string_view::npos || rest[first] != '"') {
+      const std::size_t end = std::min(rest.find(','), rest.size());
+      fields.emplace_back(trimmed(rest.substr(0, end)));
+      more = end < rest.size();
+      rest.remove_prefix(more ? end + 1 : end);
+      continue;
+    }
+    std::string field;
+    std::size_t i = first + 1;
+    for (; i < rest.size(); ++i) {
+      if (rest[i] == '"' && !rest.substr(i + 1).starts_with('"')) break;
+      if (rest[i] == '"') ++i;
+      field.push_back(rest[i]);
+    }
+    if (i >= rest.size()) in.fail("a quote is left open");
+    rest.remove_prefix(i + 1);
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    more = rest.starts_with(',');
+    if (!more && !rest.empty()) in.fail("text follows a quoted field, where a comma should be");
+    if (more) rest.remove_prefix(1);
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+}  // namespace
+
+Csv_table Csv_table::parse(const std::string& name, std::string_view text) {
+  Csv_table table;
+  table.name_ = name;
+  Line_reader in(name, text, '\0');
+  const auto next = [&] {
+    while (in.next_line()) {
+      if (!in.rest().starts_with('#')) return true;
+    }
+    return false;
+  };
+  if (!next()) io::fail(name, "holds no header: the names of the columns are to stand in its first line");
+  table.columns_ = split(in);
+  std::unordered_set<std::string_view> names;
+  for (const std::string& column : table.columns_) {
+    if (column.empty()) in.fail("a column without a name");
+    if (!names.insert(column).second) in.fail(fmt::format("two columns are named '{}'", shown(column)));
+  }
+  while (next()) {
+    for (std::string& field : split(in)) table.fields_.push_back(std::move(field));
+    table.field_begin_.push_back(table.fields_.size());
+    table.lines_.push_back(in.line());
+  }
+  return table;
+}
+
+Csv_table Csv_table::read(const std::filesystem::path& path) { return parse(path.string(), load(path)); }
+
+std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), name);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::size_t Csv_table::column(std::string_view name) const {
+  if (const auto found = find_column(name)) return *found;
+  constexpr std::size_t most = 20;  // names that one line can show
+  const std::size_t named = std::min(most, columns_.size());
+  std::string names = shown(columns_[0]);
+  for (std::size_t c = 1; c < named; ++c) names.append(",").append(shown(columns_[c]));
+  if (named < columns_.size()) names += fmt::format(" and {} more", columns_.size() - named);
+  io::fail(name_, fmt::format("has no column '{}': its header names {}", name, names));
+}
+
+std::optional<std::string_view> Csv_table::field(std::size_t row, std::size_t column) const {
+  const std::size_t i = field_begin_[row] + column;
+  if (i >= field_begin_[row + 1]) return std::nullopt;
+  return fields_[i];
+}
+
+Parsed_number Csv_table::number(std::size_t row, std::size_t column) const {
+  const auto text = field(row, column);
+  Parsed_number number = text ? parse_number(*text) : Parsed_number{0, "the row ends before it"};
+  if (!number) number.reason = fmt::format("{}: {}", shown(columns_[column]), number.reason);
+  return number;
+}
+
+std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
+  const std::size_t count = field_begin_[row + 1] - field_begin_[row];
+  if (count == columns_.size()) return std::nullopt;
+  return fmt::format("{} fields, where the header has {}", count, columns_.size());
+}
+
+Csv_writer::Csv_writer(std::filesystem::path path, std::vector<std::string> columns)
+    : own_(std::make_unique<Atomic_file>(std::move(path))), file_(*own_), column_count_(columns.size()) {
+  header(columns);
+}
+
+Csv_writer::Csv_writer(Atomic_file& file, std::vector<std::string> columns)
+    : file_(file), column_count_(columns.size()) {
+  header(columns);
+}
+
+void Csv_writer::header(const std::vector<std::string>& columns) {
+  begin_row(columns.size());
+  for (const std::string& column : columns) add(column);
+  end_row();
+}
+
+void Csv_writer::begin_row(std::size_t count) {
+  if (count != column_count_)
+    throw Error(Error_code::usage, fmt::format("a row of {} values for {} columns", count, column_count_));
+  row_.clear();
+  first_ = true;
+}
+
+void Csv_writer::end_row() {
+  row_.push_back('\n');
+  file_.write(row_);
+}
+
+void Csv_writer::add_bare(std::string_view text) {
+  if (!first_) row_.push_back(',');
+  first_ = false;
+  row_.append(text);
+}
+
+void Csv_writer::add(double value) { add_bare(std::isfinite(value) ? shortest(value) : std::string()); }
+
+void Csv_writer::add(std::string_view text) {
+  if (text.find_first_of(",\"\n\r#") == std::string_view::npos && text == trimmed(text))
+    return add_bare(text);
+  std::string quoted = "\"";
+  for (char c : text) {
+    if (c == '"') quoted.push_back('"');
+    quoted.push_back(c == '\n' || c == '\r' ? ' ' : c);
+  }
+  add_bare(quoted + "\"");
+}
+
+void Csv_writer::commit() {
+  if (own_) own_->commit();
+}
+
+}  // namespace cellwalk::io

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/output.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace cellwalk::io {
+namespace {
+
+/// Names a signal handler can clean up at a time.
+constexpr std::size_t slot_count = 32;
+constexpr std::size_t longest_path = 4096;  // PATH_MAX of Linux
+
+/// Names of unfinished files where a signal handler can read them: fixed storage, no allocation.
+struct Slot {
+  std::atomic<int> state{0};  // 0 free, 1 being filled, 2 filled
+  std::array<char, longest_path> path{};
+};
+std::array<Slot, slot_count> slots;
+
+std::atomic<bool> names_change = false;
+
+/// While it lives, signals that end the program wait: on this thread they are blocked, on others the handler waits.
+class Hold_signals {
+ public:
+  Hold_signals() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+    names_change.store(true);
+  }
+  ~Hold_signals() {
+    names_change.store(false);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Hold_signals(const Hold_signals&) = delete;
+  Hold_signals& operator=(const Hold_signals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+bool exchange(const std::filesystem::path& a, const std::filesystem::path& b) noexcept {
+  if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return true;
+  return (errno == EINVAL || errno == ENOSYS) && detail::exchange_in_steps(a, b);
+}
+
+}  // namespace
+
+bool detail::exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept {
+  const std::string aside = a.string() + ".old";
+  const bool is_linked = link(b.c_str(), aside.c_str()) == 0;  // a directory cannot be
+  if (!is_linked && std::rename(b.c_str(), aside.c_str()) != 0) return false;
+  if (std::rename(a.c_str(), b.c_str()) == 0) return std::rename(aside.c_str(), a.c_str()) == 0;
+  const int why = errno;
+  if (is_linked)
+    unlink(aside.c_str());
+  else
+    std::rename(aside.c_str(), b.c_str());
+  errno = why;
+  return false;
+}
+
+void put_in_place(std::span<Output* const> outputs, const std::function<void()>& finish) {
+  for (Output* output : outputs)
+    if (output->can_be_taken_back()) output->prepare();
+  for (Output* output : outputs)
+    if (!output->can_be_taken_back()) output->prepare();
+  std::size_t done = 0;
+  try {
+    {
+      const Hold_signals hold;
+      for (; done < outputs.size(); ++done) outputs[done]->put();
+    }
+    if (finish) finish();
+  } catch (...) {
+    const Hold_signals hold;
+    while (done > 0) outputs[--done]->take_back();
+    throw;
+  }
+  for (Output* output : outputs) output->settle();
+}
+
+void Unfinished::hold(const std::string& path) {
+  release();
+  if (path.size() >= longest_path) return;
+  for (std::size_t i = 0; i < slot_count; ++i) {
+    int free = 0;
+    if (!slots[i].state.compare_exchange_strong(free, 1)) continue;
+    std::memcpy(slots[i].path.data(), path.c_str(), path.size() + 1);
+    slots[i].state.store(2);
+    slot_ = static_cast<int>(i);
+    return;
+  }
+}
+
+void Unfinished::release() noexcept {
+  if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state.store(0);
+  slot_ = -1;
+}
+
+bool Replacement::put(const std::filesystem::path& from, const std::filesystem::path& to) {
+  struct stat status;
+  had_old_ = lstat(to.c_str(), &status) == 0;
+  return had_old_ ? exchange(from, to) : std::rename(from.c_str(), to.c_str()) == 0;
+}
+
+void Replacement::take_back(const std::filesystem::path& from, const std::filesystem::path& to) noexcept {
+  if (had_old_)
+    exchange(from, to);
+  else
+    std::rename(to.c_str(), from.c_str());
+}
+
+void discard_unfinished_files() noexcept {
+  while (names_change.load()) usleep(100);
+  for (Slot& slot : slots)
+    if (slot.state.load() == 2) unlink(slot.path.data());
+  for (Slot& slot : slots)  // folders, which are empty now
+    if (slot.state.load() == 2) rmdir(slot.path.data());
+}
+
+}  // namespace cellwalk::io

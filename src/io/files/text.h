@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: a whole text file in memory, read line by line, with errors that name file and line.
+#ifndef CELLWALK_IO_FILES_TEXT_H
+#define CELLWALK_IO_FILES_TEXT_H
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace cellwalk::io {
+
+/// The bytes of a file; a gzip'ed file is inflated, whatever it is called.
+/// \throw Error(input) if it cannot be read, or its gzip stream is damaged
+std::string load(const std::filesystem::path& path);
+
+/// The bytes of a file as they are. \throw Error(input) if it cannot be read
+std::string load_packed(const std::filesystem::path& path);
+/// What a gzip stream holds; `file` stands for it in errors. \throw Error(input) if it is damaged
+std::string unpack(const std::string& file, const std::string& packed);
+
+/// True if the bytes begin like a gzip stream.
+bool is_gzip(std::string_view bytes);
+
+/// A word as error messages show it: the beginning of a long one.
+std::string shown(std::string_view word);
+
+/// \throw Error(input) "file: what" always, on one line
+[[noreturn]] void fail(const std::string& file, const std::string& what);
+/// \throw Error(input) "file:line: what" always, on one line
+[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what);
+
+/// Walks over the lines of a text that outlives it, and over the words of the current line.
+/// Blank lines are skipped; what follows a comment character is ignored. Line ends may be \n or \r\n.
+class Line_reader {
+ public:
+  Line_reader(std::string file, std::string_view text, char comment = '#');
+
+  /// Moves to the next line that has words. False at the end of the text.
+  bool next_line();
+  /// As next_line(), but the end of the text is an error: "ends where `expected` should be".
+  void need_line(std::string_view expected);
+  /// Makes the next call of next_line() return the current line again.
+  void unread() { position_ = line_begin_, --line_number_; }
+
+  /// The text after the current line.
+  std::string_view remaining() const { return text_.substr(position_); }
+
+  /// Words of the current line, separated by blanks and tabs. Empty at its end.
+  std::string_view word();
+  bool at_line_end();
+  std::string_view rest() const { return rest_; }  ///< what is left of the current line
+
+  /// The next word as a finite number. \throw Error(input) naming `what`
+  double number(std::string_view what);
+  /// The next word as an integer >= 0. \throw Error(input) naming `what`
+  std::uint64_t count(std::string_view what);
+  /// The next word as an index below `size`, `base` taken off. \throw Error(input) naming `what`
+  std::uint32_t index(std::string_view what, std::size_t size, std::uint32_t base = 0);
+  /// Refuses a line that has further words. \throw Error(input)
+  void expect_line_end(std::string_view after);
+
+  /// A bound for how many lines of at least `bytes` bytes are left: what may be reserved in advance.
+  std::size_t plausible(std::uint64_t announced, std::size_t bytes) const;
+
+  const std::string& file() const { return file_; }
+  std::size_t line() const { return line_number_; }  ///< number of the current line, from 1
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::string file_;
+  std::string_view text_;
+  std::string_view rest_;
+  std::size_t position_ = 0, line_begin_ = 0, line_number_ = 0;
+  char comment_;
+};
+
+/// True if two words are equal but for the case of their letters (ASCII).
+bool same_word(std::string_view a, std::string_view b);
+
+/// Letters of ASCII in lower case.
+std::string lower(std::string_view text);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_FILES_TEXT_H

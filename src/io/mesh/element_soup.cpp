@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "element_soup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/files/text.h"
+
+namespace cellwalk::io {
+
+bool is_flat(const std::vector<Point<3>>& points) {
+  return !points.empty() &&
+         std::all_of(points.begin(), points.end(), [](const Point<3>& p) { return p[2] == 0; });
+}
+
+Mesh_file surface_or_plane(Surface_soup surface, Read_report report) {
+  report.points = surface.points.size();
+  report.facets = surface.facets.size();
+  if (!is_flat(surface.points)) return {std::move(surface), std::move(report)};
+  Cell_soup<2> cells;
+  for (const Point<3>& p : surface.points) cells.points.push_back({p[0], p[1]});
+  for (const auto& polygon : surface.facets) add_polygon(cells, polygon);
+  report.cells = cells.cell_count();
+  report.facets = cells.facet_count();
+  report.notes.push_back("every z is zero: the polygons are 2D cells");
+  return {std::move(cells), std::move(report)};
+}
+
+Mesh_file volumes_or_polygons(const std::string& name, Element_soup elements, Read_report report) {
+  if (elements.volumes.cell_count() == 0) {
+    if (elements.polygons.empty()) fail(name, "holds neither volume cells nor polygons");
+    return surface_or_plane({std::move(elements.volumes.points), std::move(elements.polygons)},
+                            std::move(report));
+  }
+  if (!elements.polygons.empty())
+    report.notes.push_back(
+        fmt::format("{} polygons beside the volume cells ignored", elements.polygons.size()));
+  report.points = elements.volumes.points.size();
+  report.cells = elements.volumes.cell_count();
+  report.facets = elements.volumes.facet_count();
+  return {std::move(elements.volumes), std::move(report)};
+}
+
+}  // namespace cellwalk::io

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/mesh_file.h>
+#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/planar_file.h>
+#include <cellwalk/io/surface_file.h>
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "element_soup.h"
+#include "format.h"
+#include "io/files/text.h"
+#include "optional_readers.h"
+#include "parse_mesh.h"
+
+namespace cellwalk::io {
+namespace {
+
+constexpr const char *gmsh_purpose = "reads .msh, .mesh and .unv", *vtk_purpose = "reads .vtk, .vtu and .vtp";
+
+Mesh_file surface(const std::string& name, std::string_view bytes, Surface_format format) {
+  Read_report report;
+  Surface_soup soup = parse_surface(name, bytes, format, &report);
+  return surface_or_plane(std::move(soup), std::move(report));
+}
+
+template <class Parse>
+Mesh_file domain(const std::string& name, std::string_view bytes, Parse parse) {
+  Read_report report;
+  Planar_domain result = parse(name, bytes, &report);
+  return {std::move(result), std::move(report)};
+}
+
+Mesh_file elements_by_gmsh(const std::string& name, const std::string& bytes, Format format) {
+  Read_report report;
+  Element_soup soup = parse_by_gmsh(name, bytes, format, Lines::left_out, report);
+  return volumes_or_polygons(name, std::move(soup), std::move(report));
+}
+
+}  // namespace
+
+Mesh_file parse_mesh(const std::string& name, const std::string& bytes, Format format) {
+  switch (format) {
+    case Format::off:
+      return surface(name, bytes, Surface_format::off);
+    case Format::obj:
+      return surface(name, bytes, Surface_format::obj);
+    case Format::stl:
+      return surface(name, bytes, Surface_format::stl);
+    case Format::ply:
+      return surface(name, bytes, Surface_format::ply);
+    case Format::ovm:
+      return parse_ovm(name, bytes);
+    case Format::poly:
+      return domain(name, bytes, parse_poly);
+    case Format::wkt:
+      return domain(name, bytes, parse_wkt);
+    case Format::msh:
+    case Format::medit:
+    case Format::unv:
+      return elements_by_gmsh(name, bytes, format);
+    case Format::vtk:
+    case Format::vtk_xml:
+      return parse_by_vtk(name, bytes, format);
+    case Format::csv:
+    case Format::unknown:
+      break;
+  }
+  fail(name, fmt::format("the format is not known, neither by its content nor by its extension; read are {}",
+                         supported_formats()));
+}
+
+std::string_view kind_name(const Mesh& mesh) {
+  constexpr std::array<std::string_view, 4> names{"surface", "volume", "planar cells", "planar domain"};
+  return names[mesh.index()];
+}
+
+Mesh_file read_mesh(const std::filesystem::path& path) {
+  const Recognized_file recognized = load_recognized(path);
+  Mesh_file file = parse_mesh(path.string(), recognized.bytes, recognized.format);
+  if (!recognized.note.empty()) file.report.notes.push_back(recognized.note);
+  return file;
+}
+
+std::vector<Build_feature> build_features() {
+  const Reader_module* const gmsh = has_gmsh() ? gmsh_module().module : nullptr;
+  const Reader_module* const vtk = has_vtk() ? vtk_module().module : nullptr;
+  return {{"gmsh", gmsh != nullptr, gmsh ? gmsh->library : "", gmsh_purpose},
+          {"vtk", vtk != nullptr, vtk ? vtk->library : "", vtk_purpose}};
+}
+
+std::string supported_formats() {
+  std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt";
+  const auto add = [&text](bool is_in, const char* formats, const char* library, const char* purpose) {
+    text += is_in ? formats : fmt::format(" (this build lacks {}, which {})", library, purpose);
+  };
+  add(has_gmsh(), ", .msh, .mesh, .unv", "gmsh", gmsh_purpose);
+  add(has_vtk(), ", .vtk, .vtu, .vtp", "vtk", vtk_purpose);
+  return text;
+}
+
+}  // namespace cellwalk::io

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Wavefront OBJ: vertices and faces, lines for bodies. CGAL's reader names no line.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <set>
+
+#include "io/files/text.h"
+#include "surface_parsers.h"
+
+namespace cellwalk::io {
+namespace {
+
+/// How many of the keywords that were ignored a note names.
+constexpr std::size_t named_keywords = 12;
+
+bool is_keyword(std::string_view word) {
+  constexpr std::size_t longest = 16;
+  return word.size() <= longest &&
+         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") ==
+             std::string_view::npos;
+}
+
+class Obj_reader {
+ public:
+  Obj_reader(const std::string& name, std::string_view bytes, Body_elements* body)
+      : in_(name, bytes), body_(body) {}
+
+  Surface_soup read(Read_report& report) {
+    while (in_.next_line()) statement(in_.word());
+    if (furthest_ && furthest_->vertex >= soup_.points.size())
+      fail(in_.file(), furthest_->line,
+           fmt::format("a {} names vertex {}, of {}", furthest_->kind, furthest_->vertex + 1,
+                       soup_.points.size()));
+    if (!ignored_.empty()) report.notes.push_back(note());
+    return std::move(soup_);
+  }
+
+ private:
+  void statement(std::string_view keyword) {
+    if (keyword == "v") {
+      Point<3> p;
+      for (double& x : p) x = in_.number("a coordinate");
+      check_planar(in_, body_, p);
+      soup_.points.push_back(p);
+    } else if (keyword == "f") {
+      soup_.facets.push_back(corners("face", 3));
+    } else if (keyword == "l" && body_) {
+      const auto line = corners("line", 2);
+      for (std::size_t i = 1; i < line.size(); ++i) body_->edges.push_back({line[i - 1], line[i]});
+    } else if (is_keyword(keyword)) {
+      if (!ignored_.contains(keyword)) ignored_.emplace(keyword);
+      while (in_.rest().ends_with('\\') && in_.next_line()) continue;
+    } else {
+      in_.fail(fmt::format("'{}' opens no statement of an OBJ file", keyword.substr(0, 20)));
+    }
+  }
+
+  /// The rest of the statement, at least `fewest` vertices.
+  std::vector<std::uint32_t> corners(const char* kind, std::size_t fewest) {
+    std::vector<std::uint32_t> result;
+    while (!in_.at_line_end()) {
+      const std::string_view w = in_.word();
+      if (w == "\\")  // it goes on in the next line
+        in_.need_line(fmt::format("the rest of a {}", kind));
+      else
+        result.push_back(corner(kind, w));
+    }
+    if (result.size() < fewest)
+      in_.fail(fmt::format("a {} of {} vertices: at least {} are needed", kind, result.size(), fewest));
+    return result;
+  }
+
+  /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`: counted from 1, or backward from the last vertex.
+  /// A vertex that is still to come is allowed here and checked at the end.
+  std::uint32_t corner(const char* kind, std::string_view word) {
+    const std::string_view digits = word.substr(0, word.find('/'));
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error != std::errc{} || end != digits.data() + digits.size() || index == 0)
+      in_.fail(fmt::format("'{}' is not a corner of a {}: an index counted from 1, or a negative one",
+                           shown(word), kind));
+    if (index < 0) index += static_cast<std::int64_t>(soup_.points.size()) + 1;
+    constexpr std::int64_t most = 0xfffffffe;
+    if (index < 1 || index > most)
+      in_.fail(fmt::format("corner '{}' of a {} names a vertex that does not exist", shown(word), kind));
+    const auto vertex = static_cast<std::uint32_t>(index - 1);
+    if (vertex >= soup_.points.size() && (!furthest_ || vertex > furthest_->vertex))
+      furthest_ = Ahead{vertex, in_.line(), kind};
+    return vertex;
+  }
+
+  std::string note() const {
+    std::string list;
+    std::size_t n = 0;
+    for (const std::string& k : ignored_)
+      if (n++ < named_keywords) list += (list.empty() ? "" : ", ") + k;
+    return fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : "");
+  }
+
+  /// A vertex that is named before it is given.
+  struct Ahead {
+    std::uint32_t vertex;
+    std::size_t line;
+    const char* kind;
+  };
+
+  Line_reader in_;
+  Body_elements* body_;
+  Surface_soup soup_;
+  std::set<std::string, std::less<>> ignored_;
+  std::optional<Ahead> furthest_;
+};
+
+}  // namespace
+
+Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
+  report.format = "OBJ";
+  return Obj_reader(name, bytes, body).read(report);
+}
+
+}  // namespace cellwalk::io

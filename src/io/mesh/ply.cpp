@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// PLY, as text and binary. CGAL's reader trusts header and list lengths: a damaged byte makes it read for minutes, or
+// behave in undefined ways.
+#include <cellwalk/internal/io/numbers.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "io/files/binary.h"
+#include "io/files/text.h"
+#include "ply_header.h"
+#include "surface_parsers.h"
+
+namespace cellwalk::io {
+namespace {
+
+/// Where values come from, one after the other.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual double next(Ply_type type, const char* what) = 0;
+  /// A bound for how many values are left.
+  virtual std::size_t left() const = 0;
+  [[noreturn]] virtual void fail(const std::string& what) const = 0;
+};
+
+class Text_source : public Source {
+ public:
+  Text_source(const std::string& name, std::string_view bytes, const Ply_header& header)
+      : in_(name, bytes.substr(header.size), '\0'), header_lines_(header.lines), name_(name) {}
+
+  double next(Ply_type, const char* what) override {
+    while (in_.at_line_end())
+      if (!in_.next_line()) fail(fmt::format("the file ends where {} should be: it is cut short", what));
+    const std::string_view word = in_.word();
+    const auto value = parse_decimal(word);
+    if (!value) fail(fmt::format("{}: '{}' is not a number", what, word.substr(0, 40)));
+    return *value;
+  }
+  std::size_t left() const override { return in_.rest().size() + in_.remaining().size(); }
+  [[noreturn]] void fail(const std::string& what) const override {
+    io::fail(name_, header_lines_ + in_.line(), what);
+  }
+
+ private:
+  Line_reader in_;
+  std::size_t header_lines_;
+  const std::string& name_;
+};
+
+class Binary_source : public Source {
+ public:
+  Binary_source(const std::string& name, std::string_view bytes, const Ply_header& header)
+      : in_(name, bytes.substr(header.size), header.encoding == Ply_encoding::big_endian) {}
+
+  double next(Ply_type type, const char* what) override {
+    switch (type) {
+      case Ply_type::int8:
+        return in_.take<std::int8_t>(what);
+      case Ply_type::uint8:
+        return in_.take<std::uint8_t>(what);
+      case Ply_type::int16:
+        return in_.take<std::int16_t>(what);
+      case Ply_type::uint16:
+        return in_.take<std::uint16_t>(what);
+      case Ply_type::int32:
+        return in_.take<std::int32_t>(what);
+      case Ply_type::uint32:
+        return in_.take<std::uint32_t>(what);
+      case Ply_type::float32:
+        return in_.take<float>(what);
+      case Ply_type::float64:
+        break;
+    }
+    return in_.take<double>(what);
+  }
+  std::size_t left() const override { return in_.left(); }
+  [[noreturn]] void fail(const std::string& what) const override { in_.fail(what); }
+
+ private:
+  Binary_reader in_;
+};
+
+class Ply_reader {
+ public:
+  Ply_reader(std::unique_ptr<Source> source, Body_elements* body) : in_(std::move(source)), body_(body) {}
+
+  Surface_soup read(const Ply_header& header, Read_report& report) {
+    for (const Ply_element& element : header.elements) {
+      if (element.name == "vertex")
+        vertices(element);
+      else if (element.name == "face")
+        faces(element);
+      else if (element.name == "edge" && body_)
+        edges(element);
+      else if (element.count > 0)
+        report.notes.push_back(fmt::format("{} elements '{}' ignored", element.count, shown(element.name))),
+            skip(element);
+    }
+    for (std::size_t f = 0; f < soup_.facets.size(); ++f)
+      for (std::uint32_t v : soup_.facets[f])
+        if (v >= soup_.points.size())
+          in_->fail(fmt::format("facet {} names vertex {}, of {}", f, v, soup_.points.size()));
+    if (body_) check_edges();
+    return std::move(soup_);
+  }
+
+ private:
+  void vertices(const Ply_element& element) {
+    std::array<std::size_t, 3> axes;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto place = element.find(std::string_view("xyz").substr(k, 1), false);
+      if (!place) in_->fail(fmt::format("the header gives vertices no property '{}'", "xyz"[k]));
+      axes[k] = *place;
+    }
+    std::vector<double> row(element.properties.size());
+    soup_.points.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(element.count, in_->left())));
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] = value(element.properties[j], "a vertex");
+      soup_.points.push_back({row[axes[0]], row[axes[1]], row[axes[2]]});
+      if (!is_finite(soup_.points.back()))
+        in_->fail(fmt::format("vertex {} has a coordinate that is not finite", i));
+      check_planar(*in_, body_, soup_.points.back());
+    }
+  }
+
+  void faces(const Ply_element& element) {
+    auto list = element.find("vertex_indices", true);
+    if (!list) list = element.find("vertex_index", true);
+    if (!list) in_->fail("the header gives faces no list 'vertex_indices': a surface is needed");
+    for (std::uint64_t i = 0; i < element.count; ++i)
+      for (std::size_t j = 0; j < element.properties.size(); ++j) {
+        if (j == *list)
+          facet(i, element.properties[j]);
+        else
+          value(element.properties[j], "a face");
+      }
+  }
+
+  void facet(std::uint64_t i, const Ply_property& property) {
+    std::vector<std::uint32_t> loop(length(property));
+    if (loop.size() < 3)
+      in_->fail(fmt::format("facet {} has {} vertices: at least 3 are needed", i, loop.size()));
+    for (std::uint32_t& v : loop) v = index("facet", i, in_->next(property.type, "a facet"));
+    soup_.facets.push_back(std::move(loop));
+  }
+
+  /// The edges of a body: properties vertex1 and vertex2.
+  void edges(const Ply_element& element) {
+    const auto first = element.find("vertex1", false), second = element.find("vertex2", false);
+    if (!first || !second) in_->fail("the header gives edges no properties 'vertex1' and 'vertex2'");
+    std::vector<double> row(element.properties.size());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] = value(element.properties[j], "an edge");
+      body_->edges.push_back({index("edge", i, row[*first]), index("edge", i, row[*second])});
+    }
+  }
+
+  void check_edges() const {
+    for (std::size_t i = 0; i < body_->edges.size(); ++i)
+      for (std::uint32_t v : body_->edges[i])
+        if (v >= soup_.points.size())
+          in_->fail(fmt::format("edge {} names vertex {}, of {}", i, v, soup_.points.size()));
+  }
+
+  std::uint32_t index(const char* kind, std::uint64_t i, double value) const {
+    constexpr double most = 0xfffffffe;  // an index of 32 bits
+    if (!(value >= 0 && value <= most && value == static_cast<std::uint32_t>(value)))
+      in_->fail(fmt::format("{} {} names vertex {}", kind, i, value));
+    return static_cast<std::uint32_t>(value);
+  }
+
+  /// The length of a list: no more than the file can hold.
+  std::size_t length(const Ply_property& property) {
+    const double n = in_->next(*property.count_type, "the length of a list");
+    if (!(n >= 0 && n <= static_cast<double>(in_->left()) &&
+          n == static_cast<double>(static_cast<std::size_t>(n))))
+      in_->fail(fmt::format("a list of {} values: the file is cut short or broken", n));
+    return static_cast<std::size_t>(n);
+  }
+
+  /// A value, or the last of a list: what is not used only has to be passed over.
+  double value(const Ply_property& property, const char* what) {
+    if (!property.count_type) return in_->next(property.type, what);
+    double last = 0;
+    for (std::size_t n = length(property); n > 0; --n) last = in_->next(property.type, what);
+    return last;
+  }
+
+  void skip(const Ply_element& element) {
+    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
+      for (const Ply_property& property : element.properties) value(property, "an element");
+  }
+
+  std::unique_ptr<Source> in_;
+  Body_elements* body_;
+  Surface_soup soup_;
+};
+
+}  // namespace
+
+Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body) {
+  const Ply_header header = read_ply_header(name, bytes);
+  const bool text = header.encoding == Ply_encoding::text;
+  report.format = text ? "PLY" : "PLY (binary)";
+  if (text) return Ply_reader(std::make_unique<Text_source>(name, bytes, header), body).read(header, report);
+  return Ply_reader(std::make_unique<Binary_source>(name, bytes, header), body).read(header, report);
+}
+
+}  // namespace cellwalk::io

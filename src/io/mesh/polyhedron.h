@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: facets of one polyhedron that a file gives in any orientation.
+#ifndef CELLWALK_IO_MESH_POLYHEDRON_H
+#define CELLWALK_IO_MESH_POLYHEDRON_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// Turns loops so that every edge is run through once in each direction, and the volume (rounded) is positive. Loops
+/// that already agree with each other, or cannot be made to, are left as they are: certification judges them.
+/// Returns true if a loop was turned.
+bool turn_alike(std::vector<std::vector<std::uint32_t>>& loops, const std::vector<Point<3>>& points);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_MESH_POLYHEDRON_H

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: one parser per surface format. Each throws Error(input) with file and line.
+#ifndef CELLWALK_IO_MESH_SURFACE_PARSERS_H
+#define CELLWALK_IO_MESH_SURFACE_PARSERS_H
+
+#include <cellwalk/io/surface_file.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// What a body may have beside polygons. A parser that is given none leaves lines out: surfaces have no use for them.
+struct Body_elements {
+  bool planar = false;  ///< asked: a body of the plane, points whose z is not zero are refused
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< answered: lines, cut into edges
+};
+
+Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_obj(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
+                       Body_elements* body = nullptr);
+
+/// The parser of a format; whether there are polygons is left to the caller.
+Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Surface_format format,
+                            Read_report& report, Body_elements* body = nullptr);
+
+/// Refuses a point off the plane where a body of the plane is asked for; `in` knows the place in the file.
+template <class Reader>
+void check_planar(const Reader& in, const Body_elements* body, const Point<3>& p) {
+  if (body && body->planar && p[2] != 0)
+    in.fail(fmt::format("z is {}, in a 2D body: make every z zero, or use it in 3D", p[2]));
+}
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_MESH_SURFACE_PARSERS_H

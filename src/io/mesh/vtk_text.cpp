@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "vtk_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "io/files/text.h"
+
+namespace cellwalk::io {
+namespace {
+
+/// Numbers that one byte can stand for: as text, a digit and a blank each; compressed, at most 1032 bytes of data (the bound of deflate),
+/// twelve of which a point has at least, and a cell about as many.
+constexpr double per_byte_plain = 0.5, per_byte_compressed = 1032.0 / 12;
+
+/// The digits at the beginning of a text as a number; as large as there is where they are too many.
+std::uint64_t leading_number(std::string_view text) {
+  std::uint64_t value = 0;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  for (const char c : text) {
+    if (c < '0' || c > '9') break;
+    const auto digit = static_cast<std::uint64_t>(c - '0');
+    value = value > (most - digit) / 10 ? most : 10 * value + digit;
+  }
+  return value;
+}
+
+void check_count(const std::string& name, std::string_view what, std::uint64_t count, double most,
+                 std::size_t bytes) {
+  if (static_cast<double>(count) > most)
+    fail(name, fmt::format("announces {} {}, more than its {} bytes can hold: it is cut short or broken",
+                           count, lower(shown(what)), bytes));
+}
+
+/// Attributes such as NumberOfPoints="8" of the tags that have some.
+void check_xml(const std::string& name, std::string_view bytes) {
+  constexpr std::string_view attribute = "NumberOf";
+  const bool is_compressed = bytes.substr(0, 4096).find("compressor") != std::string_view::npos;
+  const double most =
+      static_cast<double>(bytes.size()) * (is_compressed ? per_byte_compressed : per_byte_plain);
+  for (const std::string_view tag : {"<Piece", "<DataArray"})
+    for (std::size_t at = bytes.find(tag); at != std::string_view::npos; at = bytes.find(tag, at)) {
+      std::string_view rest = bytes.substr(at, bytes.find('>', at) - at);
+      at += rest.size();  // a tag that is not closed is looked through once
+      for (std::size_t found; (found = rest.find(attribute)) != std::string_view::npos;) {
+        rest.remove_prefix(found + attribute.size());
+        const std::size_t word = std::min(rest.find_first_of("= \t\r\n"), rest.size());
+        const std::size_t digits = rest.find_first_of("0123456789");
+        if (digits != std::string_view::npos)
+          check_count(name, rest.substr(0, word), leading_number(rest.substr(digits)), most, bytes.size());
+      }
+    }
+}
+
+/// Lines such as POINTS 8 double, CELLS 2 10.
+void check_legacy(const std::string& name, std::string_view bytes) {
+  constexpr std::array<std::string_view, 9> keywords{"POINTS",          "CELLS",      "CELL_TYPES",
+                                                     "POLYGONS",        "LINES",      "VERTICES",
+                                                     "TRIANGLE_STRIPS", "POINT_DATA", "CELL_DATA"};
+  const double most = static_cast<double>(bytes.size()) * per_byte_plain;
+  for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n', end + 1)) {
+    Line_reader line("", bytes.substr(end + 1, 128), '\0');
+    const std::string_view first = bytes.substr(end + 1, 1);
+    if (first.empty() || std::string_view("PCLVTpclvt").find(first) == std::string_view::npos ||
+        !line.next_line())
+      continue;
+    const std::string_view keyword = line.word();
+    for (const std::string_view known : keywords)
+      if (same_word(keyword, known))
+        for (std::string_view word = line.word(); !word.empty(); word = line.word())
+          check_count(name, keyword, leading_number(word), most, bytes.size());
+  }
+}
+
+}  // namespace
+
+void check_vtk_counts(const std::string& name, std::string_view bytes, Format format) {
+  if (format == Format::vtk_xml)
+    check_xml(name, bytes);
+  else
+    check_legacy(name, bytes);
+}
+
+}  // namespace cellwalk::io

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/io/scene.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/files/text.h"
+#include "json_node.h"
+#include "scene_bodies.h"
+
+namespace cellwalk::io {
+namespace {
+
+using detail::Json_node;
+
+constexpr std::uint64_t max_steps = 100'000'000;
+constexpr double default_twist = 10;  // degrees a step
+
+Environment_source environment_source(const Json_node& node) {
+  if (node.is_string()) {
+    if (node.string().empty()) node.fail("expected the name of a mesh file");
+    return node.string();
+  }
+  if (!node.is_object()) node.fail("expected the name of a mesh file or {\"generate\": ...}");
+  Recipe recipe;
+  recipe.generator = node.at("generate").string();
+  for (const std::string& key : node.keys())
+    if (key != "generate") recipe.options[key] = node.at(key).numbers();
+  return recipe;
+}
+
+template <int D>
+std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node& node) {
+  if (node.has("count")) {
+    node.expect_keys({"count", "seed", "speed"});
+    return detail::cloud(node);
+  }
+  node.expect_keys({"position", "velocity", "count", "seed", "speed"});
+  if (!node.has("position")) node.fail("expected \"position\" or \"count\"");
+  for (const char* key : {"seed", "speed"})
+    if (const auto extra = node.find(key)) extra->fail("only for random particles: give \"count\" as well");
+  Particle_start<D> start;
+  start.position = node.at("position").tuple<D>();
+  if (const auto velocity = node.find("velocity")) start.velocity = velocity->tuple<D>();
+  return start;
+}
+
+/// The curved part of the tip, and how its base is turned.
+template <int D>
+void curve(const Json_node& node, Catheter<D>& result) {
+  if (const auto steering = node.find("steering")) {
+    const std::string word = steering->string();
+    if (word != "tip" && word != "twist" && word != "none")
+      steering->fail("expected \"tip\", \"twist\" or \"none\"");
+    result.steering = word == "tip" ? Steering::tip : word == "twist" ? Steering::twist : Steering::none;
+  }
+  if (const auto tip = node.find("tip")) {
+    tip->expect_keys({"length", "degrees"});
+    result.tip_length = tip->at("length").positive();
+    result.tip_angle = tip->at("degrees").number_in(0, 360);
+  }
+  if (result.steering == Steering::twist) {
+    if (!node.has("tip")) node.fail("steering by \"twist\" needs a curved \"tip\"");
+    result.twist = default_twist;
+  }
+  if (const auto twist = node.find("twist")) {
+    if (result.steering == Steering::tip) twist->fail("only for \"steering\" by \"twist\" or \"none\"");
+    result.twist = twist->number_in(result.steering == Steering::none ? -180 : 0, 180);
+  }
+}
+
+template <int D>
+Catheter<D> catheter(const Json_node& node) {
+  node.expect_keys(
+      {"particles", "spacing", "advance", "stiffness", "path", "find_route", "steering", "tip", "twist"});
+  Catheter<D> result;
+  result.spacing = node.at("spacing").positive();
+  result.advance = result.spacing / 2;
+  if (const auto n = node.find("particles"))
+    result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::max_particles));
+  if (const auto advance = node.find("advance")) result.advance = advance->positive();
+  if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
+  if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
+  curve(node, result);
+  result.path = detail::way_points<D>(node.at("path"));
+  return result;
+}
+
+Picture_request picture(const Json_node& node) {
+  node.expect_keys({"width", "height", "toward", "up"});
+  Picture_request request;
+  if (const auto width = node.find("width")) request.width = static_cast<int>(width->integer_in(16, 16384));
+  if (const auto height = node.find("height"))
+    request.height = static_cast<int>(height->integer_in(16, 16384));
+  const auto direction = [&](const char* key, std::vector<double>& to) {
+    const auto given = node.find(key);
+    if (!given) return;
+    const auto v = given->tuple<3>();
+    if (!(length(v) > 0)) given->fail("a direction cannot be zero");
+    to.assign(v.begin(), v.end());
+  };
+  direction("toward", request.toward);
+  direction("up", request.up);
+  return request;
+}
+
+Scene_output output(const Json_node& node) {
+  node.expect_keys({"frame_every", "picture", "motion_every"});
+  Scene_output result;
+  if (const auto every = node.find("frame_every"))
+    result.frame_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+  if (const auto every = node.find("motion_every"))
+    result.motion_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+  if (const auto request = node.find("picture")) {
+    if (request->is_object())
+      result.picture = picture(*request);
+    else if (request->boolean())
+      result.picture.emplace();
+  }
+  return result;
+}
+
+template <int D>
+Scene<D> scene(const Json_node& node) {
+  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "gravity",
+                    "restitution", "friction", "time_step", "steps", "output"});
+  Scene<D> result;
+  result.environment = environment_source(node.at("environment"));
+  if (const auto title = node.find("title")) result.title = title->string();
+  if (const auto particles = node.find("particles"))
+    for (const Json_node& p : particles->elements()) result.particles.push_back(particle_source<D>(p));
+  if (const auto bodies = node.find("bodies"))
+    for (const Json_node& b : bodies->elements()) result.bodies.push_back(detail::body_start<D>(b));
+  if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
+  if (result.particles.empty() && result.bodies.empty() && !result.catheter)
+    node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
+  if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();
+  if (const auto restitution = node.find("restitution")) result.restitution = restitution->number_in(0, 1);
+  if (const auto friction = node.find("friction")) result.friction = friction->number_in(0, 1);
+  if (const auto time_step = node.find("time_step")) result.time_step = time_step->positive();
+  result.steps = static_cast<std::uint32_t>(node.at("steps").integer_in(1, max_steps));
+  if (const auto o = node.find("output")) result.output = output(*o);
+  return result;
+}
+
+}  // namespace
+
+Any_scene parse_scene(const std::string& name, std::string_view text, const std::filesystem::path& folder) {
+  const auto document = detail::parse_json(name, text);
+  const Json_node root(*document, name);
+  const auto dimension = root.find("dimension");
+  Any_scene result;
+  if (dimension && dimension->integer_in(2, 3) == 2)
+    result = scene<2>(root);
+  else
+    result = scene<3>(root);
+  std::visit(
+      [&](auto& s) {
+        const auto resolve = [&](auto& source) {
+          if (auto* file = std::get_if<std::string>(&source)) *file = (folder / *file).string();
+        };
+        resolve(s.environment);
+        for (auto& body : s.bodies) resolve(body.source);
+      },
+      result);
+  return result;
+}
+
+std::string scene_text(const std::filesystem::path& path) { return load(path); }
+
+Any_scene read_scene(const std::filesystem::path& path) {
+  return parse_scene(path.string(), scene_text(path), path.parent_path());
+}
+
+}  // namespace cellwalk::io

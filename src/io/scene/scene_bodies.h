@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: the bodies of a scene, and the keys that they share with its particles and catheters.
+#ifndef CELLWALK_IO_SCENE_SCENE_BODIES_H
+#define CELLWALK_IO_SCENE_SCENE_BODIES_H
+
+#include <cellwalk/records/scene.h>
+
+#include "json_node.h"
+
+namespace cellwalk::io::detail {
+
+constexpr std::uint64_t max_particles = 10'000'000;
+
+/// `count`, `seed` and `speed` of a random cloud; `node` has the first.
+Particle_cloud cloud(const Json_node& node);
+
+/// One entry of `bodies`. \throw Error(input) naming the key
+template <int D>
+Body_start<D> body_start(const Json_node& node);
+
+/// Way points, at least two, none twice in a row. \throw Error(input) naming the way point
+template <int D>
+std::vector<Point<D>> way_points(const Json_node& node);
+
+extern template Body_start<2> body_start(const Json_node&);
+extern template Body_start<3> body_start(const Json_node&);
+extern template std::vector<Point<2>> way_points<2>(const Json_node&);
+extern template std::vector<Point<3>> way_points<3>(const Json_node&);
+
+}  // namespace cellwalk::io::detail
+
+#endif  // CELLWALK_IO_SCENE_SCENE_BODIES_H

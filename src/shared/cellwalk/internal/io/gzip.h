@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Compression with gzip, and encoding in base64.
+#ifndef CELLWALK_INTERNAL_IO_GZIP_H
+#define CELLWALK_INTERNAL_IO_GZIP_H
+
+#include <cellwalk/io/atomic_file.h>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cellwalk::io {
+
+/// A compressed file that is written in pieces and appears on commit(), or not at all. Its bytes depend on
+/// the content and on the version of zlib, not on the pieces; they contain no date.
+class Gzip_file {
+ public:
+  /// \throw Error(other) if the file cannot be written
+  explicit Gzip_file(std::filesystem::path path);
+  ~Gzip_file();
+  Gzip_file(const Gzip_file&) = delete;
+  Gzip_file& operator=(const Gzip_file&) = delete;
+
+  /// \throw Error(other) if the device is full
+  void write(std::string_view bytes);
+  /// \throw Error(other) if the rest cannot be written, or the file cannot be renamed
+  void commit();
+
+ private:
+  struct Stream;
+  Atomic_file file_;
+  std::unique_ptr<Stream> stream_;
+};
+
+/// Compresses bytes in memory.
+std::string gzip(std::string_view bytes);
+
+/// Appends bytes in base64, padded, without line ends.
+void append_base64(std::string& out, std::span<const unsigned char> bytes);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_INTERNAL_IO_GZIP_H

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The replay of a trace: its bodies move to its targets by the answers of this library. The rule:
+// docs/formats.md.
+#ifndef CELLWALK_INTERNAL_SIMULATION_REPLAY_H
+#define CELLWALK_INTERNAL_SIMULATION_REPLAY_H
+
+#include <cellwalk/body/body.h>
+#include <cellwalk/internal/records/trace.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cellwalk {
+
+/// A move that a wall blocked.
+struct Replay_contact {
+  std::uint32_t step = 0, body = 0, vertex = 0;
+  /// Or the first of its edges that the wall blocks at the target.
+  Body_feature feature = Body_feature::vertex;
+  Wall_contact<3> contact;
+};
+
+/// The counts of a replay. They are machine-independent.
+struct Replay_counts {
+  std::uint64_t vertex_hits = 0;    ///< moves in which the vertex hits: bit 0
+  std::uint64_t edge_hits = 0;      ///< edges that hit at the target: bits 1 to 3
+  std::uint64_t triangle_hits = 0;  ///< triangles swept by edges that hit: bits 4 to 6
+  std::uint64_t rounds = 0;  ///< edges that passed around an obstacle: the triangle hits, the edge does not
+  Body_counts body;          ///< held: moves after which the vertex stays in place
+};
+
+struct Replay_options {
+  Sweep sweep = Sweep::triangle;  ///< three_segments or triangle
+  bool clearance = true;          ///< see Body_options
+};
+
+/// The bodies of a trace in motion. Refers to the snapshot and the trace, which must outlive it.
+class Replay {
+ public:
+  /// Registers the bodies at their start positions.
+  /// \pre the trace is one that io::read_trace accepts
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces: the bodies
+  ///        of a trace have no faces
+  Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
+         const Replay_options& options);
+
+  /// Moves all vertices of all bodies, in order, to the targets of the next step.
+  /// \pre there is one
+  void step();
+  /// Executes all remaining steps. This is the timed part of a benchmark.
+  void run();
+
+  std::uint32_t steps_done() const { return steps_done_; }
+  /// Answers so far, [step][body][vertex]: bits 0 to 3, and with Sweep::triangle bits 4 to 6.
+  std::span<const std::uint8_t> answers() const {
+    return std::span(answers_).first(trace_->index(steps_done_, 0, 0));
+  }
+  /// The contacts, in the order met.
+  std::span<const Replay_contact> contacts() const { return contacts_; }
+  std::span<const Body<3>> bodies() const { return bodies_; }
+  const Replay_counts& counts() const { return counts_; }
+
+  /// Refreshes all bodies and checks I1 and I2.
+  /// \throw Error(other) naming the first body that violates them
+  void validate();
+
+ private:
+  void note(std::uint32_t body, const Blocked_move<3>& blocked);
+
+  const Trace* trace_;
+  Body_options options_;
+  std::vector<Body<3>> bodies_;
+  Step_report<3> report_;              ///< of one body in one step
+  std::vector<std::uint8_t> answers_;  ///< of all moves; 0 for future ones
+  std::vector<Replay_contact> contacts_;
+  std::uint32_t steps_done_ = 0;
+  Replay_counts counts_;
+};
+
+/// The number of answer bits that differ from those of the trace, among the bits that the sweep decides. All
+/// bits of a missing step count as different.
+/// \pre there are not more answers than in the trace
+std::uint64_t count_mismatches(const Trace& trace, std::span<const std::uint8_t> answers, Sweep sweep);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_INTERNAL_SIMULATION_REPLAY_H

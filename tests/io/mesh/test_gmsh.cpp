@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Compiled where Gmsh is there. It writes the binary and foreign files that are read back.
+#include <cellwalk/io/mesh_file.h>
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <clocale>
+
+#include "io/io_fixture.h"
+#include "volumes.h"
+
+namespace cellwalk::io {
+namespace {
+
+// A hexahedron, a prism beside it, a pyramid on it, and a tetrahedron beside that; a square, a line and a point.
+const std::string nodes =
+    "12\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0\n10 2 0 1\n11 0 0 "
+    "2\n12 -1 0 1\n";
+const std::string msh_2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes +
+    "$EndNodes\n$Elements\n7\n1 15 2 0 1 1\n2 1 2 0 1 1 2\n3 3 2 0 1 1 2 3 4\n"
+    "4 5 2 0 1 1 2 3 4 5 6 7 8\n5 6 2 0 1 2 9 3 6 10 7\n6 7 2 0 1 5 6 7 8 11\n7 4 2 0 1 5 11 8 12\n"
+    "$EndElements\n";
+const std::string msh_1 =
+    "$NOD\n" + nodes +
+    "$ENDNOD\n$ELM\n4\n1 5 0 1 8 1 2 3 4 5 6 7 8\n2 6 0 1 6 2 9 3 6 10 7\n3 7 0 1 5 5 6 7 8 11\n"
+    "4 4 0 1 4 5 11 8 12\n$ENDELM\n";
+const std::vector<double> volumes{6, 3, 2, 1};  // sixths, in the order of the elements
+
+Mesh_file read(const std::string& name, const std::string& text) {
+  const Folder folder;
+  return read_mesh(folder.write(name, text));
+}
+
+enum class Order { of_the_file, any };
+
+void expect_the_cells(const Mesh_file& file, const std::string& format, Order order = Order::of_the_file) {
+  EXPECT_EQ(file.report.format, format);
+  const auto& soup = std::get<Cell_soup<3>>(file.mesh);
+  EXPECT_EQ(soup.points.size(), 12u);
+  std::vector<double> found = six_volumes(soup);
+  if (order == Order::any) std::sort(found.rbegin(), found.rend());
+  EXPECT_EQ(found, volumes);
+  EXPECT_TRUE(all_closed(soup));
+  EXPECT_EQ(shared_facets(soup), 3u);
+}
+
+/// The mesh above as Gmsh itself writes it.
+std::string written_by_gmsh(const std::string& extension, double version = 2.2, bool binary = false) {
+  const Folder folder;
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::open(folder.write("in.msh", msh_2).string());
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  gmsh::option::setNumber("Mesh.Binary", binary);
+  gmsh::option::setNumber("Mesh.SaveAll", 1);
+  gmsh::write((folder / ("out" + extension)).string());
+  gmsh::finalize();
+  return content_of(folder / ("out" + extension));
+}
+
+TEST(Gmsh, TextOfEveryVersionIsRead) {
+  expect_the_cells(read("t.msh", msh_1), "Gmsh 1");
+  const Mesh_file file = read("t.msh", msh_2);
+  expect_the_cells(file, "Gmsh 2.2");
+  EXPECT_EQ(file.report.notes, (std::vector<std::string>{"2 point and line elements ignored",
+                                                         "1 polygons beside the volume cells ignored"}));
+  expect_the_cells(read("t.msh", written_by_gmsh(".msh", 4.0)), "Gmsh 4");
+  expect_the_cells(read("t.msh", written_by_gmsh(".msh", 4.1)), "Gmsh 4.1");
+}
+
+TEST(Gmsh, BinaryOfEveryVersionIsRead) {
+  expect_the_cells(read("t.msh", written_by_gmsh(".msh", 2.2, true)), "Gmsh 2.2 (binary)", Order::any);
+  expect_the_cells(read("t.msh", written_by_gmsh(".msh", 4.1, true)), "Gmsh 4.1 (binary)");
+}
+
+TEST(Gmsh, MeditIsRead) {
+  const Mesh_file file =
+      read("t.mesh", written_by_gmsh(".mesh"));  // Gmsh writes no prisms and pyramids there
+  EXPECT_EQ(file.report.format, "MEDIT");
+  const auto& soup = std::get<Cell_soup<3>>(file.mesh);
+  EXPECT_TRUE(all_closed(soup));
+  EXPECT_EQ(six_volumes(soup), (std::vector<double>{1, 6}));
+}
+
+TEST(Gmsh, MeditIsRefusedWhereGmshWouldLeaveCellsOut) {
+  const std::string prism =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n1 0 1 1\n0 1 1 "
+      "1\n"
+      "Prisms\n1\n1 2 3 4 5 6 1\nEnd\n";
+  EXPECT_NE(
+      refusal([&] {
+        read("t.mesh", prism);
+      }).find("t.mesh:11: 'Prisms' are not read from MEDIT files by Gmsh: write the mesh as .msh or .vtu"),
+      std::string::npos);
+  EXPECT_NE(refusal([&] {
+              read("t.mesh", with(prism, "Prisms\n1", "Prisms\n0"));
+            }).find("holds neither volume cells nor polygons"),
+            std::string::npos);
+}
+
+TEST(Gmsh, UnvIsRead) {
+  const Mesh_file file = read("t.unv", written_by_gmsh(".unv"));  // Gmsh writes no pyramids there
+  EXPECT_EQ(file.report.format, "UNV");
+  const auto& soup = std::get<Cell_soup<3>>(file.mesh);
+  EXPECT_TRUE(all_closed(soup));
+  EXPECT_EQ(six_volumes(soup), (std::vector<double>{6, 3, 1}));
+}
+
+TEST(Gmsh, CompressedFilesAreRead) {
+  const Folder folder;
+  gzFile out = gzopen((folder / "t.msh.gz").c_str(), "wb");
+  gzwrite(out, msh_2.data(), static_cast<unsigned>(msh_2.size()));
+  gzclose(out);
+  expect_the_cells(read_mesh(folder / "t.msh.gz"), "Gmsh 2.2");
+}
+
+TEST(Gmsh, ElementsOfSecondOrderAreReadByTheirCorners) {
+  const Mesh_file file =
+      read("t.msh",
+           "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+           "5 0.5 0 0\n6 0.5 0.5 0\n7 0 0.5 0\n8 0 0 0.5\n9 0 0.5 0.5\n10 0.5 0 0.5\n$EndNodes\n"
+           "$Elements\n1\n1 11 2 0 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n");
+  EXPECT_EQ(six_volumes(std::get<Cell_soup<3>>(file.mesh)), (std::vector<double>{1}));
+  EXPECT_EQ(file.report.notes,
+            (std::vector<std::string>{"1 elements of higher order read by their corner nodes, as straight"}));
+}
+
+TEST(Gmsh, FlatAndSurfaceMeshesAreReadToo) {
+  const std::string flat =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+      "$Elements\n2\n1 2 2 0 1 1 2 3\n2 2 2 0 1 1 3 4\n$EndElements\n";
+  EXPECT_EQ(std::get<Cell_soup<2>>(read("t.msh", flat).mesh).cell_count(), 2u);
+  const Mesh_file bent = read("t.msh", with(flat, "4 0 1 0", "4 0 1 1"));
+  EXPECT_EQ(std::get<Surface_soup>(bent.mesh).facets,
+            (std::vector<std::vector<std::uint32_t>>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Gmsh, NumbersThatRepeatLoseNoElement) {
+  const Mesh_file file = read("t.msh", with(msh_2, "\n6 7 2", "\n5 7 2"));
+  expect_the_cells(file, "Gmsh 2.2");
+  EXPECT_EQ(file.report.notes.front(), "numbers of elements repeat: the elements were numbered anew");
+  expect_the_cells(read("t.msh", with(written_by_gmsh(".msh", 4.1), "\n6 5 6 7 8 11", "\n5 5 6 7 8 11")),
+                   "Gmsh 4.1", Order::any);
+}
+
+TEST(Gmsh, NodesThatBelongToNoElementAreCounted) {
+  const Mesh_file file = read("t.msh", with(msh_2, "12\n1 0", "13\n99 7 7 7\n1 0"));
+  EXPECT_EQ(file.report.notes.front(), "1 nodes that belong to no element left out");
+}
+
+TEST(Gmsh, BrokenFilesAreRefusedWithAReason) {
+  struct Case {
+    std::string text, message;
+  };
+  const Case cases[] = {
+      {"$MeshFormat\n9.9 0 8\n$EndMeshFormat\n", "broken or cut short: Gmsh cannot read it as Gmsh 9.9"},
+      {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "holds neither volume cells nor polygons"},
+      {with(msh_2, "$Elements\n7", "$Elements\n9"), "an element: '$EndElements' is not an integer"},
+      {with(written_by_gmsh(".msh", 4.1), "\n7 7 1 7\n", "\n7 8 1 8\n"),
+       "t.msh:57: the section announces 8 elements, and its blocks hold 7"},
+      {with(msh_2, "3 1 1 0", "3 1 nan 0"), "t.msh:8: a coordinate: 'nan' is not finite"},
+      {"$Shell\n", ":1: not a mesh of Gmsh: it begins with '$Shell'"},
+      {"$MeshFormat\n", ":2: the file ends where the version of the format should be: it is cut short"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    const std::string why = refusal([&] { read("t.msh", c.text); });
+    EXPECT_NE(why.find(c.message), std::string::npos) << why;
+    EXPECT_EQ(why.find("mesh.msh"), std::string::npos) << "names the temporary file: " << why;
+  }
+}
+
+TEST(Gmsh, NeverRunsScripts) {
+  const Folder folder;
+  const auto made = folder / "made";
+  const std::string script = "SystemCall \"touch " + made.string() + "\";\n";
+  for (const char* name : {"t.msh", "t.mesh", "t.unv"}) {
+    EXPECT_NE(refusal([&] { read(name, script); }), "");
+    EXPECT_FALSE(std::filesystem::exists(made)) << name;
+  }
+}
+
+TEST(Gmsh, TruncatedFilesNeverCrash) {
+  const auto count = [](const std::string& name, const std::string& text) {
+    return refused_truncations(text, [&](const std::string& t) { read(name, t); });
+  };
+  EXPECT_GE(count("t.msh", msh_1), 18);
+  EXPECT_GE(count("t.msh", msh_2), 18);
+  EXPECT_GE(count("t.msh", written_by_gmsh(".msh", 4.1)), 18);
+  EXPECT_GE(count("t.msh", written_by_gmsh(".msh", 2.2, true)), 18);
+  EXPECT_GE(count("t.msh", written_by_gmsh(".msh", 4.1, true)), 18);
+  EXPECT_GE(count("t.mesh", written_by_gmsh(".mesh")), 10);
+  EXPECT_GE(count("t.unv", written_by_gmsh(".unv")), 10);
+}
+
+TEST(Gmsh, LeavesNoTraceInTheProgram) {
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  const int rounding = std::fegetround();
+  struct sigaction before, after;
+  sigaction(SIGINT, nullptr, &before);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 3; ++i) {
+    read("t.msh", msh_2);
+    EXPECT_NE(refusal([] { read("t.msh", with(msh_2, "5 6 7 8 11\n", "5 6 7 8 77\n")); }), "");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(std::setlocale(LC_ALL, nullptr), locale);
+  EXPECT_EQ(std::fegetround(), rounding);
+  sigaction(SIGINT, nullptr, &after);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+}  // namespace
+}  // namespace cellwalk::io
