@@ -9,19 +9,31 @@ import re
 import sys
 from pathlib import Path
 
-# What each layer may include besides itself; nothing else, so no include points upward or sideways.
-_STACK = ["kernel", "records", "environment", "walk", "edge", "query", "body", "simulation"]
-LAYERS = {layer: set(_STACK[:i]) for i, layer in enumerate(_STACK)}
-LAYERS["io"] = {"kernel", "records"}
-LAYERS["meshing"] = {"kernel", "records"}
-LAYERS["loading"] = {"kernel", "records", "environment", "io", "meshing"}
-LAYERS["cli"] = set(LAYERS)
 # The one header for users, which no file of the library includes.
 UMBRELLA = Path("include/cellwalk/cellwalk.h")
-LAYERS["umbrella"] = set(_STACK)
+CORE = ["kernel", "records", "generators", "environment", "walk", "edge", "query", "body", "simulation"]
+# Headers that layers share and users do not see: <cellwalk/internal/LAYER/...>.
+SHARED = Path("src/shared")
+PAGE = Path("docs/architecture.md")
+HERE = Path(__file__).resolve().parents[2]
+INSTALL = Path("cmake/CellwalkInstall.cmake")
 
-# Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names these and what includes them.
-CGAL_HEADERS = {Path("include/cellwalk/environment/map.h"), Path("include/cellwalk/kernel/exact_value.h")}
+# Headers whose floor neither a source of that name nor their own name tells.
+HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "environment/cell_shape.h": "snapshot", "environment/planes.h": "snapshot",
+                 "io/ovm.h": "mesh", "io/planar_file.h": "mesh"}
+
+# Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names them.
+CGAL_HEADERS = {Path("include/cellwalk/environment/map.h")}
+
+# What tests of a layer include besides what the layer itself may: worlds to test in, and readers of public data.
+TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "walk": {"generators", "io", "meshing"},
+               "edge": {"generators", "io"}, "query": {"generators"}, "body": {"generators"}, "simulation": {"io", "meshing"},
+               "meshing": {"environment"}, "drawing": {"io"}}
+# Folders of tests that are of no one layer.
+OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}
+# Experiments whose results are judged by the oracles of tests, and where those are.
+JUDGED = {"02_exact_versus_float", "05_degenerate_worlds"}
+JUDGES = {"oracle", "walk", "edge"}
 
 # Gmsh is GPL too: io is LGPL only when it is built without it.
 GPL_LAYERS = {"meshing"}
@@ -46,6 +58,32 @@ FORM_FOLDERS = ["include", "src", "tests", "experiments", "examples", "python", 
 FORM_SUFFIXES = SOURCES | {".py", ".pyi", ".sh", ".cmake", ".txt"}
 
 
+class Plan:
+    """What docs/architecture.md draws: which layer stands on which, and which folder of a layer on which."""
+
+    def __init__(self, root):
+        own = root / PAGE
+        text = (own if own.is_file() else HERE / PAGE).read_text(encoding="utf-8")
+        self.is_own = own.is_file()
+        drawing = re.search(r"```mermaid\n(.*?)```", text, re.DOTALL)[1]
+        self.arrows = set(re.findall(r"^ *(\w+) --> (\w+)$", drawing, re.MULTILINE))
+        self.layers = {layer: self.reached(layer) for layer in {layer for arrow in self.arrows for layer in arrow}}
+        self.layers["umbrella"] = set(CORE)
+        self.floors = {}
+        for layer, floor, below in re.findall(r"^\| `(\w+)/(\w+)` \|.*\|([^|]*)\|$", text, re.MULTILINE):
+            self.floors.setdefault(layer, {})[floor] = set(re.findall(r"`(\w+)`", below))
+
+    def reached(self, layer):
+        """All layers that arrows lead to."""
+        found, queue = set(), [layer]
+        while queue:
+            below = {b for a, b in self.arrows if a == queue[-1]} - found
+            queue.pop()
+            found |= below
+            queue += below
+        return found
+
+
 def without_comments_and_strings(text):
     return COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
 
@@ -56,11 +94,29 @@ def line_of(text, offset):
 
 def layer_of(path, root):
     """The layer of a file of include/cellwalk or src, None for files outside layers (build files)."""
-    if path.relative_to(root) == UMBRELLA:
+    name = path.relative_to(root)
+    if name == UMBRELLA:
         return "umbrella"
-    parts = path.relative_to(root).parts
-    start = 2 if parts[0] == "include" else 1
-    return parts[start] if len(parts) > start + 1 else None
+    start = 4 if is_internal(name) else 2 if name.parts[0] == "include" else 1
+    return name.parts[start] if len(name.parts) > start + 1 else None
+
+
+def is_internal(name):
+    return name.is_relative_to(SHARED)
+
+
+def is_private(name):
+    return name.parts[0] == "src" and not is_internal(name)
+
+
+def floor_of(name, layer, floors, sources):
+    """The folder of its layer that a file belongs to, "" for the top one, or None."""
+    if is_private(name):
+        return "/".join(name.parts[2:-1])
+    declared = HEADER_FLOORS.get(f"{layer}/{name.name}")
+    if declared is not None:
+        return declared
+    return sources.get((layer, name.stem), name.stem if name.stem in floors else None)
 
 
 def is_gpl(header, cgal):
@@ -72,20 +128,31 @@ def is_gpl(header, cgal):
     return GPL_SPDX.search(installed.read_text(encoding="utf-8", errors="replace")[:4000]) is not None
 
 
-def check_file(path, root, cgal):
-    """Yields breaches of one source file, and appends its project includes to the graph."""
+def check_file(path, root, cgal, plan, sources):
+    """Yields breaches of one source file of the library."""
     text = path.read_text(encoding="utf-8")
     name = path.relative_to(root)
     layer = layer_of(path, root)
-    if layer not in LAYERS:
-        yield f"{name}:1: is in no known layer: move it, or declare its folder in check_layers.py"
+    if layer not in plan.layers:
+        yield f"{name}:1: is in no known layer: move it, or draw its folder in {PAGE}"
         return
+    floors = plan.floors.get(layer, {})
+    floor = floor_of(name, layer, floors, sources)
+    if floors and floor != "" and floor not in floors:
+        yield f"{name}:1: is in no folder that {PAGE} tells of: move it, or name it after its source"
     for match in INCLUDE.finditer(text):
         where = f"{name}:{line_of(text, match.start(2))}"
         header = match.group(2)
         target = target_layer(match.group(1), header, path, root)
-        if target is not None and target != layer and target not in LAYERS[layer]:
+        resolved = resolve(match.group(1), header, path, root)
+        if target is not None and target != layer and target not in plan.layers[layer]:
             yield f"{where}: layer {layer} must not include {header} (layer {target})"
+        elif resolved is not None and target != layer and is_private(resolved.relative_to(root)):
+            yield f"{where}: {header} is layer {target}'s own: what layers share is in {SHARED}"
+        elif resolved is not None and target == layer and floors and floor in floors:
+            below = floor_of(resolved.relative_to(root), layer, floors, sources)
+            if below is not None and below != floor and below not in floors[floor]:
+                yield f"{where}: {layer}/{floor} must not include {header} (of {layer}/{below})"
         if layer not in GPL_LAYERS and header not in GPL_EXCEPTIONS.get(layer, ()) and is_gpl(header, cgal):
             yield f"{where}: {header} is GPL: only meshing may include it"
         elif header.startswith("CGAL/") and name.parts[0] == "include" and name not in CGAL_HEADERS:
@@ -96,10 +163,39 @@ def check_file(path, root, cgal):
             yield (f"{name}:{line_of(code, match.start())}: {match.group().strip('( ')}: "
                    "signs are asked of a kernel policy, as Exact::orientation(counts, ...)")
     if path.suffix == ".h":
-        inner = name.parts[2:] if name.parts[0] == "include" else name.parts[1:]
+        inner = name.parts[3:] if is_internal(name) else name.parts[2:] if name.parts[0] == "include" else name.parts[1:]
         guard = "CELLWALK_" + re.sub(r"\W", "_", "/".join(inner)).upper()
         if f"#ifndef {guard}\n#define {guard}\n" not in text:
             yield f"{name}:1: the include guard must be {guard}"
+
+
+def check_user(path, root, plan):
+    """Yields breaches of a file outside the library: examples, the Python module, experiments, tests."""
+    name = path.relative_to(root)
+    top, folder = name.parts[0], name.parts[1]
+    reach = plan.layers.get(folder, set()) | {folder} | TEST_WORLDS.get(folder, set())
+    for match in INCLUDE.finditer(text := path.read_text(encoding="utf-8")):
+        header = match.group(2)
+        resolved = resolve(match.group(1), header, path, root)
+        if resolved is None:
+            continue
+        where = f"{name}:{line_of(text, match.start(2))}"
+        target = resolved.relative_to(root)
+        if target.parts[0] in ("tests", "experiments", "python"):
+            if target.parts[0] != "tests":
+                continue
+            if top == "experiments" and not (folder in JUDGED and target.parts[1] in JUDGES):
+                yield f"{where}: {header} is of the tests: only {', '.join(sorted(JUDGED))} are judged by their oracles"
+            elif top == "tests" and target.parts[1] not in reach | {"oracle"} and folder not in OVERALL_TESTS:
+                yield f"{where}: tests of {folder} must not include {header}"
+            continue
+        layer = layer_of(resolved, root)
+        if top in ("python", "examples") and target.parts[0] != "include":
+            yield f"{where}: {header} is not for users"
+        elif is_private(target) and not (top == "tests" and folder in OVERALL_TESTS | {layer}):
+            yield f"{where}: {header} is layer {layer}'s own: what others need is in {SHARED}"
+        elif top == "tests" and folder in plan.layers and folder not in OVERALL_TESTS and layer not in reach:
+            yield f"{where}: tests of {folder} must not include {header} (layer {layer})"
 
 
 def target_layer(bracket, header, path, root):
@@ -109,13 +205,15 @@ def target_layer(bracket, header, path, root):
         return layer_of(resolved, root)
     if header.startswith("cellwalk/"):
         parts = header.split("/")
-        return parts[1] if len(parts) > 2 else None
+        return parts[2 if parts[1] == "internal" else 1] if len(parts) > 2 else None
     return None
 
 
 def resolve(bracket, header, path, root):
     candidates = [path.parent / header] if bracket == '"' else []
-    candidates += [root / "include" / header, root / "src" / header]
+    if path.relative_to(root).parts[0] in ("tests", "experiments"):
+        candidates.append(root / "tests" / header)
+    candidates += [root / "include" / header, root / SHARED / header, root / "src" / header]
     for candidate in candidates:
         candidate = candidate.resolve()
         if candidate.is_file() and root in candidate.parents:
@@ -160,6 +258,34 @@ def check_form(root):
                 yield f"{name}:1: lacks its SPDX-License-Identifier"
 
 
+def check_installed(root, graph):
+    """Installed with the public headers are those internal ones that they include, directly or not, and no others."""
+    needed, queue = set(), [f for f in graph if f.startswith("include/")]
+    while queue:
+        new = {f for f in graph.get(queue.pop(), ()) if f.startswith(str(SHARED))} - needed
+        needed |= new
+        queue += new
+    needed = {"/".join(Path(f).parts[4:]) for f in needed}
+    rules = root / INSTALL
+    listed = re.search(r"set\(installed_internals([^)]*)\)", rules.read_text(encoding="utf-8")) if rules.is_file() else None
+    found = set(listed[1].split()) if listed else set()
+    for header in sorted(needed - found):
+        yield f"{INSTALL}:1: {header} is missing in installed_internals: a public header includes it"
+    for header in sorted(found - needed):
+        yield f"{INSTALL}:1: {header} is one too many in installed_internals: no public header includes it"
+
+
+def check_arrows(root, plan, files):
+    """Arrows that no include needs are not drawn."""
+    used = set()
+    for path in files:
+        layer = layer_of(path, root)
+        for match in INCLUDE.finditer(path.read_text(encoding="utf-8")):
+            used.add((layer, target_layer(match.group(1), match.group(2), path, root)))
+    for a, b in sorted(plan.arrows - used):
+        yield f"{PAGE}:1: the arrow from {a} to {b} is drawn, and nothing in {a} includes anything of {b}"
+
+
 def check(root, cgal="/usr/include"):
     """All breaches, as lines FILE:LINE: message; raises ValueError if there is nothing to check."""
     root = Path(root).resolve()
@@ -167,16 +293,26 @@ def check(root, cgal="/usr/include"):
              if p.suffix in SOURCES]
     if not files:
         raise ValueError(f"no sources under {root}")
+    plan = Plan(root)
+    sources = {(p.relative_to(root).parts[1], p.stem): "/".join(p.relative_to(root).parts[2:-1])
+               for p in files if p.suffix == ".cpp" and is_private(p.relative_to(root))}
     breaches = []
     graph = {}
     for path in files:
-        breaches += check_file(path, root, Path(cgal))
+        breaches += check_file(path, root, Path(cgal), plan, sources)
         includes = INCLUDE.findall(path.read_text(encoding="utf-8"))
         targets = {resolve(bracket, header, path, root) for bracket, header in includes}
         graph[str(path.relative_to(root))] = {str(t.relative_to(root)) for t in targets if t is not None}
+    for folder in ("examples", "python", "experiments", "tests"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SOURCES:
+                breaches += check_user(path, root, plan)
     cycle = find_cycle(graph)
     if cycle:
         breaches.append(f"{cycle[0]}:1: include cycle: " + " -> ".join(cycle))
+    breaches += check_installed(root, graph)
+    if plan.is_own:
+        breaches += check_arrows(root, plan, files)
     return breaches + list(check_form(root))
 
 

@@ -32,6 +32,18 @@ class Planted(unittest.TestCase):
     def source(self, name, body):
         self.write(f"src/{name}", SPDX + body)
 
+    def shared(self, name, body=""):
+        guard = "CELLWALK_INTERNAL_" + name.upper().replace("/", "_").replace(".", "_")
+        self.write(f"src/shared/cellwalk/internal/{name}", f"{SPDX}#ifndef {guard}\n#define {guard}\n{body}#endif\n")
+
+    def private(self, name, body=""):
+        guard = "CELLWALK_" + name.upper().replace("/", "_").replace(".", "_")
+        self.source(name, f"#ifndef {guard}\n#define {guard}\n{body}#endif\n")
+
+    def page(self, arrows, rows=""):
+        drawn = "".join(f"  {a} --> {b}\n" for a, b in arrows)
+        self.write("docs/architecture.md", f"```mermaid\nflowchart BT\n{drawn}```\n\n{rows}")
+
     def check(self):
         return check_layers.check(self.root, self.cgal)
 
@@ -73,8 +85,101 @@ class Planted(unittest.TestCase):
         self.source("walk/walk.cpp", "#include <cellwalk/cellwalk.h>\n")
         self.assert_caught("src/walk/walk.cpp:2", "layer walk must not include", "layer umbrella")
 
+    def test_sideways_include_that_a_stack_would_allow(self):
+        self.source("body/body.cpp", "#include <cellwalk/query/move.h>\n")
+        self.assert_caught("src/body/body.cpp:2", "layer body must not include", "layer query")
+        self.source("body/body.cpp", "#include <cellwalk/generators/grid.h>\n")
+        self.assert_caught("layer body must not include", "layer generators")
+        self.source("body/body.cpp", "")
+        self.source("simulation/world.cpp", "#include <cellwalk/internal/io/csv.h>\n")
+        self.assert_caught("layer simulation must not include", "layer io")
+
+    def test_only_arrows_of_the_page_count_and_each_is_needed(self):
+        self.page([("walk", "kernel")])
+        self.assertEqual(self.check(), [])
+        self.source("kernel/sign.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assert_caught("src/kernel/sign.cpp:2", "layer kernel must not include", "layer walk")
+        self.source("kernel/sign.cpp", "")
+        self.page([("walk", "kernel"), ("body", "walk")])
+        self.assert_caught("docs/architecture.md:1", "the arrow from body to walk")
+
+    def test_folders_of_a_layer(self):
+        self.page([("walk", "kernel")], "| `walk/low` | a |  |\n| `walk/high` | b | `low` |\n")
+        self.header("walk/walk.h", "#include <cellwalk/kernel/sign.h>\n")
+        self.source("walk/walk.cpp", '#include "walk/high/high.h"\n')
+        self.private("walk/low/low.h")
+        self.private("walk/high/high.h", '#include "walk/low/low.h"\n')
+        self.assertEqual(self.check(), [])
+        self.source("walk/low/low.cpp", '#include "walk/high/high.h"\n')
+        self.assert_caught("src/walk/low/low.cpp:2", "walk/low must not include walk/high/high.h")
+        self.source("walk/low/low.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assert_caught("src/walk/low/low.cpp:2", "walk/low must not include")
+        self.source("walk/low/low.cpp", "")
+        self.source("walk/loft/loft.cpp", "")
+        self.assert_caught("src/walk/loft/loft.cpp:1", "in no folder")
+
+    def test_a_public_header_is_on_the_floor_of_its_source(self):
+        self.page([("walk", "kernel")], "| `walk/low` | a |  |\n| `walk/high` | b | `low` |\n")
+        self.source("walk/high/walk.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assertEqual(self.check(), [])
+        self.source("walk/low/low.cpp", "#include <cellwalk/walk/walk.h>\n")
+        self.assert_caught("src/walk/low/low.cpp:2", "of walk/high")
+
+    def test_private_header_of_another_layer(self):
+        self.private("walk/inner.h")
+        self.source("body/body.cpp", '#include "walk/inner.h"\n')
+        self.assert_caught("src/body/body.cpp:2", "walk/inner.h is layer walk's own")
+
+    def test_users_see_public_headers_only(self):
+        self.shared("walk/signs.h")
+        for path in ("python/bindings/module.cpp", "examples/first.cpp"):
+            self.write(path, SPDX + "#include <cellwalk/internal/walk/signs.h>\n")
+            self.assert_caught(f"{path}:2", "is not for users")
+            self.write(path, SPDX + "#include <cellwalk/walk/walk.h>\n")
+        self.assertEqual(self.check(), [])
+
+    def test_experiments_see_nothing_private_and_few_the_oracles(self):
+        self.private("walk/inner.h")
+        self.shared("walk/signs.h")
+        self.write("tests/oracle/oracle.h", SPDX)
+        self.write("experiments/figures/a.cpp", SPDX + "#include <cellwalk/internal/walk/signs.h>\n")
+        self.write("experiments/02_exact_versus_float/a.cpp", SPDX + '#include "oracle/oracle.h"\n')
+        self.assertEqual(self.check(), [])
+        self.write("experiments/figures/a.cpp", SPDX + '#include "walk/inner.h"\n')
+        self.assert_caught("experiments/figures/a.cpp:2", "layer walk's own")
+        self.write("experiments/figures/a.cpp", SPDX + '#include "oracle/oracle.h"\n')
+        self.assert_caught("experiments/figures/a.cpp:2", "is of the tests")
+
+    def test_tests_of_a_layer_stand_where_it_stands(self):
+        self.private("walk/inner.h")
+        self.header("body/body.h")
+        self.write("tests/walk/test_walk.cpp", SPDX + '#include <cellwalk/walk/walk.h>\n#include "walk/inner.h"\n')
+        self.assertEqual(self.check(), [])
+        self.write("tests/walk/test_walk.cpp", SPDX + "#include <cellwalk/body/body.h>\n")
+        self.assert_caught("tests/walk/test_walk.cpp:2", "tests of walk must not include", "layer body")
+        self.write("tests/walk/test_walk.cpp", SPDX)
+        self.write("tests/body/test_body.cpp", SPDX + '#include "walk/inner.h"\n')
+        self.assert_caught("tests/body/test_body.cpp:2", "layer walk's own")
+        self.write("tests/body/test_body.cpp", SPDX)
+        self.write("tests/body/worlds.h", SPDX)
+        self.write("tests/walk/test_walk.cpp", SPDX + '#include "body/worlds.h"\n')
+        self.assert_caught("tests/walk/test_walk.cpp:2", "tests of walk must not include body/worlds.h")
+
+    def test_internal_headers_are_installed_where_public_ones_need_them(self):
+        self.shared("kernel/exact.h")
+        self.shared("kernel/deep.h")
+        self.write("cmake/CellwalkInstall.cmake", "# SPDX-License-Identifier: LGPL-3.0-or-later\nset(installed_internals)\n")
+        self.assertEqual(self.check(), [])
+        self.header("walk/walk.h", "#include <cellwalk/internal/kernel/exact.h>\n")
+        self.shared("kernel/exact.h", "#include <cellwalk/internal/kernel/deep.h>\n")
+        listed = "# SPDX-License-Identifier: LGPL-3.0-or-later\nset(installed_internals\n  kernel/exact.h"
+        self.write("cmake/CellwalkInstall.cmake", f"{listed})\n")
+        self.assert_caught("kernel/deep.h is missing in installed_internals")
+        self.write("cmake/CellwalkInstall.cmake", f"{listed}\n  kernel/deep.h\n  kernel/odd.h)\n")
+        self.assert_caught("kernel/odd.h is one too many")
+
     def test_upward_include_by_a_relative_path(self):
-        self.source("walk/inner.h", "#ifndef CELLWALK_WALK_INNER_H\n#define CELLWALK_WALK_INNER_H\n#endif\n")
+        self.private("walk/inner.h")
         self.source("kernel/sign.cpp", '#include "../walk/inner.h"\n')
         self.assert_caught("src/kernel/sign.cpp:2", "layer walk")
 
