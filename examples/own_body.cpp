@@ -78,7 +78,7 @@ int main() {
   }
   //! [loop]
 
-  body.catch_up(counts);
+  body.refresh(counts);
   body.validate();  // throws if a vertex, an edge or a face were across a wall
   Vector<3> lowest{4, 4, 4};
   for (const Point<3>& p : body.positions())

@@ -26,7 +26,7 @@ const partLength = 15000, mark = 'cellwalk_page';
 if (page.includes(`)${mark}"`)) throw new Error('the page holds the end of the string that is to hold it');
 const parts = page.match(new RegExp(`[^]{1,${partLength}}`, 'g'));
 writeFileSync(process.argv[2], `// Made by viewer/build.mjs.
-#include "cli/viewer_page.h"
+#include "cli/common/viewer_page.h"
 
 namespace cellwalk::cli {
 const std::string_view viewer_page =

@@ -53,7 +53,7 @@ std::vector<std::uint32_t> solid_cells(const Trace_options& options) {
 /// A cube in flight.
 class Flyer {
  public:
-  Flyer(Random& random, double side, double speed) : turn_(random_rotation(random)), speed_(speed) {
+  Flyer(Random& random, double side, double speed) : rotation_(random_rotation(random)), speed_(speed) {
     for (std::size_t v = 0; v < trace_vertices; ++v)
       for (std::size_t k = 0; k < 3; ++k)
         rest_[v][static_cast<Eigen::Index>(k)] = (v >> k & 1 ? 0.5 : -0.5) * side;
@@ -64,21 +64,21 @@ class Flyer {
     velocity_ = speed_ * in_unit_ball(random).normalized();
     spin_ = rotation(1, 0.5 * fastest_turn * in_unit_ball(random));
   }
-  std::array<Point<3>, trace_vertices> placed(const Vector3& center) const {
+  std::array<Point<3>, trace_vertices> placed(const Vector3& centre) const {
     std::array<Point<3>, trace_vertices> x;
-    for (std::size_t v = 0; v < trace_vertices; ++v) x[v] = point(center + turn_ * rest_[v]);
+    for (std::size_t v = 0; v < trace_vertices; ++v) x[v] = point(centre + rotation_ * rest_[v]);
     return x;
   }
   /// Where the vertices are to go from where they are.
   std::array<Point<3>, trace_vertices> targets(const std::array<Point<3>, trace_vertices>& positions) {
-    Vector3 center = Vector3::Zero();
-    for (const Point<3>& x : positions) center += vector(x);
-    center /= static_cast<double>(trace_vertices);
+    Vector3 centre = Vector3::Zero();
+    for (const Point<3>& x : positions) centre += vector(x);
+    centre /= static_cast<double>(trace_vertices);
     Matrix3 moments = Matrix3::Zero();
     for (std::size_t v = 0; v < trace_vertices; ++v)
-      moments += (vector(positions[v]) - center) * rest_[v].transpose();
-    turn_ = spin_ * nearest_rotation(moments, turn_);
-    std::array<Point<3>, trace_vertices> goals = placed(center + velocity_);
+      moments += (vector(positions[v]) - centre) * rest_[v].transpose();
+    rotation_ = spin_ * nearest_rotation(moments, rotation_);
+    std::array<Point<3>, trace_vertices> goals = placed(centre + velocity_);
     for (std::size_t v = 0; v < trace_vertices; ++v) {
       const Vector3 from = vector(positions[v]), way = vector(goals[v]) - from;
       const double length = way.norm();
@@ -92,7 +92,7 @@ class Flyer {
   static Point<3> point(const Vector3& x) { return {x[0], x[1], x[2]}; }
 
   std::array<Vector3, trace_vertices> rest_;
-  Matrix3 turn_, spin_;
+  Matrix3 rotation_, spin_;
   Vector3 velocity_;
   double speed_;
 };
@@ -102,10 +102,10 @@ Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_
             Random& random, std::vector<Point<3>>& starts) {
   for (int i = 0; i < most_tries; ++i) {
     Flyer flyer(random, options.body_side, options.speed);
-    Vector3 center;
+    Vector3 centre;
     for (std::size_t k = 0; k < 3; ++k)
-      center[static_cast<Eigen::Index>(k)] = random.real(0, static_cast<double>(options.cells[k]));
-    const auto positions = flyer.placed(center);
+      centre[static_cast<Eigen::Index>(k)] = random.real(0, static_cast<double>(options.cells[k]));
+    const auto positions = flyer.placed(centre);
     // Most places are refused, and cheaply so where a vertex is not in free space.
     if (std::ranges::any_of(positions, [&](const Point<3>& x) { return !locator.particle_at(x); })) continue;
     try {

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 
-#include <cellwalk/internal/io/motion_record_file.h>
+#include <cellwalk/internal/io/repro_file.h>
 
 #include "kernels.h"
 #include "run_options.h"
@@ -15,10 +15,10 @@ namespace cellwalk::exact_float {
 template <int D>
 void write_failure(const std::filesystem::path& path, const Scene<D>& scene, const Kernel<D>& kernel,
                    const Particle<D>& particle, const Point<D>& to, const std::string& note) {
-  Motion_record<D> record{scene.world.soup, particle.position, to,  scene.snapshot.index(particle.cell),
-                          kernel.policy,    "exit_rule",       note};
+  Repro<D> record{scene.world.soup, particle.position, to,  scene.snapshot.index(particle.cell),
+                  kernel.policy,    "exit_rule",       note};
   if (kernel.strategy == Walk_strategy::certified) record.strategy = "certified";
-  io::write_motion_record(path, record);
+  io::write_repro(path, record);
 }
 
 /// Walks degenerate motions until each rounded kernel has failed in each way, or enough have been walked. Writes

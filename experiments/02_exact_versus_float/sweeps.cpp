@@ -52,7 +52,7 @@ struct Move {
   std::vector<Half_facet> crossed;
   bool is_blocked = false;  ///< p was
 
-  Way<D> way() const { return {p, moved, visited, crossed, is_blocked}; }
+  Vertex_path<D> path() const { return {p, moved, visited, crossed, is_blocked}; }
 };
 
 Verdict of_answer(bool is_free, bool may_be_free, bool may_be_blocked) {
@@ -114,18 +114,19 @@ class Sweep_trial {
   }
 
   void judge(const Move<D>& move) {
-    const auto motion = test::motion_of(scene_.world.soup, scene_.snapshot, move.way(), move.q, move.before);
+    const auto motion = test::motion_of(scene_.world.soup, scene_.snapshot, move.path(), move.q, move.before);
     const oracle::Outcomes outcomes = chains_.judge(motion);
     const bool may_be_free = !move.is_blocked && outcomes.may_be_free();
     const bool may_be_blocked = move.is_blocked || !outcomes.blocks.empty();
     ++counts_.sweeps;
     counts_.blocked += !may_be_free;
     Edge_counts counts;
-    const Sweep_result<D> triangle = sweep_triangle(scene_.snapshot, move.way(), move.q, move.before, counts);
+    const Sweep_result<D> triangle =
+        sweep_triangle(scene_.snapshot, move.path(), move.q, move.before, counts);
     note(0, of_fault(test::fault_of(chains_, motion, outcomes, scene_.snapshot, triangle)));
     const bool is_third_free =
         !move.is_blocked &&
-        !check_third_segment<D>(scene_.snapshot, move.way(), move.q, move.before, counts).contact;
+        !check_third_segment<D>(scene_.snapshot, move.path(), move.q, move.before, counts).contact;
     note(1, of_answer(is_third_free, may_be_free, may_be_blocked));
     for (std::size_t k = 0; k < kernel_count; ++k) {
       const Walk_status status = walk_both(kernels_[k], move);

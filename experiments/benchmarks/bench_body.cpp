@@ -8,7 +8,7 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rigid_body.h>
 
 #include <benchmark/benchmark.h>
 
@@ -34,11 +34,11 @@ const Snapshot<3>& scene() {
   return snapshot;
 }
 
-std::vector<Flight<3>> throw_bodies() {
+std::vector<Rigid_body<3>> throw_bodies() {
   static const Locator<3> locator(scene());
   const Body_soup<3> shape = generate_body(Hexahedron_shape{0.3, false});
   Random random(1);
-  std::vector<Flight<3>> result;
+  std::vector<Rigid_body<3>> result;
   while (result.size() < bodies) {
     Body_placement<3> placement;
     Vector<3> velocity;
@@ -56,14 +56,14 @@ std::vector<Flight<3>> throw_bodies() {
 }
 
 void fly(benchmark::State& state, const Body_options& options) {
-  std::vector<Flight<3>> flights = throw_bodies();
-  Flight_conditions<3> conditions;
+  std::vector<Rigid_body<3>> rigid_bodies = throw_bodies();
+  Dynamics_options<3> conditions;
   conditions.time_step = step_length;
   conditions.body = options;
   Step_report<3> report;
   Body_counts counts;
   for (auto _ : state) {
-    for (Flight<3>& flight : flights) flight.step(conditions, report, counts);
+    for (Rigid_body<3>& rigid_body : rigid_bodies) rigid_body.step(conditions, report, counts);
     report.clear();
   }
   const auto n = static_cast<double>(counts.moves), edges = static_cast<double>(counts.edges.edges);

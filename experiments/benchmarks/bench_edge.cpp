@@ -130,7 +130,7 @@ const Snapshot<3>& grid_with_walls() {
 
 /// A face, and the two ways of its corner p.
 struct Swept {
-  std::array<Way<3>, 2> ways;
+  std::array<Vertex_path<3>, 2> ways;
   Particle<3> q, r;
   std::array<Chain, 4> chains;  ///< of pq at both ends of the way, of qr, and of rp at the end
 };
@@ -150,8 +150,8 @@ std::vector<Swept> swept_faces(const Snapshot<3>& snapshot, double length, bool 
       for (const int j : {2, 3}) x[j][k] = x[0][k] + length * random.real(-1, 1) / 1.7;
     }
     const Particle<3> p = locator.particle_at(x[0]).value(), t = locator.particle_at(x[1]).value();
-    const Way<3> way{p, t, {}, {}, false}, back{t, p, {}, {}, false};
-    Swept s{{way, back}, locator.particle_at(x[2]).value(), locator.particle_at(x[3]).value(), {}};
+    const Vertex_path<3> path{p, t, {}, {}, false}, back{t, p, {}, {}, false};
+    Swept s{{path, back}, locator.particle_at(x[2]).value(), locator.particle_at(x[3]).value(), {}};
     Walk_counts& walks = edge_counts.walk;
     const auto qr = find_chain(snapshot, s.q, s.r, walks), pq = find_chain(snapshot, p, s.q, walks),
                rp = find_chain(snapshot, s.r, p, walks), tq = find_chain(snapshot, t, s.q, walks);
@@ -160,7 +160,7 @@ std::vector<Swept> swept_faces(const Snapshot<3>& snapshot, double length, bool 
     if (!is_free) continue;
     s.chains = {pq.chain, tq.chain, qr.chain, rp.chain};
     const std::uint64_t clear = counts.clear;
-    const bool is_hit = sweep_face(snapshot, way, s.q, s.r, {}, {}, counts).contact.has_value();
+    const bool is_hit = sweep_face(snapshot, path, s.q, s.r, {}, {}, counts).contact.has_value();
     if (!is_hit && (counts.clear == clear) == near_walls) result.push_back(s);
   }
   return result;

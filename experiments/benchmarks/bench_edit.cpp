@@ -31,7 +31,7 @@ std::vector<std::uint32_t> vertices(const Snapshot<3>& snapshot, bool on_boundar
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
     for (std::size_t k = 0; k < snapshot.facet_count(snapshot.cell(i)); ++k) {
       const Half_facet f = snapshot.half_facet(snapshot.cell(i), k);
-      if (snapshot.neighbor(f) != Cell::none) continue;
+      if (snapshot.neighbour(f) != Cell::none) continue;
       for (const std::uint32_t v : snapshot.loop(f)) is_outer[v] = 1;
     }
   std::vector<std::uint32_t> found;
@@ -83,7 +83,7 @@ void toggle(benchmark::State& state) {
     const Cell c = snapshot.cell(i++ % snapshot.cell_count());
     for (std::size_t k = 0; k < 4; ++k) {
       const Half_facet f = snapshot.half_facet(c, k);
-      if (snapshot.neighbor(f) == Cell::none) continue;
+      if (snapshot.neighbour(f) == Cell::none) continue;
       environment.set_impassable(f, !snapshot.is_impassable(f));
       break;
     }

@@ -14,9 +14,9 @@ Share_interval confidence_interval(std::uint64_t failures, std::uint64_t trials)
   if (failures == 0) return {0, rule_of_three};
   if (failures == trials) return {1 - rule_of_three, 1};
   const double share = static_cast<double>(failures) / n;
-  const double center = share + z * z / (2 * n), scale = 1 + z * z / n;
+  const double centre = share + z * z / (2 * n), scale = 1 + z * z / n;
   const double half = z * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n));
-  return {std::max(0.0, (center - half) / scale), std::min(1.0, (center + half) / scale)};
+  return {std::max(0.0, (centre - half) / scale), std::min(1.0, (centre + half) / scale)};
 }
 
 }  // namespace cellwalk::experiments

@@ -20,7 +20,7 @@ constexpr std::uint32_t spike_x = 2, spike_y = 1;
 constexpr double spike_height = 0.875;
 constexpr Point<3> tip{spike_x + 0.5, spike_y + 0.5, spike_height};
 constexpr double edge_radius = 0.022, dash_radius = 0.014;
-constexpr drawing::Color face_color{0.30, 0.45, 0.80, 0.55}, blocked_face{0.85, 0.35, 0.30, 0.60},
+constexpr drawing::Colour face_colour{0.30, 0.45, 0.80, 0.55}, blocked_face{0.85, 0.35, 0.30, 0.60},
     swept_by_edges{0.98, 0.75, 0.25, 0.38};
 
 /// Sweeps of the edges from p, then of the face.
@@ -43,13 +43,13 @@ struct Move {
     is_vertex_free =
         !move(snapshot, to, target, counts.walk, {Walk_strategy::certified, &visited, &crossed}).contact;
     require(is_vertex_free, "face: p itself is free");
-    const Way<3> way{from, to, visited, crossed};
-    const Sweep_result<3> to_q = sweep_triangle<3>(snapshot, way, at_q, pq, counts),
-                          to_r = sweep_triangle<3>(snapshot, way, at_r, pr, counts);
+    const Vertex_path<3> path{from, to, visited, crossed};
+    const Sweep_result<3> to_q = sweep_triangle<3>(snapshot, path, at_q, pq, counts),
+                          to_r = sweep_triangle<3>(snapshot, path, at_r, pr, counts);
     are_edges_free = !to_q.contact && !to_r.contact;
     require(are_edges_free, "face: the sweeps of its edges are free");
-    face = sweep_face(snapshot, way, at_q, at_r, start.rests, {{&to_q.chain}, {&qr}, {&to_r.chain, true}},
-                      face_counts);
+    face = sweep_face(snapshot, path, at_q, at_r, start.supporting_walls,
+                      {{&to_q.chain}, {&qr}, {&to_r.chain, true}}, face_counts);
   }
   bool is_vertex_free = false, are_edges_free = false;
   Face_result face;
@@ -57,15 +57,15 @@ struct Move {
 
 Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot) {
   Space_plot plot(title, snapshot, {});
-  for (const Point<3>& x : {q, r}) plot.dashes(b, x, dash_radius, colors::start);
-  plot.dashes(a, b, dash_radius, colors::start);
-  plot.ball(b, 1.5 * edge_radius, colors::start);
+  for (const Point<3>& x : {q, r}) plot.dashes(b, x, dash_radius, colours::start);
+  plot.dashes(a, b, dash_radius, colours::start);
+  plot.ball(b, 1.5 * edge_radius, colours::start);
   plot.label(b, "p(1)", 12, -14);
   return plot;
 }
 
-void add_face(Space_plot& plot, const Point<3>& p, const drawing::Color& inside,
-              const drawing::Color& edges) {
+void add_face(Space_plot& plot, const Point<3>& p, const drawing::Colour& inside,
+              const drawing::Colour& edges) {
   plot.triangle(p, q, r, inside);
   const std::array<Point<3>, 3> corners{p, q, r};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -97,26 +97,26 @@ void draw_face_3d(const std::filesystem::path& folder) {
   Space_plot before = plot_of("Before: p is to go from p(0) to p(1)", snapshot),
              after = plot_of("At contact: s = " + text_of(contact.time) + "; all edges sweep free", snapshot);
   for (const Point<3>& x : {q, r}) before.triangle(a, b, x, swept_by_edges);
-  add_face(before, a, face_color, colors::start);
+  add_face(before, a, face_colour, colours::start);
   before.label(a, "p(0)", 12, 4);
-  add_face(after, stop, blocked_face, colors::contact);
-  after.ball(a, 1.5 * edge_radius, colors::start);
+  add_face(after, stop, blocked_face, colours::contact);
+  after.ball(a, 1.5 * edge_radius, colours::start);
   after.label(a, "p(0)", 12, 4);
   after.label(stop, "p(s*)", 12, -8);
   after.contact(contact);
 
-  const std::vector<drawing::Key> keys{
-      {drawing::Key::patch, face_color, "the face at its start"},
-      {drawing::Key::patch, blocked_face, "at the contact; point and normal"},
-      {drawing::Key::dashes, colors::start, "where its edges are to go"},
-      {drawing::Key::patch, swept_by_edges, "swept by its edges: no wall"},
-      {drawing::Key::patch, colors::spike, "spikes"}};
-  drawing::Sheet_options sheet;
-  sheet.panel_width = 660;
-  sheet.panel_height = 420;
-  sheet.camera = {{0.7, -1, 0.38}, {0, 0, 1}, 24};
-  io::write_file(folder / "face_3d.png", drawing::encode_png(drawing::make_sheet(
-                                             std::vector{before.panel(), after.panel()}, keys, sheet)));
+  const std::vector<drawing::Legend_entry> legend{
+      {drawing::Legend_entry::patch, face_colour, "the face at its start"},
+      {drawing::Legend_entry::patch, blocked_face, "at the contact; point and normal"},
+      {drawing::Legend_entry::dashes, colours::start, "where its edges are to go"},
+      {drawing::Legend_entry::patch, swept_by_edges, "swept by its edges: no wall"},
+      {drawing::Legend_entry::patch, colours::spike, "spikes"}};
+  drawing::Figure_options figure;
+  figure.panel_width = 660;
+  figure.panel_height = 420;
+  figure.camera = {{0.7, -1, 0.38}, {0, 0, 1}, 24};
+  io::write_file(folder / "face_3d.png", drawing::encode_png(drawing::make_figure(
+                                             std::vector{before.panel(), after.panel()}, legend, figure)));
   io::write_json(folder / "face_3d.json",
                  Json{{"motion", {{"p", a}, {"target", b}, {"q", q}, {"r", r}}},
                       {"vertex_is_free", move.is_vertex_free},

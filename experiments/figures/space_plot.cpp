@@ -33,45 +33,46 @@ Space_plot::Space_plot(const std::string& title, const Snapshot<3>& snapshot,
       for (const std::uint32_t v : loop) corners.push_back(snapshot.point(v));
       const bool is_floor =
           std::all_of(corners.begin(), corners.end(), [](const auto& x) { return x[2] == 0; });
-      if (snapshot.neighbor(f) != Cell::none)
-        drawing::add_patch(panel_.drawing, corners, material(colors::spike, true));
+      if (snapshot.neighbour(f) != Cell::none)
+        drawing::add_patch(panel_.drawing, corners, material(colours::spike, true));
       else if (is_floor)
-        drawing::add_patch(panel_.drawing, corners, material(colors::floor, false));
+        drawing::add_patch(panel_.drawing, corners, material(colours::floor, false));
     }
   }
-  for (const auto& [u, v] : ridges) line(snapshot.point(u), snapshot.point(v), outline, colors::cell);
+  for (const auto& [u, v] : ridges) line(snapshot.point(u), snapshot.point(v), outline, colours::cell);
 }
 
-void Space_plot::line(const Point<3>& from, const Point<3>& to, double radius, const drawing::Color& color) {
-  drawing::add_tube(panel_.drawing, std::vector{from, to}, radius, material(color, true));
+void Space_plot::line(const Point<3>& from, const Point<3>& to, double radius,
+                      const drawing::Colour& colour) {
+  drawing::add_tube(panel_.drawing, std::vector{from, to}, radius, material(colour, true));
 }
 
 void Space_plot::dashes(const Point<3>& from, const Point<3>& to, double radius,
-                        const drawing::Color& color) {
-  drawing::add_dashes(panel_.drawing, from, to, radius, dash, false, material(color, true));
+                        const drawing::Colour& colour) {
+  drawing::add_dashes(panel_.drawing, from, to, radius, dash, false, material(colour, true));
 }
 
 void Space_plot::triangle(const Point<3>& x, const Point<3>& y, const Point<3>& z,
-                          const drawing::Color& color) {
-  drawing::add_patch(panel_.drawing, std::vector{x, y, z}, material(color, false));
+                          const drawing::Colour& colour) {
+  drawing::add_patch(panel_.drawing, std::vector{x, y, z}, material(colour, false));
 }
 
-void Space_plot::ball(const Point<3>& at, double radius, const drawing::Color& color) {
-  drawing::add_ball(panel_.drawing, at, radius, material(color, true));
+void Space_plot::ball(const Point<3>& at, double radius, const drawing::Colour& colour) {
+  drawing::add_ball(panel_.drawing, at, radius, material(colour, true));
 }
 
 void Space_plot::contact(const Contact<3>& contact) {
-  ball(contact.point, contact_ball, colors::contact);
+  ball(contact.point, contact_ball, colours::contact);
   drawing::add_arrow(panel_.drawing, contact.point, contact.normal, arrow, arrow_radius,
-                     material(colors::contact, true));
+                     material(colours::contact, true));
 }
 
 void Space_plot::label(const Point<3>& at, const std::string& text, double right, double up) {
   panel_.labels.push_back({at, text, right, up});
 }
 
-std::uint32_t Space_plot::material(const drawing::Color& color, bool lit) {
-  return panel_.drawing.add_material({color, 0, lit});
+std::uint32_t Space_plot::material(const drawing::Colour& colour, bool lit) {
+  return panel_.drawing.add_material({colour, 0, lit});
 }
 
 }  // namespace cellwalk::figures

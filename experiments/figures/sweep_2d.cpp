@@ -2,7 +2,7 @@
 // The paper's figure 4, and what three segments miss in the plane.
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/drawing/drawing.h>
-#include <cellwalk/internal/drawing/sheet.h>
+#include <cellwalk/internal/drawing/figure.h>
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/io/atomic_file.h>
@@ -20,15 +20,15 @@
 namespace cellwalk::figures {
 namespace {
 
-using drawing::Color;
+using drawing::Colour;
 
 constexpr int width = 10, height = 6;
 constexpr Point<2> a{9.25, 5.25}, b{9.25, 1}, q{0.75, 2};  // p moves from a to b
 constexpr double tolerance = 0x1p-5;  // of the dichotomic search: coarse, so that its steps can be seen
 constexpr double thin = 0.022, medium = 0.04, thick = 0.085, dot = 0.1;  // units of the environment
-constexpr Color free_space{0.985, 0.985, 0.985}, flooded{0.88, 0.935, 0.985}, solid{0.42, 0.42, 0.44},
-    grid{0.74, 0.76, 0.79}, swept{0.95, 0.62, 0.12, 0.45}, edge_color{0.08, 0.16, 0.42},
-    contact_color{0.80, 0.10, 0.10}, free_step{0.08, 0.58, 0.32}, blocked_step{0.70, 0.46, 0.80};
+constexpr Colour free_space{0.985, 0.985, 0.985}, flooded{0.88, 0.935, 0.985}, solid{0.42, 0.42, 0.44},
+    grid{0.74, 0.76, 0.79}, swept{0.95, 0.62, 0.12, 0.45}, edge_colour{0.08, 0.16, 0.42},
+    contact_colour{0.80, 0.10, 0.10}, free_step{0.08, 0.58, 0.32}, blocked_step{0.70, 0.46, 0.80};
 
 const Polygon floating{{4.75, 2.5}, {7, 2.375}, {6.5, 3.5}};
 const std::vector<Polygon> ceiling{{{2.25, 6}, {3.75, 6}, {2.75, 4}}, {{5.25, 6}, {6.5, 6}, {6, 4.75}}};
@@ -104,32 +104,32 @@ class Plot {
                                    {{0, height}, {0, 0}}})
       line(at(from, 0), at(to, 0), 4, thick, solid);
     drawing::add_patch(panel_.drawing, std::vector{at(a, 2), at(b, 2), at(q, 2)}, material(swept));
-    line(at(a, 0), at(q, 0), 6, thick, edge_color);
-    dashes(a, b, medium, edge_color);
-    dashes(b, q, 0.7 * thick, edge_color);
+    line(at(a, 0), at(q, 0), 6, thick, edge_colour);
+    dashes(a, b, medium, edge_colour);
+    dashes(b, q, 0.7 * thick, edge_colour);
     for (const Point<2>& x : {a, b, q})
-      drawing::add_disc(panel_.drawing, x, dot, layer(8), material(edge_color));
+      drawing::add_disc(panel_.drawing, x, dot, layer(8), material(edge_colour));
     label(a, "p(0)", -16, 18);
     label(b, "p(1)", -16, -30);
     label(q, "q", -26, -6);
   }
 
-  void line(const Point<3>& from, const Point<3>& to, int z, double size, const Color& color) {
+  void line(const Point<3>& from, const Point<3>& to, int z, double size, const Colour& colour) {
     drawing::add_flat_line(panel_.drawing, {from[0], from[1]}, {to[0], to[1]}, size, layer(z),
-                           material(color));
+                           material(colour));
   }
-  void edge(double s, double size, const Color& color) { line(at(p_at(s), 0), at(q, 0), 5, size, color); }
-  void dashes(const Point<2>& from, const Point<2>& to, double size, const Color& color) {
-    drawing::add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(color));
+  void edge(double s, double size, const Colour& colour) { line(at(p_at(s), 0), at(q, 0), 5, size, colour); }
+  void dashes(const Point<2>& from, const Point<2>& to, double size, const Colour& colour) {
+    drawing::add_dashes(panel_.drawing, at(from, 5), at(to, 5), size / 2, 0.15, true, material(colour));
   }
-  void spot(const Point<2>& x, double size, const Color& color) {
-    drawing::add_disc(panel_.drawing, x, size, layer(9), material(color));
+  void spot(const Point<2>& x, double size, const Colour& colour) {
+    drawing::add_disc(panel_.drawing, x, size, layer(9), material(colour));
   }
   void contact(const Contact<2>& c, const std::string& time) {
-    edge(c.rounded_time(), thick, contact_color);
-    spot(c.point, 1.2 * dot, contact_color);
+    edge(c.rounded_time(), thick, contact_colour);
+    spot(c.point, 1.2 * dot, contact_colour);
     drawing::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10),
-                            material(contact_color));
+                            material(contact_colour));
     label(p_at(c.rounded_time()), time, 14, -6);
   }
   void label(const Point<2>& x, const std::string& text, double right, double up) {
@@ -140,7 +140,7 @@ class Plot {
  private:
   static double layer(int z) { return 1e-3 * z; }
   static Point<3> at(const Point<2>& x, int z) { return {x[0], x[1], layer(z)}; }
-  std::uint32_t material(const Color& c) { return panel_.drawing.add_material({c, 0, false}); }
+  std::uint32_t material(const Colour& c) { return panel_.drawing.add_material({c, 0, false}); }
 
   drawing::Panel panel_;
 };
@@ -259,21 +259,21 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
   panels.push_back(draw_dichotomic(spikes, json["spikes"]));
   json["spikes"]["three_segments"] = {{"contact", to_json(spikes.snapshot, *by_segments)}};
 
-  const std::vector<drawing::Key> keys{
-      {drawing::Key::line, edge_color, "the edge at its start"},
-      {drawing::Key::dashes, edge_color, "where it is to go"},
-      {drawing::Key::line, contact_color, "at the contact; point and normal"},
-      {drawing::Key::patch, swept, "swept triangle"},
-      {drawing::Key::patch, flooded, "cells looked at"},
-      {drawing::Key::patch, solid, "obstacles"},
-      {drawing::Key::line, free_step, "bisection: free until here (+)"},
-      {drawing::Key::line, blocked_step, "blocked (-); vertices met later"}};
-  drawing::Sheet_options options;
+  const std::vector<drawing::Legend_entry> legend{
+      {drawing::Legend_entry::line, edge_colour, "the edge at its start"},
+      {drawing::Legend_entry::dashes, edge_colour, "where it is to go"},
+      {drawing::Legend_entry::line, contact_colour, "at the contact; point and normal"},
+      {drawing::Legend_entry::patch, swept, "swept triangle"},
+      {drawing::Legend_entry::patch, flooded, "cells looked at"},
+      {drawing::Legend_entry::patch, solid, "obstacles"},
+      {drawing::Legend_entry::line, free_step, "bisection: free until here (+)"},
+      {drawing::Legend_entry::line, blocked_step, "blocked (-); vertices met later"}};
+  drawing::Figure_options options;
   options.camera = {{0, 0, 1}, {0, 1, 0}, 0};
   options.panel_width = 600;
   options.panel_height = 360;
-  const drawing::Image sheet = drawing::make_sheet(panels, keys, options);
-  io::write_file(folder / "sweep_2d.png", drawing::encode_png(sheet));
+  const drawing::Image figure = drawing::make_figure(panels, legend, options);
+  io::write_file(folder / "sweep_2d.png", drawing::encode_png(figure));
   io::write_json(folder / "sweep_2d.json", json);
 }
 

@@ -18,11 +18,11 @@ constexpr double edge_radius = 0.022, dash_radius = 0.014;
 
 Space_plot plot_of(const std::string& title, const Snapshot<3>& snapshot, const std::vector<Cell>& cells) {
   Space_plot plot(title, snapshot, cells);
-  plot.triangle(a, b, q, colors::swept);
-  plot.line(a, q, edge_radius, colors::start);
-  plot.dashes(a, b, dash_radius, colors::start);
-  plot.dashes(b, q, dash_radius, colors::start);
-  for (const Point<3>& x : {a, b, q}) plot.ball(x, 2 * edge_radius, colors::start);
+  plot.triangle(a, b, q, colours::swept);
+  plot.line(a, q, edge_radius, colours::start);
+  plot.dashes(a, b, dash_radius, colours::start);
+  plot.dashes(b, q, dash_radius, colours::start);
+  for (const Point<3>& x : {a, b, q}) plot.ball(x, 2 * edge_radius, colours::start);
   plot.label(a, "p(0)", -10, -32);
   plot.label(b, "p(1)", 12, 4);
   plot.label(q, "q", -26, 4);
@@ -73,23 +73,24 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
              triangle = plot_of("The complete sweep: blocked at s = " + text_of(exact->time), snapshot, met);
   const Point<3> stop = a + exact->rounded_time() * (b - a);
-  triangle.line(stop, q, edge_radius, colors::contact);
+  triangle.line(stop, q, edge_radius, colours::contact);
   triangle.contact(*exact);
   triangle.label(stop, "s*", 12, -8);
 
-  const std::vector<drawing::Key> keys{
-      {drawing::Key::line, colors::start, "the edge at its start"},
-      {drawing::Key::dashes, colors::start, "where it is to go"},
-      {drawing::Key::line, colors::contact, "at the contact; point and normal"},
-      {drawing::Key::patch, colors::swept, "swept triangle"},
-      {drawing::Key::line, colors::cell, "cells looked at"},
-      {drawing::Key::patch, colors::spike, "spikes"}};
-  drawing::Sheet_options sheet;
-  sheet.panel_width = 660;
-  sheet.panel_height = 380;
-  sheet.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
-  io::write_file(folder / "sweep_3d.png", drawing::encode_png(drawing::make_sheet(
-                                              std::vector{segments.panel(), triangle.panel()}, keys, sheet)));
+  const std::vector<drawing::Legend_entry> legend{
+      {drawing::Legend_entry::line, colours::start, "the edge at its start"},
+      {drawing::Legend_entry::dashes, colours::start, "where it is to go"},
+      {drawing::Legend_entry::line, colours::contact, "at the contact; point and normal"},
+      {drawing::Legend_entry::patch, colours::swept, "swept triangle"},
+      {drawing::Legend_entry::line, colours::cell, "cells looked at"},
+      {drawing::Legend_entry::patch, colours::spike, "spikes"}};
+  drawing::Figure_options figure;
+  figure.panel_width = 660;
+  figure.panel_height = 380;
+  figure.camera = {{0.75, -0.9, 0.66}, {0, 0, 1}, 24};
+  io::write_file(folder / "sweep_3d.png",
+                 drawing::encode_png(
+                     drawing::make_figure(std::vector{segments.panel(), triangle.panel()}, legend, figure)));
   io::write_json(
       folder / "sweep_3d.json",
       Json{{"motion", {{"p", a}, {"target", b}, {"q", q}}},

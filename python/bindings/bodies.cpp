@@ -88,14 +88,14 @@ class Any_body {
           if (options.edges == Edge_rule::at_target) need_few_edges(body);
           Step_report<D> report;
           std::vector<Body_contact_row<D>> contacts;
-          std::vector<Blocked_row<D>> blocked;
+          std::vector<Rejected_row<D>> blocked;
           {
             const py::gil_scoped_release released;
             const std::lock_guard guard(*moving_);
             body.step(to, options, report, counts_);
             const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
             for (const Body_contact<D>& met : report.contacts) contacts.push_back(to_row(snapshot, met));
-            for (const Blocked_move<D>& move : report.blocked) blocked.push_back(to_row(snapshot, move));
+            for (const Rejected_move<D>& move : report.blocked) blocked.push_back(to_row(snapshot, move));
           }
           return options.reported == Reported::blocked ? py::array(to_array(std::move(blocked)))
                                                        : py::array(to_array(std::move(contacts)));
@@ -131,7 +131,7 @@ class Any_body {
     const std::lock_guard guard(*moving_);
     std::visit(
         [&](auto& body) {
-          body.catch_up(counts_);
+          body.refresh(counts_);
           body.validate();
         },
         body_);

@@ -44,7 +44,7 @@ Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& m
 
 /// A row of the table of what blocks the vertices of a body.
 template <int D>
-struct Blocked_row {
+struct Rejected_row {
   std::uint64_t edges, swept_edges;
   double time;
   std::array<double, D> point, normal;
@@ -54,14 +54,14 @@ struct Blocked_row {
   std::uint16_t kind;
   bool stays, is_vertex_blocked;
 };
-static_assert(sizeof(Blocked_row<2>) == 5 * sizeof(double) + 32 &&
-              sizeof(Blocked_row<3>) == 7 * sizeof(double) + 32);
-using Blocked_row_2 = Blocked_row<2>;
-using Blocked_row_3 = Blocked_row<3>;
+static_assert(sizeof(Rejected_row<2>) == 5 * sizeof(double) + 32 &&
+              sizeof(Rejected_row<3>) == 7 * sizeof(double) + 32);
+using Blocked_row_2 = Rejected_row<2>;
+using Blocked_row_3 = Rejected_row<3>;
 
 template <int D>
-Blocked_row<D> to_row(const Snapshot<D>& snapshot, const Blocked_move<D>& move) {
-  Blocked_row<D> row{};
+Rejected_row<D> to_row(const Snapshot<D>& snapshot, const Rejected_move<D>& move) {
+  Rejected_row<D> row{};
   row.edges = move.edges;
   row.swept_edges = move.swept_edges;
   row.vertex = move.vertex;

@@ -124,14 +124,14 @@ std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const 
 }
 
 template <int D>
-void Body<D>::catch_up(Body_counts& counts) {
+void Body<D>::refresh(Body_counts& counts) {
   state_->check_epoch();
   state_->refresh_all(counts);
 }
 
 template <int D>
 void Body<D>::leave_region(Body_counts& counts) {
-  catch_up(counts);
+  refresh(counts);
   state_->give_region_up();
 }
 
@@ -159,9 +159,10 @@ void Body<D>::validate() const {
   if constexpr (D == 3) {
     if (!state_->are_faces_swept) return;
     Face_counts face_counts;
-    for (std::uint32_t f = 0; f < state_->rests.size(); ++f) {
+    for (std::uint32_t f = 0; f < state_->supporting_walls.size(); ++f) {
       const Face_registration found = detail::registered_face(*state_, f, face_counts);
-      if (found.piercing == Half_facet::none && found.rests == state_->rests[f]) continue;
+      if (found.piercing == Half_facet::none && found.supporting_walls == state_->supporting_walls[f])
+        continue;
       throw Error(Error_code::other, fmt::format("a wall pierces face {} of a body, at ({})", f,
                                                  fmt::join(positions[faces()[f][0]], ", ")));
     }

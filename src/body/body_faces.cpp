@@ -27,13 +27,13 @@ Face_registration registered_face(const Body_state<3>& body, std::uint32_t face,
   };
   const auto& particles = body.particles;
   return register_face(*body.snapshot, particles[u], particles[v], particles[w],
-                       {side(0, u, v), side(1, v, w), side(2, w, u)}, counts, body.rests[face]);
+                       {side(0, u, v), side(1, v, w), side(2, w, u)}, counts, body.supporting_walls[face]);
 }
 
 void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts) {
-  for (std::uint32_t f = 0; f < body.rests.size(); ++f) {
+  for (std::uint32_t f = 0; f < body.supporting_walls.size(); ++f) {
     const Face_registration found = registered_face(body, f, counts);
-    body.rests[f] = found.rests;
+    body.supporting_walls[f] = found.supporting_walls;
     if (found.piercing == Half_facet::none) continue;
     const auto& [u, v, w] = body.topology.faces()[f];
     const auto place = [&](std::uint32_t x) {
@@ -51,14 +51,14 @@ void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts) {
 }
 
 void take_up_faces(Body_state<3>& body, Body_counts& counts) {
-  if (body.are_faces_swept || body.rests.empty()) return;
+  if (body.are_faces_swept || body.supporting_walls.empty()) return;
   body.check_epoch();
   body.refresh_all(counts);
   register_faces(body, Error_code::usage, counts.faces);
 }
 
-void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex, const Way<3>& way,
-                 std::optional<Body_contact<3>>& first, Face_counts& counts) {
+void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+                 const Vertex_path<3>& path, std::optional<Body_contact<3>>& first, Face_counts& counts) {
   for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
@@ -69,14 +69,14 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
     const Face_chains chains{{moved_chain(body, scratch, vertex, sides[k]), false},
                              {&across, q > r},
                              {moved_chain(body, scratch, vertex, sides[(k + 2) % 3]), true}};
-    const Face_result swept =
-        sweep_face(*body.snapshot, way, body.particles[q], body.particles[r], body.rests[f], chains, counts);
+    const Face_result swept = sweep_face(*body.snapshot, path, body.particles[q], body.particles[r],
+                                         body.supporting_walls[f], chains, counts);
     if (swept.contact) {
       Contact<3> contact = *swept.contact;
       contact.body = Body_feature::face;
       if (!first || is_before(contact, first->contact)) first = {contact, vertex, f};
-    } else if (!first && (!swept.rests.empty() || !body.rests[f].empty())) {
-      scratch.rests.emplace_back(f, swept.rests);
+    } else if (!first && (!swept.supporting_walls.empty() || !body.supporting_walls[f].empty())) {
+      scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }
   }
 }

@@ -15,7 +15,7 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
       positions(soup.points),
       topology(soup.points.size(), soup.edges,
                D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
-      rests(topology.faces().size()),
+      supporting_walls(topology.faces().size()),
       region(soup.points.size(), soup.edges.size()) {
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
@@ -53,7 +53,7 @@ bool Body_state<D>::try_move_in_region(std::uint32_t vertex, const Point<D>& tar
   if (!region.holds_star(vertex, target)) return false;
   positions[vertex] = target;
   region.mark_moved(vertex);
-  for (const Face_corner& corner : topology.face_corners_of(vertex)) rests[corner.face].clear();
+  for (const Face_corner& corner : topology.face_corners_of(vertex)) supporting_walls[corner.face].clear();
   ++counts.in_region;
   return true;
 }
@@ -87,7 +87,7 @@ template <int D>
 void Body_state<D>::spread_marks() {
   if (!region.are_all_stale()) return;
   region.spread_marks();
-  for (Face_rests& of_face : rests) of_face.clear();
+  for (Supporting_walls& of_face : supporting_walls) of_face.clear();
 }
 
 template <int D>

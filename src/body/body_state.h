@@ -29,7 +29,7 @@ struct Move_scratch {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   std::vector<Moved_chain> chains;  ///< of the edges of the vertex
-  std::vector<std::pair<std::uint32_t, Face_rests>> rests;
+  std::vector<std::pair<std::uint32_t, Supporting_walls>> supporting_walls;
 
   void clear_walk() {
     visited.clear();
@@ -76,8 +76,8 @@ struct Body_state {
   std::vector<Point<D>> positions;
   Body_topology topology;
   std::vector<Particle<D>> particles;
-  std::vector<Chain> chains;      ///< of the edges, from their first end to their second
-  std::vector<Face_rests> rests;  ///< of each face
+  std::vector<Chain> chains;                       ///< of the edges, from their first end to their second
+  std::vector<Supporting_walls> supporting_walls;  ///< of each face
   bool are_faces_swept = true;
   bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
   Region_cache<D> region;

@@ -98,7 +98,7 @@ class Region_search {
 
   /// Adds the cell behind a passable facet; if there are too many, the facet is cut off. False if that cannot be made.
   bool enter(Cell cell, std::size_t i) {
-    const Cell next = snapshot_.neighbor(Snapshot<D>::half_facet(cell, i));
+    const Cell next = snapshot_.neighbour(Snapshot<D>::half_facet(cell, i));
     if (next == Cell::none || is_found(next)) return true;
     if (found_.size() >= request_.most_cells) {
       effort_.is_exhausted = true;
@@ -156,7 +156,7 @@ class Region_search {
     const Plane_frame<D>& frame = snapshot_.frame();
     for (int k = 0; k < D; ++k) {
       const auto map = [&](double x) {
-        return static_cast<float>(std::clamp((x - frame.center[k]) * frame.scale, -1.0, 1.0));
+        return static_cast<float>(std::clamp((x - frame.centre[k]) * frame.scale, -1.0, 1.0));
       };
       const float low = map(region_.box().low(k)), high = map(region_.box().high(k));
       low_[k] = Float4{low, low, low, low};
@@ -292,7 +292,7 @@ class Region_search {
     const auto loop = cell.loop(i);
     Vector<D> normal = outward(cell, i);
     normal = (1 / length(normal)) * normal;
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int sine_cosine = 0; sine_cosine < most_turns; ++sine_cosine) {
       const Point<D>*last = nullptr, *first = nullptr;
       double most = -std::numeric_limits<double>::infinity(), least = -most;
       for (const Point<D>& x : positions_)

@@ -7,13 +7,13 @@
 
 #include <cmath>
 
-#include "turn.h"
+#include "quad_rotation.h"
 
 namespace cellwalk {
 namespace {
 
 using detail::nearest;
-using detail::Wide;
+using detail::Quad;
 
 /// \throw Error(usage) unless the value is a positive number
 void check_positive(const char* shape, const char* what, double value) {
@@ -30,8 +30,8 @@ void check_count(const char* shape, const char* what, std::uint32_t value, std::
 
 /// Point i of n + 1 at equal distances on a segment of that length with its middle at 0.
 double spaced(double length, std::uint32_t i, std::uint32_t n) {
-  return nearest(Wide(length) * (2 * static_cast<std::int64_t>(i) - static_cast<std::int64_t>(n)) /
-                 (2 * Wide(n)));
+  return nearest(Quad(length) * (2 * static_cast<std::int64_t>(i) - static_cast<std::int64_t>(n)) /
+                 (2 * Quad(n)));
 }
 
 template <int D>
@@ -54,7 +54,7 @@ Body_soup<D> open_polyline(std::vector<Point<D>> points) {
 Body_soup<3> generate_body(const Tetrahedron_shape& shape) {
   check_positive("tetrahedron", "side", shape.side);
   const double h =
-      nearest(Wide(shape.side) / (2 * sqrt(Wide(2))));  // four corners of a cube, no two on an edge
+      nearest(Quad(shape.side) / (2 * sqrt(Quad(2))));  // four corners of a cube, no two on an edge
   return make_body<3>({{{h, h, h}, {h, -h, -h}, {-h, h, -h}, {-h, -h, h}},
                        {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}},
                        {}})
@@ -63,8 +63,8 @@ Body_soup<3> generate_body(const Tetrahedron_shape& shape) {
 
 Body_soup<2> generate_body(const Triangle_shape& shape) {
   check_positive("triangle", "side", shape.side);
-  const double half = shape.side / 2, inner = nearest(Wide(shape.side) / (2 * sqrt(Wide(3))));
-  const double outer = nearest(Wide(shape.side) / sqrt(Wide(3)));
+  const double half = shape.side / 2, inner = nearest(Quad(shape.side) / (2 * sqrt(Quad(3))));
+  const double outer = nearest(Quad(shape.side) / sqrt(Quad(3)));
   return closed_polygon<2>({{-half, -inner}, {half, -inner}, {0, outer}});
 }
 
@@ -80,7 +80,7 @@ Body_soup<2> generate_body(const Polygon_shape& shape) {
   check_positive("polygon", "radius", shape.radius);
   std::vector<Point<2>> points;
   for (std::uint32_t i = 0; i < shape.corners; ++i) {
-    const auto [c, s] = detail::turn(Wide(360) * i / shape.corners);
+    const auto [c, s] = detail::sine_cosine(Quad(360) * i / shape.corners);
     points.push_back({nearest(shape.radius * c), nearest(shape.radius * s)});
   }
   return closed_polygon<2>(std::move(points));

@@ -9,13 +9,13 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "turn.h"
+#include "quad_rotation.h"
 
 namespace cellwalk {
 namespace {
 
 using detail::nearest;
-using detail::Wide;
+using detail::Quad;
 
 void check(const Box_shape& shape) {
   double all = 1, inner = 1;
@@ -40,7 +40,7 @@ class Lattice {
     std::array<std::vector<double>, 3> coordinates;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::uint32_t i = 0; i <= cells_[k]; ++i)
-        coordinates[k].push_back(nearest(Wide(shape.size[k]) * (2.0 * i - cells_[k]) / (2.0 * cells_[k])));
+        coordinates[k].push_back(nearest(Quad(shape.size[k]) * (2.0 * i - cells_[k]) / (2.0 * cells_[k])));
     std::array<std::uint32_t, 3> i{};
     for (i[2] = 0; i[2] <= cells_[2]; ++i[2])
       for (i[1] = 0; i[1] <= cells_[1]; ++i[1]) {

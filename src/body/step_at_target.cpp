@@ -30,7 +30,7 @@ template <int D>
     if (body_.try_move_in_region(v, targets[v], counts_) ||
         (may_be_certified && try_certified_move(v, targets[v])))
       continue;
-    Blocked_move<D> answer = try_to_move(v, targets[v]);
+    Rejected_move<D> answer = try_to_move(v, targets[v]);
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
@@ -44,13 +44,13 @@ template <int D>
 
 /// The edge of a vertex that is the first to be blocked.
 template <int D>
-const Corner& Target_step<D>::first_blocked(const Blocked_move<D>& blocked) const {
+const Corner& Target_step<D>::first_blocked(const Rejected_move<D>& blocked) const {
   return body_.topology.corners_of(blocked.vertex)[static_cast<std::size_t>(std::countr_zero(blocked.edges))];
 }
 
 /// Where the wall is that keeps a vertex from moving, which walks and searches of chains left out.
 template <int D>
-void Target_step<D>::locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const {
+void Target_step<D>::locate_wall(Rejected_move<D>& blocked, const Point<D>& target) const {
   if (blocked.is_vertex_blocked)
     locate_contact(snapshot(), body_.positions[blocked.vertex], target, *blocked.contact);
   else if (blocked.contact)
@@ -59,7 +59,7 @@ void Target_step<D>::locate_wall(Blocked_move<D>& blocked, const Point<D>& targe
 
 /// The contact of a vertex that stays.
 template <int D>
-Body_contact<D> Target_step<D>::first_contact(const Blocked_move<D>& blocked, const Point<D>& target) {
+Body_contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
   const std::uint32_t vertex = blocked.vertex;
   Sweep_options segments = sweep_;
   segments.sweep = Sweep::three_segments;
@@ -212,8 +212,8 @@ bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Part
 
 /// Moves a vertex, or leaves it where it is.
 template <int D>
-Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
-  Blocked_move<D> answer;
+Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
+  Rejected_move<D> answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = body_.region.holds_way(vertex, target);
@@ -246,7 +246,7 @@ Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>
       answer.contact = touched_wall(touch);
       return answer;
     }
-  const Way<D> way{from, to, scratch.visited, scratch.crossed, false, is_apart};
+  const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
   const auto corners = body_.topology.corners_of(vertex);
   scratch.chains.resize(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -254,8 +254,8 @@ Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>
     const bool is_in_region = is_inside && !body_.region.is_outside(corners[i].other);
     moved.is_stale = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(way, i, corners[i], moved, answer)
-                                  : meets_at_end(way, corners[i], answer);
+    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, answer)
+                                  : meets_at_end(path, corners[i], answer);
     if (is_met) answer.edges |= std::uint64_t{1} << i;
   }
   if (answer.stays()) return answer;
@@ -266,31 +266,32 @@ Blocked_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>
 
 /// True if the edge of a corner meets a wall where its vertex goes.
 template <int D>
-bool Target_step<D>::meets_at_end(const Way<D>& way, const Corner& corner, Blocked_move<D>& answer) {
+bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner,
+                                  Rejected_move<D>& answer) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
   Edge_counts& edges = counts_.edges;
   // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
   const bool stops = sweep_.touch == Touch::stop;
-  if (is_certified_free(way.to, q)) {
-    if (!stops || (body_.is_apart && way.to.dimension == D)) return false;
+  if (is_certified_free(path.to, q)) {
+    if (!stops || (body_.is_apart && path.to.dimension == D)) return false;
   } else {
     ++edges.edges;
   }
   const std::uint64_t signs_before = signs();
   Walk_options plain;
   plain.locates_contact = false;
-  const Walk_result<D> walked = walk(snapshot(), way.to, q.position, edges.walk, plain);
+  const Walk_result<D> walked = walk(snapshot(), path.to, q.position, edges.walk, plain);
   const bool is_plain = body_.is_apart && signs() == signs_before;
   if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
   std::optional<Wall_contact<D>> contact = walked.contact;
   if (!contact || contact->kind != Contact_kind::facet) {
     if (stops)
-      contact = touched_wall(
-          closed_meeting<D>(snapshot(), way.to.cell, {way.to.position, q.position, way.to.position}, edges));
+      contact = touched_wall(closed_meeting<D>(snapshot(), path.to.cell,
+                                               {path.to.position, q.position, path.to.position}, edges));
     else
-      contact = find_any_chain(snapshot(), way.to, q, edges.walk).contact;
+      contact = find_any_chain(snapshot(), path.to, q, edges.walk).contact;
   }
   if (contact && !answer.contact) answer.contact = contact;
   return contact.has_value();
@@ -298,11 +299,11 @@ bool Target_step<D>::meets_at_end(const Way<D>& way, const Corner& corner, Block
 
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
-bool Target_step<D>::sweep_meets_at_end(const Way<D>& way, std::size_t number, const Corner& corner,
-                                        Moved_chain& moved, Blocked_move<D>& answer) {
+bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
+                                        Moved_chain& moved, Rejected_move<D>& answer) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
-  if (is_certified_free(way.from, way.to, q)) {
+  if (is_certified_free(path.from, path.to, q)) {
     moved.is_stale = true;
     return false;
   }
@@ -312,9 +313,9 @@ bool Target_step<D>::sweep_meets_at_end(const Way<D>& way, std::size_t number, c
     return closed_meeting(snapshot(), start, triangle, edges);
   };
   const bool stops = sweep_.touch == Touch::stop;
-  std::optional<Free_chain> free = free_chain(snapshot(), way, q, body_.seen_from(corner), sweep_, edges);
+  std::optional<Free_chain> free = free_chain(snapshot(), path, q, body_.seen_from(corner), sweep_, edges);
   if (free && stops && !free->is_apart &&
-      meeting(way.from.cell, {way.from.position, way.to.position, q.position}))
+      meeting(path.from.cell, {path.from.position, path.to.position, q.position}))
     free.reset();
   if (free) {
     moved.chain = std::move(free->chain);
@@ -322,18 +323,18 @@ bool Target_step<D>::sweep_meets_at_end(const Way<D>& way, std::size_t number, c
   }
   answer.swept_edges |= std::uint64_t{1} << number;
   const std::uint64_t signs_before = signs();
-  Chain_result<D> anew = find_chain(snapshot(), way.to, q, edges.walk, false);
+  Chain_result<D> anew = find_chain(snapshot(), path.to, q, edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
   const bool is_crossed =
       anew.contact && anew.contact->kind == Contact_kind::facet && anew.contact->time != 1;
   if (stops && !is_crossed) {
-    const bool is_plain = way.is_apart && signs() == signs_before;
+    const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      anew.contact = touched_wall(meeting(way.to.cell, {way.to.position, q.position, way.to.position}));
-      if (!anew.contact) anew = find_any_chain(snapshot(), way.to, q, edges.walk);
+      anew.contact = touched_wall(meeting(path.to.cell, {path.to.position, q.position, path.to.position}));
+      if (!anew.contact) anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {
-    anew = find_any_chain(snapshot(), way.to, q, edges.walk);
+    anew = find_any_chain(snapshot(), path.to, q, edges.walk);
   }
   if (anew.contact) {
     if (!answer.contact) answer.contact = anew.contact;

@@ -27,16 +27,16 @@ class Target_step {
   void find_out_if_apart();
   bool touches_wall();
   bool try_certified_move(std::uint32_t vertex, const Point<D>& target);
-  Blocked_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
+  Rejected_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
   bool is_certified_free(const Particle<D>& p, const Particle<D>& q);
   bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q);
   bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner);
-  bool meets_at_end(const Way<D>& way, const Corner& corner, Blocked_move<D>& answer);
-  bool sweep_meets_at_end(const Way<D>& way, std::size_t number, const Corner& corner, Moved_chain& moved,
-                          Blocked_move<D>& answer);
-  const Corner& first_blocked(const Blocked_move<D>& blocked) const;
-  void locate_wall(Blocked_move<D>& blocked, const Point<D>& target) const;
-  Body_contact<D> first_contact(const Blocked_move<D>& blocked, const Point<D>& target);
+  bool meets_at_end(const Vertex_path<D>& path, const Corner& corner, Rejected_move<D>& answer);
+  bool sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
+                          Moved_chain& moved, Rejected_move<D>& answer);
+  const Corner& first_blocked(const Rejected_move<D>& blocked) const;
+  void locate_wall(Rejected_move<D>& blocked, const Point<D>& target) const;
+  Body_contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
 
   Body_state<D>& body_;
   const Sweep_options& sweep_;

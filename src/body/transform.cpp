@@ -7,26 +7,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "turn.h"
+#include "quad_rotation.h"
 
 namespace cellwalk {
 namespace {
 
-using detail::Turn;
-using detail::Wide;
+using detail::Quad;
+using detail::Sine_cosine;
 
 template <int D>
-using Matrix = std::array<std::array<Wide, static_cast<std::size_t>(D)>, static_cast<std::size_t>(D)>;
+using Matrix = std::array<std::array<Quad, static_cast<std::size_t>(D)>, static_cast<std::size_t>(D)>;
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::usage, "placement: " + what); }
 
-Turn turn_of(double degrees) {
+Sine_cosine sine_cosine_of(double degrees) {
   if (!std::isfinite(degrees)) refuse("the angle of the rotation must be a finite number of degrees");
-  return detail::turn(std::fmod(degrees, 360.0));  // exact
+  return detail::sine_cosine(std::fmod(degrees, 360.0));  // exact
 }
 
 Matrix<2> matrix(const Rotation<2>& rotation) {
-  const auto [c, s] = turn_of(rotation.degrees);
+  const auto [c, s] = sine_cosine_of(rotation.degrees);
   return {{{c, -s}, {s, c}}};
 }
 
@@ -34,10 +34,10 @@ Matrix<2> matrix(const Rotation<2>& rotation) {
 Matrix<3> matrix(const Rotation<3>& rotation) {
   if (!is_finite(rotation.axis) || rotation.axis == Vector<3>{})
     refuse("the axis of the rotation must be finite and not zero");
-  const std::array<Wide, 3> a{rotation.axis[0], rotation.axis[1], rotation.axis[2]};
-  const Wide squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-  const auto [c, s] = turn_of(rotation.degrees);
-  const Wide sine = s / sqrt(squared), rest = 1 - c;
+  const std::array<Quad, 3> a{rotation.axis[0], rotation.axis[1], rotation.axis[2]};
+  const Quad squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  const auto [c, s] = sine_cosine_of(rotation.degrees);
+  const Quad sine = s / sqrt(squared), rest = 1 - c;
   Matrix<3> m;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) m[i][j] = rest * a[i] * a[j] / squared;
@@ -58,11 +58,11 @@ Body_soup<D> transformed(Body_soup<D> body, const Body_placement<D>& placement) 
     refuse(fmt::format("the scale must be a positive number, not {}", placement.scale));
   Matrix<D> m = matrix(placement.rotation);
   for (auto& row : m)
-    for (Wide& x : row) x *= placement.scale;
+    for (Quad& x : row) x *= placement.scale;
   for (std::size_t v = 0; v < body.points.size(); ++v) {
     const Point<D> p = body.points[v];
     for (std::size_t i = 0; i < D; ++i) {
-      Wide sum = placement.position[i];
+      Quad sum = placement.position[i];
       for (std::size_t j = 0; j < D; ++j) sum += m[i][j] * p[j];
       body.points[v][i] = detail::nearest(sum) + 0.0;  // no -0
     }

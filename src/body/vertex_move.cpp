@@ -26,7 +26,8 @@ std::optional<Body_contact<D>> try_move(Body_state<D>& body, Move_scratch& scrat
   if (const auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
   body.are_faces_swept &= options.sweep == Sweep::faces;
   body.is_apart = false;
-  for (const auto& [face, rests] : scratch.rests) body.rests[face] = rests;
+  for (const auto& [face, supporting_walls] : scratch.supporting_walls)
+    body.supporting_walls[face] = supporting_walls;
   body.commit(vertex, to, scratch.chains);
   return {};
 }
@@ -46,7 +47,7 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
       cellwalk::move(snapshot, to, target, counts.edges.walk,
                      {Walk_strategy::certified, &scratch.visited, &scratch.crossed});
   to.position = target;
-  const Way<D> way{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
+  const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
   std::optional<Body_contact<D>> first;
   if (walked.contact)
     first = {vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex,
@@ -59,7 +60,7 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
   scratch.chains.resize(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
-    Sweep_result<D> swept = sweep_edge_along(snapshot, way, body.particles[corner.other],
+    Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
                                              body.seen_from(corner), options, counts.edges);
     if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
       const bool is_edge = swept.contact->body == Body_feature::edge;
@@ -71,9 +72,9 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
     moved.is_free = !swept.contact;
     moved.is_stale = false;
   }
-  scratch.rests.clear();
+  scratch.supporting_walls.clear();
   if constexpr (D == 3)
-    if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, way, first, counts.faces);
+    if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, path, first, counts.faces);
   return first;
 }
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "cli/common/command.h"
+#include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
-#include "cli/common/kind_names.h"
 #include "cli/common/machine.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"

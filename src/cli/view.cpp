@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk view DIR -o run.html: one page that replays a run in a browser, without network.
-#include <cellwalk/internal/io/motion_file.h>
+#include <cellwalk/internal/io/recording_file.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -72,17 +72,17 @@ void view(const View_options& options) {
   io::Atomic_file* const output = outputs.file(options.output);
   io::Atomic_file* const json = outputs.file(options.json);
   const Run_results results = read_run(options.folder);
-  const Motion_scene& scene = results.motion.scene;
+  const Recording_scene& scene = results.motion.scene;
   const std::string page = page_of(results);
   output->write(page);
   write_json(json, {{"run", options.folder},
                     {"page", options.output},
                     {"bytes", page.size()},
-                    {"records", scene.record_count()},
+                    {"records", scene.frame_count()},
                     {"every", scene.every},
                     {"contacts", results.contact_count}});
   outputs.commit(fmt::format("{}: {} records of {} steps, {} contacts, {:.1f} MB; open it in a browser\n",
-                             options.output, scene.record_count(), scene.steps, results.contact_count,
+                             options.output, scene.frame_count(), scene.steps, results.contact_count,
                              static_cast<double>(page.size()) / 1e6));
 }
 

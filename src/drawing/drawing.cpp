@@ -70,7 +70,7 @@ void add_side(Drawing& drawing, const Point<3>& a, double radius_a, const Cross_
 
 }  // namespace
 
-void add_ball(Drawing& drawing, const Point<3>& center, double radius, std::uint32_t material) {
+void add_ball(Drawing& drawing, const Point<3>& centre, double radius, std::uint32_t material) {
   const auto direction = [](int ring, int side) {
     const double polar = std::numbers::pi * ring / ball_rings,
                  angle = 2 * std::numbers::pi * side / tube_sides;
@@ -80,7 +80,7 @@ void add_ball(Drawing& drawing, const Point<3>& center, double radius, std::uint
     for (int s = 0; s < tube_sides; ++s) {
       const std::array<Vector<3>, 4> n{direction(r, s), direction(r + 1, s), direction(r + 1, s + 1),
                                        direction(r, s + 1)};
-      const auto at = [&](std::size_t i) { return center + radius * n[i]; };
+      const auto at = [&](std::size_t i) { return centre + radius * n[i]; };
       if (r + 1 < ball_rings) add(drawing, {at(0), at(1), at(2)}, {n[0], n[1], n[2]}, material);
       if (r > 0) add(drawing, {at(0), at(2), at(3)}, {n[0], n[2], n[3]}, material);
     }
@@ -155,14 +155,14 @@ void add_surface(Drawing& drawing, std::span<const Point<3>> points,
   }
 }
 
-void add_disc(Drawing& drawing, const Point<2>& center, double radius, double height,
+void add_disc(Drawing& drawing, const Point<2>& centre, double radius, double height,
               std::uint32_t material) {
   const auto at = [&](int side) {
     const double angle = 2 * std::numbers::pi * side / disc_sides;
-    return Point<3>{center[0] + radius * std::cos(angle), center[1] + radius * std::sin(angle), height};
+    return Point<3>{centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle), height};
   };
   for (int s = 0; s < disc_sides; ++s)
-    add(drawing, {Point<3>{center[0], center[1], height}, at(s), at(s + 1)},
+    add(drawing, {Point<3>{centre[0], centre[1], height}, at(s), at(s + 1)},
         {out_of_plane, out_of_plane, out_of_plane}, material);
 }
 

@@ -51,10 +51,10 @@ struct Lights {
 /// The look of a point of a surface whose unit normal n faces the eye.
 Fragment shade(const Material& material, Vec3 n, Vec3 eye, const Lights& lights, float near) {
   Fragment f{near,
-             static_cast<float>(material.color.red),
-             static_cast<float>(material.color.green),
-             static_cast<float>(material.color.blue),
-             static_cast<float>(material.color.opacity),
+             static_cast<float>(material.colour.red),
+             static_cast<float>(material.colour.green),
+             static_cast<float>(material.colour.blue),
+             static_cast<float>(material.colour.opacity),
              -1};
   if (!material.lit) return f;
   const float norm = std::sqrt(std::max(dot3(n, n) * dot3(eye, eye), 1e-30f));
@@ -81,7 +81,7 @@ class Band {
         rows_(rows),
         near_(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows),
               -std::numeric_limits<float>::infinity()),
-        color_(near_.size()),
+        colour_(near_.size()),
         head_(near_.size(), -1) {}
 
   void fill(const Screen_triangle& t, const Material& material, const Lights& lights, bool opaque,
@@ -92,7 +92,7 @@ class Band {
  private:
   int width_, first_row_, rows_;
   std::vector<float> near_;
-  std::vector<Vec3> color_;
+  std::vector<Vec3> colour_;
   std::vector<std::int32_t> head_;
   std::vector<Fragment> fragments_;
   std::vector<Fragment> stack_;
@@ -149,7 +149,7 @@ void Band::fill(const Screen_triangle& t, const Material& material, const Lights
       Fragment f = shade(material, blend(t.normal), blend(t.eye), lights, near);
       if (opaque) {
         near_[sample] = near;
-        color_[sample] = {f.red, f.green, f.blue};
+        colour_[sample] = {f.red, f.green, f.blue};
       } else {
         f.next = head_[sample];
         head_[sample] = static_cast<std::int32_t>(fragments_.size());
@@ -161,7 +161,7 @@ void Band::fill(const Screen_triangle& t, const Material& material, const Lights
 Vec3 Band::resolve(int x, int row, Vec3 background) {
   const std::size_t sample =
       static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  Vec3 c = near_[sample] > -std::numeric_limits<float>::infinity() ? color_[sample] : background;
+  Vec3 c = near_[sample] > -std::numeric_limits<float>::infinity() ? colour_[sample] : background;
   stack_.clear();
   for (std::int32_t i = head_[sample]; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next)
     stack_.push_back(fragments_[static_cast<std::size_t>(i)]);
@@ -218,7 +218,7 @@ Image render(const Drawing& drawing, const Picture_options& options) {
   };
   const Lights lights{direction(-0.45, 0.75, 0.75), direction(0.8, -0.1, 0.4)};
   const auto is_opaque = [&](const Screen_triangle& t) {
-    return drawing.materials[t.material].color.opacity >= opaque_from;
+    return drawing.materials[t.material].colour.opacity >= opaque_from;
   };
 
   const int bands = (options.height + band_pixels - 1) / band_pixels;

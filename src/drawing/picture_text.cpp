@@ -158,7 +158,7 @@ double distance(const Point<2>& p, const Point<2>& a, const Point<2>& b) {
 }
 
 /// Covers the picture along a polyline given in pixels.
-void stroke(Image& image, const std::vector<Point<2>>& line, double width, const Color& color) {
+void stroke(Image& image, const std::vector<Point<2>>& line, double width, const Colour& colour) {
   Point<2> low = line[0], high = line[0];
   for (const Point<2>& p : line)
     for (std::size_t i = 0; i < 2; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
@@ -166,15 +166,15 @@ void stroke(Image& image, const std::vector<Point<2>>& line, double width, const
   const auto clamp_to = [](double a, int size) { return static_cast<int>(std::clamp(a, 0.0, double(size))); };
   for (int y = clamp_to(low[1] - reach, image.height); y < clamp_to(high[1] + reach + 1, image.height); ++y)
     for (int x = clamp_to(low[0] - reach, image.width); x < clamp_to(high[0] + reach + 1, image.width); ++x) {
-      const Point<2> center{x + 0.5, y + 0.5};
-      double nearest = distance(center, line[0], line[0]);
+      const Point<2> centre{x + 0.5, y + 0.5};
+      double nearest = distance(centre, line[0], line[0]);
       for (std::size_t i = 0; i + 1 < line.size(); ++i)
-        nearest = std::min(nearest, distance(center, line[i], line[i + 1]));
-      const double cover = color.opacity * std::clamp(width / 2 + 0.5 - nearest, 0.0, 1.0);
+        nearest = std::min(nearest, distance(centre, line[i], line[i + 1]));
+      const double cover = colour.opacity * std::clamp(width / 2 + 0.5 - nearest, 0.0, 1.0);
       if (cover <= 0) continue;
       const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                   static_cast<std::size_t>(x));
-      const double ink[3] = {color.red, color.green, color.blue};
+      const double ink[3] = {colour.red, colour.green, colour.blue};
       for (std::size_t i = 0; i < 3; ++i)
         image.rgb[at + i] =
             static_cast<std::uint8_t>(image.rgb[at + i] * (1 - cover) + 255 * ink[i] * cover + 0.5);
@@ -183,7 +183,8 @@ void stroke(Image& image, const std::vector<Point<2>>& line, double width, const
 
 }  // namespace
 
-double draw_text(Image& image, const std::string& text, double x, double y, double size, const Color& color) {
+double draw_text(Image& image, const std::string& text, double x, double y, double size,
+                 const Colour& colour) {
   const double unit = size / capital_height;
   double pen_x = x;
   for (const char c : text) {
@@ -192,7 +193,7 @@ double draw_text(Image& image, const std::string& text, double x, double y, doub
     if (glyph == std::end(glyphs)) glyph = &glyphs[0];
     for (std::vector<Point<2>>& line : polylines(glyph->strokes)) {
       for (Point<2>& p : line) p = {pen_x + unit * p[0], y - unit * (p[1] - baseline)};
-      stroke(image, line, pen * unit, color);
+      stroke(image, line, pen * unit, colour);
     }
     pen_x += unit * (glyph->width + gap);
   }

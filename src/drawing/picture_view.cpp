@@ -63,7 +63,7 @@ Picture_view::Picture_view(const Drawing& drawing, const Picture_options& option
   right_ = unit(cross(up, toward_));
   up_ = cross(toward_, right_);
 
-  // The box seen in the frame of the view gives the center, all corners give the distance.
+  // The box seen in the frame of the view gives the centre, all corners give the distance.
   constexpr double big = std::numeric_limits<double>::infinity();
   Vector<3> low{big, big, big}, high{-big, -big, -big};
   const auto in_frame = [&](const Point<3>& p) {
@@ -75,7 +75,7 @@ Picture_view::Picture_view(const Drawing& drawing, const Picture_options& option
       for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], q[i]), high[i] = std::max(high[i], q[i]);
     }
   const Vector<3> middle = 0.5 * (low + high);
-  center_ = middle[0] * right_ + middle[1] * up_ + middle[2] * toward_;
+  centre_ = middle[0] * right_ + middle[1] * up_ + middle[2] * toward_;
   const double border = margin * std::min<double>(options.width, free_height);
   const double room_x = half_width_ - border, room_y = half_height_ - border;
   const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300});
@@ -100,7 +100,7 @@ Picture_view::Picture_view(const Drawing& drawing, const Picture_options& option
 }
 
 Projected Picture_view::project(const Point<3>& p) const {
-  const Vector<3> d = p - center_;
+  const Vector<3> d = p - centre_;
   const double depth = dot(d, toward_);
   if (!is_perspective())
     return {half_width_ + scale_ * dot(d, right_), half_height_ - scale_ * dot(d, up_), depth};
@@ -109,7 +109,7 @@ Projected Picture_view::project(const Point<3>& p) const {
 }
 
 Vector<3> Picture_view::toward_eye(const Point<3>& p) const {
-  return is_perspective() ? unit(center_ + distance_ * toward_ - p) : toward_;
+  return is_perspective() ? unit(centre_ + distance_ * toward_ - p) : toward_;
 }
 
 }  // namespace cellwalk::drawing::detail

@@ -27,9 +27,9 @@ class Picture_view {
 
  private:
   Vector<3> right_{1, 0, 0}, up_{0, 1, 0}, toward_{0, 0, 1};
-  Point<3> center_{};
-  double distance_ = 0;  // of the eye from the center; 0: parallel projection
-  double scale_ = 1;     // pixels per unit (at the center)
+  Point<3> centre_{};
+  double distance_ = 0;  // of the eye from the centre; 0: parallel projection
+  double scale_ = 1;     // pixels per unit (at the centre)
   double half_width_, half_height_;
 };
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "environment/certify/boundary_index.h"
-#include "environment/map/in_step.h"
+#include "environment/map/map_matches_snapshot.h"
 #include "prepare_soup.h"
 
 namespace cellwalk {
@@ -113,7 +113,7 @@ template <int D>
 Certificate Environment<D>::certify() const {
   if (storage_) {
     check_map(*storage_);
-    check_in_step(*storage_, snapshot_);
+    check_map_matches_snapshot(*storage_, snapshot_);
   }
   return cellwalk::certify(snapshot_, allow_duplicates_);
 }

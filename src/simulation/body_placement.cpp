@@ -17,7 +17,7 @@ namespace {
 template <int D>
 Moving_body<D> throw_body(Body<D> body, const Body_start<D>& start, const Vector<D>& velocity) {
   if (start.material) return Deformable<D>(std::move(body), *start.material, velocity, start.spin);
-  return Flight<D>(std::move(body), velocity, start.spin);
+  return Rigid_body<D>(std::move(body), velocity, start.spin);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void World<D>::place_body(const Body_start<D>& start, const Body_soup<D>& shape,
   if (start.guided) placement.position = start.guided->path.front();
   Body<D> body(snapshot_, locator, transformed(shape, placement));
   if (start.guided)
-    bodies_.emplace_back(Flight<D>(std::move(body), *start.guided, start.spin));
+    bodies_.emplace_back(Rigid_body<D>(std::move(body), *start.guided, start.spin));
   else
     bodies_.push_back(throw_body(std::move(body), start, start.velocity));
 }

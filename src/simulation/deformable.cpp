@@ -90,12 +90,12 @@ bool Deformable<D>::predict(double dt) {
   const detail::Rigid_frame<D> here(positions);
   const detail::Rigid_motion<D> motion = here.motion_of(positions, velocities_);
   const Spin<D> momentum = here.momentum_of(positions, velocities_);
-  const detail::Turn<D> turn(dt * motion.spin);
-  const Point<D> center = here.center() + dt * motion.velocity;
+  const detail::Axis_rotation<D> turn(dt * motion.spin);
+  const Point<D> centre = here.centre() + dt * motion.velocity;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const Vector<D> arm = here.arm(positions[i]);
     velocities_[i] = turn(velocities_[i] - motion.at(arm));
-    moved_[i] = center + turn(arm);
+    moved_[i] = centre + turn(arm);
   }
   if (!std::ranges::all_of(moved_, is_finite<D>)) return false;
   matching_.goals(moved_, targets_);
@@ -112,8 +112,7 @@ bool Deformable<D>::predict(double dt) {
 }
 
 template <int D>
-void Deformable<D>::step(const Flight_conditions<D>& conditions, Step_report<D>& report,
-                         Body_counts& counts) {
+void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
   const double dt = conditions.time_step, stiffness = matching_.material().stiffness;
   const double before = kinetic_energy(), height_before = height_energy(conditions.gravity);
   for (Vector<D>& v : velocities_) v = v + dt * conditions.gravity;

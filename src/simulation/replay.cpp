@@ -35,12 +35,12 @@ void Replay::step() {
   for (std::uint32_t b = 0; b < trace_->bodies; ++b) {
     report_.clear();
     bodies_[b].step({&trace_->target(steps_done_, b, 0), trace_vertices}, options_, report_, counts_.body);
-    for (const Blocked_move<3>& blocked : report_.blocked) note(b, blocked);
+    for (const Rejected_move<3>& blocked : report_.blocked) note(b, blocked);
   }
   ++steps_done_;
 }
 
-void Replay::note(std::uint32_t body, const Blocked_move<3>& blocked) {
+void Replay::note(std::uint32_t body, const Rejected_move<3>& blocked) {
   answers_[trace_->index(steps_done_, body, blocked.vertex)] = trace_answer(blocked, options_.sweep.sweep);
   const auto count = [](std::uint64_t edges) { return static_cast<std::uint64_t>(std::popcount(edges)); };
   counts_.vertex_hits += blocked.is_vertex_blocked;
@@ -55,7 +55,7 @@ void Replay::note(std::uint32_t body, const Blocked_move<3>& blocked) {
 
 void Replay::validate() {
   for (Body<3>& body : bodies_) {
-    body.catch_up(counts_.body);
+    body.refresh(counts_.body);
     body.validate();
   }
 }

@@ -6,14 +6,14 @@
 namespace cellwalk::detail {
 
 template <>
-Turn<2>::Turn(const Spin<2>& angle) {
+Axis_rotation<2>::Axis_rotation(const Spin<2>& angle) {
   const double c = std::cos(angle[0]), s = std::sin(angle[0]);
   matrix_ = {{{c, -s}, {s, c}}};
 }
 
 /// Rodrigues' formula.
 template <>
-Turn<3>::Turn(const Spin<3>& angle) : matrix_(identity<3>()) {
+Axis_rotation<3>::Axis_rotation(const Spin<3>& angle) : matrix_(identity<3>()) {
   const double degree = length(angle);
   if (!(degree > 0)) return;
   const Vector<3> axis = (1 / degree) * angle;
@@ -31,7 +31,7 @@ Rigid_frame<D>::Rigid_frame(std::span<const Point<D>> positions)
     : mass_(static_cast<double>(positions.size())) {
   Vector<D> sum{};
   for (const Point<D>& x : positions) sum = sum + (x - positions[0]);
-  center_ = positions[0] + (1 / mass_) * sum;
+  centre_ = positions[0] + (1 / mass_) * sum;
   if constexpr (D == 2) {
     double inertia = 0;
     for (const Point<D>& x : positions) inertia += dot(arm(x), arm(x));

@@ -30,9 +30,9 @@ struct Rigid_motion {
 
 /// The rotation by an angle about an axis: the length and direction of a vector.
 template <int D>
-class Turn {
+class Axis_rotation {
  public:
-  explicit Turn(const Spin<D>& angle);
+  explicit Axis_rotation(const Spin<D>& angle);
   Vector<D> operator()(const Vector<D>& v) const {
     Vector<D> result;
     for (std::size_t i = 0; i < D; ++i) result[i] = dot(matrix_[i], v);
@@ -44,9 +44,9 @@ class Turn {
 };
 
 template <>
-Turn<2>::Turn(const Spin<2>& angle);
+Axis_rotation<2>::Axis_rotation(const Spin<2>& angle);
 template <>
-Turn<3>::Turn(const Spin<3>& angle);
+Axis_rotation<3>::Axis_rotation(const Spin<3>& angle);
 
 /// Centre and inertia of vertices where they stand. Where these are flat, straight or one point, turns that move none of them
 /// have no inertia, and nothing turns that way.
@@ -55,8 +55,8 @@ class Rigid_frame {
  public:
   explicit Rigid_frame(std::span<const Point<D>> positions);
 
-  const Point<D>& center() const { return center_; }
-  Vector<D> arm(const Point<D>& x) const { return x - center_; }
+  const Point<D>& centre() const { return centre_; }
+  Vector<D> arm(const Point<D>& x) const { return x - centre_; }
   /// The angular momentum about the centre.
   Spin<D> momentum_of(std::span<const Point<D>> positions, std::span<const Vector<D>> velocities) const;
   /// What turns with this angular momentum.
@@ -67,7 +67,7 @@ class Rigid_frame {
   Rigid_motion<D> answer(const Vector<D>& arm, const Vector<D>& impulse) const;
 
  private:
-  Point<D> center_{};
+  Point<D> centre_{};
   double mass_ = 0;
   Matrix<D == 2 ? 1 : 3> inverse_inertia_{};
 };

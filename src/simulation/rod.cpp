@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "chain.h"
+#include "rod_shape.h"
 
 namespace cellwalk {
 namespace {
@@ -43,7 +43,7 @@ Rod<D>::Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& cathet
 }
 
 template <int D>
-detail::Chain_state<D> Rod<D>::state() const {
+detail::Rod_state<D> Rod<D>::state() const {
   return {way_.front(), direction_, catheter_.spacing, inside_};
 }
 
@@ -67,7 +67,7 @@ bool Rod<D>::is_held() const {
 
 template <int D>
 bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
-  body_.catch_up(counts);
+  body_.refresh(counts);
   return walk<Exact>(*snapshot_, body_.particles()[0], x, counts.edges.walk).status == Walk_status::arrived;
 }
 
@@ -133,9 +133,9 @@ detail::Natural_bend<D> Rod<D>::bend() const {
 }
 
 template <int D>
-void Rod<D>::step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts) {
+void Rod<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
   pass_way_points(counts);
-  const detail::Chain_state<D> before = state();
+  const detail::Rod_state<D> before = state();
   const double twist_before = twist_ * radians;
   aim();
   const double longest = catheter_.spacing * static_cast<double>(body_.vertex_count() - 1);

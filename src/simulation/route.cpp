@@ -12,7 +12,7 @@ namespace {
 
 /// The mean of a cell's vertices: inside, up to rounding, since the cell is convex.
 template <int D>
-Point<D> center(const Snapshot<D>& snapshot, Cell c) {
+Point<D> centre(const Snapshot<D>& snapshot, Cell c) {
   const Cell_view<D> view = snapshot.view(c);
   Point<D> sum{};
   for (std::size_t i = 0; i < view.vertex_count(); ++i) sum = sum + view.point(i);
@@ -36,12 +36,12 @@ std::vector<Cell> shortest_way(const Snapshot<D>& snapshot, Cell from, Cell to) 
     if (d > distance[index]) continue;
     const Cell c = snapshot.cell(index);
     if (c == to) break;
-    const Point<D> here = center(snapshot, c);
+    const Point<D> here = centre(snapshot, c);
     for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      const Cell next = snapshot.neighbor(f);
+      const Cell next = snapshot.neighbour(f);
       if (next == Cell::none || snapshot.is_impassable(f)) continue;
-      const double through = d + length(center(snapshot, next) - here);
+      const double through = d + length(centre(snapshot, next) - here);
       const std::uint32_t n = snapshot.index(next);
       if (!(through < distance[n])) continue;
       distance[n] = through;
@@ -58,7 +58,7 @@ std::vector<Cell> shortest_way(const Snapshot<D>& snapshot, Cell from, Cell to) 
 
 /// The mean of a facet's vertices.
 template <int D>
-Point<D> facet_center(const Snapshot<D>& snapshot, Half_facet f) {
+Point<D> facet_centre(const Snapshot<D>& snapshot, Half_facet f) {
   Point<D> sum{};
   const auto loop = snapshot.loop(f);
   for (const std::uint32_t p : loop) sum = sum + snapshot.point(p);
@@ -69,7 +69,7 @@ template <int D>
 Half_facet between(const Snapshot<D>& snapshot, Cell a, Cell b) {
   for (std::size_t i = 0; i < snapshot.facet_count(a); ++i) {
     const Half_facet f = Snapshot<D>::half_facet(a, i);
-    if (snapshot.neighbor(f) == b && !snapshot.is_impassable(f)) return f;
+    if (snapshot.neighbour(f) == b && !snapshot.is_impassable(f)) return f;
   }
   return Half_facet::none;
 }
@@ -84,8 +84,8 @@ std::vector<Point<D>> find_route(const Snapshot<D>& snapshot, const Particle<D>&
   // Through every cell's centre and the centre of the facet to the next: each piece lies in one convex cell.
   std::vector<Point<D>> points;
   for (std::size_t i = 0; i < way.size(); ++i) {
-    points.push_back(center(snapshot, way[i]));
-    if (i + 1 < way.size()) points.push_back(facet_center(snapshot, between(snapshot, way[i], way[i + 1])));
+    points.push_back(centre(snapshot, way[i]));
+    if (i + 1 < way.size()) points.push_back(facet_centre(snapshot, between(snapshot, way[i], way[i + 1])));
   }
   points.push_back(to.position);
 

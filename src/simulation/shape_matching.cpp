@@ -14,7 +14,7 @@ namespace {
 constexpr double most_inflation = 2;
 
 template <int D>
-Point<D> center_of(std::span<const Point<D>> points, const std::vector<double>& masses, double total) {
+Point<D> centre_of(std::span<const Point<D>> points, const std::vector<double>& masses, double total) {
   Vector<D> sum{};  // from the first point: less is rounded away far from the origin
   for (std::size_t i = 0; i < points.size(); ++i) sum = sum + masses[i] * (points[i] - points[0]);
   return points[0] + (1 / total) * sum;
@@ -63,10 +63,10 @@ Shape_matching<D>::Shape_matching(std::span<const Point<D>> rest, const Shape_ma
     : material_(material), masses_(masses.begin(), masses.end()) {
   masses_.resize(rest.size(), 1.0);
   for (const double mass : masses_) total_mass_ += mass;
-  const Point<D> center = center_of<D>(rest, masses_, total_mass_);
+  const Point<D> centre = centre_of<D>(rest, masses_, total_mass_);
   double radius = 0;
   for (const Point<D>& x : rest) {
-    rest_.push_back(x - center);
+    rest_.push_back(x - centre);
     for (const double c : rest_.back()) radius = std::max(radius, std::abs(c));
   }
   if (radius > 0) radius_ = radius;
@@ -100,9 +100,9 @@ Shape_matching<D>::Shape_matching(std::span<const Point<D>> rest, const Shape_ma
 
 template <int D>
 void Shape_matching<D>::goals(std::span<const Point<D>> positions, std::span<Point<D>> result) const {
-  const Point<D> center = center_of<D>(positions, masses_, total_mass_);
+  const Point<D> centre = centre_of<D>(positions, masses_, total_mass_);
   std::array<Vector<D>, D> moments{};
-  const auto place = [&](std::size_t i) { return (1 / radius_) * (positions[i] - center); };
+  const auto place = [&](std::size_t i) { return (1 / radius_) * (positions[i] - centre); };
   for (std::size_t i = 0; i < rest_.size(); ++i) add_moment(moments, masses_[i], place(i), rest_[i]);
   const std::array<Vector<D>, D> rotation = nearest_rotation<D>(moments);
 
@@ -115,7 +115,7 @@ void Shape_matching<D>::goals(std::span<const Point<D>> positions, std::span<Poi
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < most_monomials; ++j) map[i][j] = mixed(map[i][j], j < D ? rotation[i][j] : 0);
     for (std::size_t i = 0; i < rest_.size(); ++i)
-      for (int k = 0; k < D; ++k) result[i][k] = center[k] + radius_ * dot(map[k], monomials_[i]);
+      for (int k = 0; k < D; ++k) result[i][k] = centre[k] + radius_ * dot(map[k], monomials_[i]);
     return;
   }
   std::array<Vector<D>, D> map = rotation;
@@ -133,7 +133,7 @@ void Shape_matching<D>::goals(std::span<const Point<D>> positions, std::span<Poi
       for (int j = 0; j < D; ++j) map[i][j] = mixed(linear[i][j], rotation[i][j]);
   }
   for (std::size_t i = 0; i < rest_.size(); ++i)
-    for (int k = 0; k < D; ++k) result[i][k] = center[k] + radius_ * dot(map[k], rest_[i]);
+    for (int k = 0; k < D; ++k) result[i][k] = centre[k] + radius_ * dot(map[k], rest_[i]);
 }
 
 template class Shape_matching<2>;

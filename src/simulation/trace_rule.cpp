@@ -33,7 +33,7 @@ Body_options trace_options(Sweep sweep) {
   return options;
 }
 
-std::uint8_t trace_answer(const Blocked_move<3>& blocked, Sweep sweep) {
+std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep) {
   if (blocked.is_vertex_blocked)
     return sweep == Sweep::triangle ? trace_segment_bit | trace_triangle_bits : trace_segment_bit;
   std::uint8_t answer = 0;
@@ -45,11 +45,11 @@ std::uint8_t trace_answer(const Blocked_move<3>& blocked, Sweep sweep) {
   return answer;
 }
 
-void append_answers(std::span<const Blocked_move<3>> blocked, Sweep sweep,
+void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers) {
   const std::size_t first = answers.size();
   answers.resize(first + trace_vertices);
-  for (const Blocked_move<3>& move : blocked) answers[first + move.vertex] = trace_answer(move, sweep);
+  for (const Rejected_move<3>& move : blocked) answers[first + move.vertex] = trace_answer(move, sweep);
 }
 
 void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number) {

@@ -23,12 +23,12 @@ void World<D>::step() {
 
 template <int D>
 void World<D>::record_contacts(std::size_t particle) {
-  for (Contact<D>& met : met_) {
+  for (Contact<D>& met : timed_contacts_) {
     met.normal = met.normal + Vector<D>{};  // no negative zeros for readers of tables
     contacts_.push_back(
         {steps_done_, static_cast<std::uint32_t>(particle), met, snapshot_.index(met.cell), {}});
   }
-  met_.clear();
+  timed_contacts_.clear();
 }
 
 template <int D>
@@ -37,7 +37,8 @@ void World<D>::step_free() {
   const Wall_response response{scene_.restitution, scene_.friction};
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
-    velocities_[i] = (1 / dt) * advance(snapshot_, particles_[i], displacement, response, met_, counts_);
+    velocities_[i] =
+        (1 / dt) * advance(snapshot_, particles_[i], displacement, response, timed_contacts_, counts_);
     record_contacts(i);
   }
 }
@@ -59,7 +60,7 @@ void World<D>::step_bodies() {
       Contact<D> contact = met.contact;
       contact.normal = contact.normal + Vector<D>{};
       contacts_.push_back(
-          {steps_done_, 0, contact, snapshot_.index(contact.cell), Met_body{i, met.vertex, met.feature}});
+          {steps_done_, 0, contact, snapshot_.index(contact.cell), Body_hit{i, met.vertex, met.feature}});
     }
 }
 
@@ -88,7 +89,7 @@ void World<D>::validate() {
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     body_steps_.resize(bodies_.size());
-    bodies_[i].body().catch_up(body_steps_[i].counts);
+    bodies_[i].body().refresh(body_steps_[i].counts);
     try {
       bodies_[i].body().validate();
     } catch (const Error& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies in an environment that is edited: none goes on as if nothing had happened.
 #include <cellwalk/body/body.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 
@@ -45,7 +46,7 @@ template <int D>
 Half_facet inner_facet(const Snapshot<D>& snapshot) {
   for (std::size_t k = 0;; ++k) {
     const Half_facet f = snapshot.half_facet(snapshot.cell(snapshot.cell_count() - 1), k);
-    if (snapshot.neighbor(f) != Cell::none) return f;
+    if (snapshot.neighbour(f) != Cell::none) return f;
   }
 }
 
@@ -130,7 +131,7 @@ void expect_edits_noticed() {
           [&] { body.step(targets, options, report, counts); },
           [&] { body.step(targets, at_target, report, counts); },
           [&] { body.move_vertex(0, targets[0], options, counts); },
-          [&] { body.catch_up(counts); },
+          [&] { body.refresh(counts); },
           [&] { body.leave_region(counts); },
           [&] { body.validate(); },
       };
@@ -178,7 +179,7 @@ template <int D>
 Half_facet middle_facet(const Snapshot<D>& snapshot) {
   for (std::size_t k = 0;; ++k) {
     const Half_facet f = snapshot.half_facet(snapshot.cell(0), k);
-    if (snapshot.neighbor(f) != Cell::none) return f;
+    if (snapshot.neighbour(f) != Cell::none) return f;
   }
 }
 
@@ -200,7 +201,7 @@ TEST(BodyEdit, AWallThatAppearsIsMet) {
   body.step(there, {}, report, counts);
   EXPECT_FALSE(report.contacts.empty());
   for (const Point<2>& x : body.positions()) EXPECT_LE(x[0], 1);
-  EXPECT_NO_THROW(body.catch_up(counts));
+  EXPECT_NO_THROW(body.refresh(counts));
   EXPECT_NO_THROW(body.validate());
 }
 
@@ -218,11 +219,11 @@ TEST(BodyEdit, AWallThatAppearsInABodyIsRefusedUntilItGoes) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), Error_code::outside);
     }
-    EXPECT_FALSE(usage_error([&] { body.catch_up(counts); }).empty());
+    EXPECT_FALSE(usage_error([&] { body.refresh(counts); }).empty());
     EXPECT_EQ(body.positions()[1], (Point<2>{1.25, 0.5}));
   }
   environment.set_impassable(middle_facet(snapshot), false);
-  EXPECT_FALSE(usage_error([&] { body.catch_up(counts); }).empty()) << "another epoch, if the same walls";
+  EXPECT_FALSE(usage_error([&] { body.refresh(counts); }).empty()) << "another epoch, if the same walls";
   body.register_again(locator);
   EXPECT_NO_THROW(body.validate());
 }

@@ -120,7 +120,7 @@ TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
   EXPECT_FALSE(strip.report.contacts.empty()) << "on the floor";
   strip.options.sweep.sweep = Sweep::faces;
   EXPECT_NO_THROW(strip.step({0, 0, 1}, 7));
-  strip.body.catch_up(strip.counts);
+  strip.body.refresh(strip.counts);
   EXPECT_NO_THROW(strip.body.validate());
 }
 
@@ -157,7 +157,7 @@ TEST(Body_faces, AnyOrderOfSweepsIsTheSame) {
         ASSERT_NO_THROW(strip->step(by, only)) << trial << " " << k;
       }
       for (Strip* strip : {&eager, &plain}) {
-        strip->body.catch_up(strip->counts);
+        strip->body.refresh(strip->counts);
         ASSERT_NO_THROW(strip->body.validate()) << trial << " " << k;
         ASSERT_TRUE(std::ranges::equal(lazy->body.positions(), strip->body.positions())) << trial << " " << k;
         ASSERT_EQ(lazy->report.contacts.size(), strip->report.contacts.size()) << trial << " " << k;

@@ -48,7 +48,7 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
     if (x.body != y.body || x.kind != y.kind || of_a[i].feature != of_b[i].feature)
       return "the feature of a contact";
   }
-  const auto equal = [](const Blocked_move<D>& x, const Blocked_move<D>& y) {
+  const auto equal = [](const Rejected_move<D>& x, const Rejected_move<D>& y) {
     return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked && x.edges == y.edges &&
            x.swept_edges == y.swept_edges;
   };
@@ -208,7 +208,7 @@ class Interleaving {
   bool disturb(Body<D>& body, const std::string& name) {
     switch (random().below(6)) {
       case 0:
-        body.catch_up(seen_.counts);
+        body.refresh(seen_.counts);
         break;
       case 1:
         body.leave_region(seen_.counts);
@@ -227,7 +227,7 @@ class Interleaving {
   }
 
   bool check(Body<D>& body, const std::string& name) {
-    body.catch_up(seen_.counts);
+    body.refresh(seen_.counts);
     try {
       body.validate();
     } catch (const Error& error) {

@@ -183,7 +183,8 @@ class Body_in_orders {
     return {};
   }
 
-  bool are_alike(const std::vector<Blocked_move<D>>& some, const std::vector<Blocked_move<D>>& others) const {
+  bool are_alike(const std::vector<Rejected_move<D>>& some,
+                 const std::vector<Rejected_move<D>>& others) const {
     return std::equal(some.begin(), some.end(), others.begin(), others.end(),
                       [](const auto& x, const auto& y) {
                         return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked &&

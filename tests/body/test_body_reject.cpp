@@ -141,9 +141,9 @@ class Rejection {
   }
 
   /// The move of a vertex by definition.
-  Blocked_move<D> expected(const Body<D>& body, const std::vector<Point<D>>& positions, std::uint32_t vertex,
-                           const Point<D>& target, Sweep sweep) const {
-    Blocked_move<D> answer;
+  Rejected_move<D> expected(const Body<D>& body, const std::vector<Point<D>>& positions, std::uint32_t vertex,
+                            const Point<D>& target, Sweep sweep) const {
+    Rejected_move<D> answer;
     answer.vertex = vertex;
     answer.is_vertex_blocked = walls_.meet_segment(positions[vertex], target);
     if (answer.is_vertex_blocked) return answer;
@@ -195,7 +195,7 @@ class Rejection {
       auto given = blocked.begin();
       for (std::uint32_t v = 0; v < to.size(); ++v) {
         ++seen_.moves;
-        const Blocked_move<D> truth = expected(body, positions, v, to[v], sweep);
+        const Rejected_move<D> truth = expected(body, positions, v, to[v], sweep);
         if (!truth.stays()) positions[v] = to[v];
         if (!truth.is_vertex_blocked && (truth.edges | truth.swept_edges) == 0) continue;
         ASSERT_TRUE(given != blocked.end() && given->vertex == v) << step << ": nothing blocks " << v;
@@ -224,7 +224,7 @@ class Rejection {
             blocked.size();
       }
       if (!random_.chance(0.2)) continue;
-      body.catch_up(seen_.counts);
+      body.refresh(seen_.counts);
       // Faces are left alone, and may be pierced; they are not asked about then.
       ASSERT_NO_THROW(body.validate()) << step;
     }

@@ -46,12 +46,12 @@ Told told(const Snapshot<2>& snapshot, const Body_soup<2>& soup, const Point<2>&
     Body<2> body(snapshot, Locator<2>(snapshot), soup);
     Body_counts counts;
     const auto blocked = reject<2>(body, targets, rejecting(sweep, touch, clearance), counts).blocked;
-    const auto first = std::ranges::find(blocked, 0u, &Blocked_move<2>::vertex);
+    const auto first = std::ranges::find(blocked, 0u, &Rejected_move<2>::vertex);
     answers.push_back(
         first == blocked.end() ? nothing : Told{first->is_vertex_blocked, first->edges, first->swept_edges});
     const bool stays = answers.back().is_vertex_blocked || answers.back().edges != 0;
     EXPECT_EQ(body.positions()[0], stays ? soup.points[0] : target);
-    body.catch_up(counts);
+    body.refresh(counts);
     EXPECT_NO_THROW(body.validate());
   }
   EXPECT_EQ(answers[0], answers[1]);
@@ -160,7 +160,7 @@ TEST(Body_reject, FacesAreLeftAlone) {
     Body_counts counts;
     EXPECT_TRUE(reject<3>(body, targets, rejecting(sweep, Touch::pass, true), counts).blocked.empty());
     EXPECT_TRUE(std::ranges::equal(body.positions(), targets));
-    body.catch_up(counts);
+    body.refresh(counts);
     EXPECT_NO_THROW(body.validate());
     Body_options faces;
     faces.sweep.sweep = Sweep::faces;

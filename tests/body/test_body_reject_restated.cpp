@@ -33,8 +33,8 @@ class Restated_body {
 
   const Point<D>& position(std::uint32_t vertex) const { return particles_[vertex].position; }
 
-  Blocked_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, Sweep sweep) {
-    Blocked_move<D> answer;
+  Rejected_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, Sweep sweep) {
+    Rejected_move<D> answer;
     answer.vertex = vertex;
     const Particle<D> from = particles_[vertex];
     Particle<D> to = from;
@@ -176,7 +176,7 @@ class Restatement {
       auto given = blocked.begin();
       for (std::uint32_t v = 0; v < to.size(); ++v) {
         ++seen_.moves;
-        const Blocked_move<D> truth = restated.move_or_stay(v, to[v], sweep);
+        const Rejected_move<D> truth = restated.move_or_stay(v, to[v], sweep);
         const bool is_met = truth.stays() || truth.swept_edges != 0;
         const bool is_given = given != blocked.end() && given->vertex == v;
         if (is_met != is_given || (is_met && !are_alike(*given, truth)) ||
@@ -193,12 +193,12 @@ class Restatement {
         seen_.gone_round += (truth.swept_edges & ~truth.edges) != 0;
       }
       if (random().below(4) > 0) continue;
-      body.catch_up(seen_.counts);
+      body.refresh(seen_.counts);
       ASSERT_NO_THROW(body.validate()) << world_.name << ", step " << step;
     }
   }
 
-  static bool are_alike(const Blocked_move<D>& x, const Blocked_move<D>& y) {
+  static bool are_alike(const Rejected_move<D>& x, const Rejected_move<D>& y) {
     if (x.is_vertex_blocked != y.is_vertex_blocked || x.edges != y.edges || x.swept_edges != y.swept_edges ||
         x.contact.has_value() != y.contact.has_value())
       return false;

@@ -41,7 +41,7 @@ TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   Body_counts counts;
   for (int k = 0; k < 40; ++k) {
     body.step(shifted<3>(body, {0.1, 0, -0.05}), {}, report, counts);  // pressed down and pulled along
-    body.catch_up(counts);
+    body.refresh(counts);
     ASSERT_NO_THROW(body.validate());
   }
   EXPECT_GT(body.positions()[0][0], 5.4) << "it stuck to the floor";
@@ -66,7 +66,7 @@ TEST(Body_step, RejectsMovesThatMeetWalls) {
   EXPECT_EQ(report.contacts.size(), 4u);
   EXPECT_EQ(counts.held, 4u);
   EXPECT_EQ(counts.stop_tries, 0u);
-  body.catch_up(counts);
+  body.refresh(counts);
   EXPECT_NO_THROW(body.validate());
 }
 
@@ -87,7 +87,7 @@ TEST(Body_step, SlidesAlongAnObliqueWall) {
   Body_counts counts;
   for (int k = 0; k < 160; ++k) {
     body.step(shifted<2>(body, {0.07, -0.02}), {}, report, counts);
-    body.catch_up(counts);
+    body.refresh(counts);
     ASSERT_NO_THROW(body.validate());
   }
   EXPECT_GT(body.positions()[0][0], 8) << "it stuck to the wall";
@@ -127,7 +127,7 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
     Body_counts counts;
     for (int k = 0; k < 30; ++k) {
       body.step(shifted<3>(body, {0, 0, -0.07}), options, report, counts);
-      body.catch_up(counts);
+      body.refresh(counts);
       ASSERT_NO_THROW(body.validate()) << k;
     }
     double lowest = 4;
@@ -301,7 +301,7 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
         ASSERT_TRUE(std::ranges::equal(body.positions(), other.positions())) << k << " " << step;
         ASSERT_EQ(report.contacts.size(), plain_report.contacts.size());
       }
-      body.catch_up(counts);
+      body.refresh(counts);
       body.validate();
     } catch (const Error& error) {  // no room there
       ASSERT_EQ(error.code(), Error_code::outside) << error.what();

@@ -66,7 +66,7 @@ TEST(Body_targets, FarTargetsLeaveFiltersOfUse) {
       for (std::uint32_t u = 0; u < v; ++u) soup.edges.push_back({u, v});
     }
     std::array<int, 4> ways;
-    for (int& way : ways) way = static_cast<int>(random.below(6));
+    for (int& path : ways) path = static_cast<int>(random.below(6));
     for (std::size_t i = 0; i < distances.size(); ++i) try {
         Body<3> body(snapshot, locator, soup);
         std::vector<Point<3>> targets = soup.points;
@@ -74,7 +74,7 @@ TEST(Body_targets, FarTargetsLeaveFiltersOfUse) {
           targets[v][static_cast<std::size_t>(ways[v] / 2)] = (ways[v] % 2 == 0 ? -1 : 1) * distances[i];
         Step_report<3> report;
         body.step(targets, {}, report, counts[i]);
-        body.catch_up(counts[i]);
+        body.refresh(counts[i]);
         body.validate();
       } catch (const Error& error) {
         ASSERT_EQ(error.code(), Error_code::outside) << error.what();

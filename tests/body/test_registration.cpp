@@ -45,7 +45,7 @@ TEST(Registration, LooksAtNoFacesInThePlane) {
   for (Point<2>& x : targets) x[0] += 3;
   body.step(targets, {}, report, counts);
   EXPECT_FALSE(report.contacts.empty());
-  body.catch_up(counts);
+  body.refresh(counts);
   EXPECT_NO_THROW(body.validate());
 }
 

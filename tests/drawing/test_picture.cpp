@@ -15,7 +15,7 @@ namespace {
 
 using Pixel = std::array<std::uint8_t, 3>;
 
-constexpr Color red{1, 0, 0}, blue{0, 0, 1}, white{1, 1, 1};
+constexpr Colour red{1, 0, 0}, blue{0, 0, 1}, white{1, 1, 1};
 
 /// A small picture on white, seen from above, without perspective.
 Picture_options plain(int width = 120, int height = 100) {
@@ -33,9 +33,9 @@ void add_square(Drawing& drawing, double half, double z, std::uint32_t material)
   add_surface(drawing, points, facets, material);
 }
 
-std::uint32_t flat(Drawing& drawing, Color color, double opacity = 1) {
-  color.opacity = opacity;
-  return drawing.add_material({color, 0, false});
+std::uint32_t flat(Drawing& drawing, Colour colour, double opacity = 1) {
+  colour.opacity = opacity;
+  return drawing.add_material({colour, 0, false});
 }
 
 bool is_near(const Pixel& p, int r, int g, int b, int error = 1) {

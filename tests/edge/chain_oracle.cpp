@@ -165,7 +165,7 @@ template <int D>
 class Timetable {
  public:
   Timetable(const Moving_segment<D>& segment, const Edge_motion<D>& motion) {
-    for (const std::uint32_t c : motion.way) {
+    for (const std::uint32_t c : motion.path) {
       const int cell = segment.number_of(c);
       if (cell < 0) throw std::invalid_argument("p is never in its cell");
       cells_.push_back(cell);
@@ -221,7 +221,7 @@ Outcomes Chain_oracle<D>::judge(const Edge_motion<D>& motion) const {
   outcomes.critical = static_cast<int>(times.size());
 
   Linked_cut here(segment.cut(times[0]));
-  const auto start = class_of(complex_, segment, here, motion.chain, motion.way.front(), motion.q_cell);
+  const auto start = class_of(complex_, segment, here, motion.chain, motion.path.front(), motion.q_cell);
   if (!start) throw std::invalid_argument("the chain before is none");
   std::set<Chain_class> states{*start};
   for (std::size_t i = 0; i + 1 < times.size() && !states.empty(); ++i) {
@@ -254,7 +254,7 @@ bool Chain_oracle<D>::is_end(const Edge_motion<D>& motion, const Outcomes& outco
                              std::span<const std::uint32_t> chain) const {
   const Moving_segment<D> segment(complex_, motion.a, motion.b, motion.q);
   const Linked_cut cut(segment.cut(outcomes.end));
-  const auto state = class_of(complex_, segment, cut, chain, motion.way.back(), motion.q_cell);
+  const auto state = class_of(complex_, segment, cut, chain, motion.path.back(), motion.q_cell);
   return state && outcomes.ends.contains(*state);
 }
 

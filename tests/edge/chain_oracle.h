@@ -16,7 +16,7 @@ namespace cellwalk::oracle {
 template <int D>
 struct Edge_motion {
   Point<D> a{}, b{}, q{};
-  std::vector<std::uint32_t> way;  ///< the cells of p, in order
+  std::vector<std::uint32_t> path;  ///< the cells of p, in order
   /// The passable half-facets between one cell of the way and the next: p changes from it to that once it lies in all of them.
   std::vector<std::vector<std::uint32_t>> passed;
   std::uint32_t q_cell = 0;

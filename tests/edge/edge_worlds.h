@@ -82,7 +82,7 @@ void expect_leads(const Snapshot<D>& snapshot, const Chain& chain, Cell from, Ce
   for (const Half_facet f : chain) {
     ASSERT_EQ(snapshot.cell_of(f), cell);
     ASSERT_FALSE(snapshot.is_impassable(f));
-    cell = snapshot.neighbor(f);
+    cell = snapshot.neighbour(f);
   }
   EXPECT_EQ(cell, to);
 }

@@ -35,14 +35,14 @@ class Face_body {
       chains_[k] = edge.chain;
     }
     const Face_registration face = registered();
-    rests_ = face.rests;
+    supporting_walls_ = face.supporting_walls;
     return face.piercing == Half_facet::none;
   }
 
   /// What registering the face where it is says.
   Face_registration registered() {
     return register_face(snapshot_, corners_[0], corners_[1], corners_[2],
-                         {{&chains_[0]}, {&chains_[1]}, {&chains_[2]}}, counts, rests_);
+                         {{&chains_[0]}, {&chains_[1]}, {&chains_[2]}}, counts, supporting_walls_);
   }
 
   /// Moves corner k.
@@ -55,31 +55,31 @@ class Face_body {
     outcome.vertex =
         move(snapshot_, p, target, edge_counts.walk, {Walk_strategy::certified, &visited, &crossed}).contact;
     p.position = target;
-    const Way<3> way{corners_[k], p, visited, crossed, outcome.vertex.has_value()};
+    const Vertex_path<3> path{corners_[k], p, visited, crossed, outcome.vertex.has_value()};
     Chain next = chains_[k], last = reversed(snapshot_, chains_[i]);  // from p to the others
     if (!outcome.vertex) {
-      const Sweep_result<3> to_next = sweep_triangle<3>(snapshot_, way, corners_[j], next, edge_counts);
-      const Sweep_result<3> to_last = sweep_triangle<3>(snapshot_, way, corners_[i], last, edge_counts);
+      const Sweep_result<3> to_next = sweep_triangle<3>(snapshot_, path, corners_[j], next, edge_counts);
+      const Sweep_result<3> to_last = sweep_triangle<3>(snapshot_, path, corners_[i], last, edge_counts);
       outcome.edge = to_next.contact ? to_next.contact : to_last.contact;
       next = to_next.chain;
       last = to_last.chain;
     }
     const bool is_free = !outcome.vertex && !outcome.edge;
     outcome.face =
-        sweep_face(snapshot_, way, corners_[j], corners_[i], rests_,
+        sweep_face(snapshot_, path, corners_[j], corners_[i], supporting_walls_,
                    {{is_free ? &next : nullptr}, {&chains_[j]}, {is_free ? &last : nullptr, true}}, counts);
     if (outcome.is_made()) {
       corners_[k] = p;
       chains_[k] = next;
       chains_[i] = reversed(snapshot_, last);
-      rests_ = outcome.face.rests;
+      supporting_walls_ = outcome.face.supporting_walls;
     }
     return outcome;
   }
 
   const Particle<3>& corner(std::size_t k) const { return corners_[k]; }
   Triangle triangle() const { return {corners_[0].position, corners_[1].position, corners_[2].position}; }
-  const Face_rests& rests() const { return rests_; }
+  const Supporting_walls& supporting_walls() const { return supporting_walls_; }
 
   Edge_counts edge_counts;
   Face_counts counts;
@@ -88,7 +88,7 @@ class Face_body {
   const Snapshot<3>& snapshot_;
   std::array<Particle<3>, 3> corners_;
   std::array<Chain, 3> chains_;  ///< from corner k to the next
-  Face_rests rests_;
+  Supporting_walls supporting_walls_;
 };
 
 }  // namespace cellwalk::test

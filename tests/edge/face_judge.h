@@ -24,8 +24,8 @@ struct Face_seen {
   int registered = 0, pierced = 0, pierced_together = 0;
   int sweeps = 0, hits = 0, face_only = 0, through_vertex = 0, at_once = 0, inside_hits = 0;
   int landed = 0, on_one_sided = 0, leaves_through = 0, sides_checked = 0, flat = 0, chosen = 0;
-  int misses = 0, unjudged = 0, false_blocks = 0, wrong_times = 0, wrong_rests = 0;
-  int blocked = 0, before_blocked = 0, astray = 0;
+  int misses = 0, unjudged = 0, false_blocks = 0, wrong_times = 0, wrong_supporting_walls = 0;
+  int blocked = 0, before_blocked = 0, edge_on_other_side = 0;
   Face_counts counts;
 };
 
@@ -45,15 +45,15 @@ class Judge {
         seen_(seen) {
     for (std::size_t w = 0; w < walls.facets.size(); ++w)
       if (overlaps_in_plane(body.triangle(), walls.polygons[w])) sides_[w] = 0;
-    check_rests();
+    check_supporting_walls();
   }
 
   void move(std::size_t k, const Point<3>& target) {
     const Triangle before = body_.triangle();
     const auto outcome = body_.move_corner(k, target);
     const bool is_flat = orientation_of(before[0], before[1], before[2], target) == 0;
-    if (outcome.face.contact && outcome.face.is_edge_astray) {
-      ++seen_.astray;
+    if (outcome.face.contact && outcome.face.is_edge_on_other_side) {
+      ++seen_.edge_on_other_side;
       EXPECT_FALSE(generic_);
       EXPECT_FALSE(!is_flat && first_hit(before, k, target)) << name_;
       return;
@@ -66,9 +66,9 @@ class Judge {
     }
     if (!outcome.is_made()) return;
     follow(before[k], is_flat);
-    check_rests();
+    check_supporting_walls();
     const Face_registration again = body_.registered();
-    EXPECT_EQ(again.rests, body_.rests()) << name_;
+    EXPECT_EQ(again.supporting_walls, body_.supporting_walls()) << name_;
     EXPECT_EQ(again.piercing, Half_facet::none) << name_;
   }
 
@@ -155,30 +155,32 @@ class Judge {
     sides_ = sides;
   }
 
-  bool rests(Half_facet f) const {
-    return std::find(body_.rests().begin(), body_.rests().end(), f) != body_.rests().end();
+  bool supporting_walls(Half_facet f) const {
+    return std::find(body_.supporting_walls().begin(), body_.supporting_walls().end(), f) !=
+           body_.supporting_walls().end();
   }
 
   /// The rests are the walls in the plane, on the sides known. Of walls of one side each that coincide, one is a rest.
-  void check_rests() {
+  void check_supporting_walls() {
     bool is_right = true;
     std::size_t found = 0;
     for (const auto& [w, side] : sides_) {
       const Half_facet front = walls_.facets[w], back = snapshot_.opposite(front);
-      const bool is_one_sided = back == Half_facet::none, is_front = rests(front),
-                 is_back = !is_one_sided && rests(back);
+      const bool is_one_sided = back == Half_facet::none, is_front = supporting_walls(front),
+                 is_back = !is_one_sided && supporting_walls(back);
       found += std::size_t{is_front} + std::size_t{is_back};
       // A facet turns counterclockwise seen from outside its cell, so its cell lies on the negative side.
       is_right &= is_front ? side <= 0 : side >= 0;
       is_right &= is_one_sided ? agrees_behind(w) : is_front != is_back;
       for (const Half_facet f : {front, back})
-        is_right &= f == Half_facet::none || !rests(f) || !snapshot_.is_solid(snapshot_.cell_of(f));
+        is_right &=
+            f == Half_facet::none || !supporting_walls(f) || !snapshot_.is_solid(snapshot_.cell_of(f));
       seen_.sides_checked += side != 0;
       seen_.chosen += side == 0;
       seen_.on_one_sided += is_one_sided && is_front;
     }
-    is_right &= found == body_.rests().size();
-    seen_.wrong_rests += !is_right;
+    is_right &= found == body_.supporting_walls().size();
+    seen_.wrong_supporting_walls += !is_right;
     EXPECT_TRUE(is_right) << name_;
     if (generic_) {
       EXPECT_TRUE(sides_.empty());
@@ -187,13 +189,13 @@ class Judge {
 
   /// A wall of one side is a rest, or what coincides with it under the face is: free space on one side there must be.
   bool agrees_behind(std::size_t w) const {
-    const bool is_front = rests(walls_.facets[w]);
+    const bool is_front = supporting_walls(walls_.facets[w]);
     bool is_any = false, is_all = true;
     for (const auto& [other, side] : sides_) {
       if (other == w || !overlap_in_plane(body_.triangle(), walls_.polygons[w], walls_.polygons[other]))
         continue;
-      is_any |= rests(walls_.facets[other]);
-      is_all &= rests(walls_.facets[other]);
+      is_any |= supporting_walls(walls_.facets[other]);
+      is_all &= supporting_walls(walls_.facets[other]);
     }
     return is_front ? !is_any : is_any && is_all;
   }

@@ -21,14 +21,15 @@ inline void report(const char* what, const Face_seen& seen) {
             << " times left through one, " << seen.chosen << " sides chosen; " << seen.registered
             << " registered, " << seen.pierced << " pierced, " << seen.pierced_together
             << " by walls together; p blocked " << seen.blocked << ", the face before " << seen.before_blocked
-            << ", an edge astray " << seen.astray << "; clear " << c.clear << " of " << c.faces << ", walls "
-            << c.walls << ", clipped " << c.clipped << "; missed " << seen.misses << ", false blocks "
-            << seen.false_blocks << " and " << seen.unjudged << " by sides chosen, wrong times "
-            << seen.wrong_times << ", wrong rests " << seen.wrong_rests << "\n";
+            << ", an edge astray " << seen.edge_on_other_side << "; clear " << c.clear << " of " << c.faces
+            << ", walls " << c.walls << ", clipped " << c.clipped << "; missed " << seen.misses
+            << ", false blocks " << seen.false_blocks << " and " << seen.unjudged
+            << " by sides chosen, wrong times " << seen.wrong_times << ", wrong rests "
+            << seen.wrong_supporting_walls << "\n";
 }
 
 inline void expect_no_fault(const Face_seen& seen) {
-  EXPECT_EQ(seen.misses + seen.false_blocks + seen.wrong_times + seen.wrong_rests, 0);
+  EXPECT_EQ(seen.misses + seen.false_blocks + seen.wrong_times + seen.wrong_supporting_walls, 0);
 }
 
 /// Places faces in a world and moves them.

@@ -15,9 +15,9 @@ Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
 
 /// A unit vector at right angles to a unit vector, away from a point as seen from another one.
 Vector<3> away_from(const Point<3>& there, const Point<3>& here, const Vector<3>& along) {
-  const Vector<3> way = here - there;
-  Vector<3> away = way - dot(way, along) * along;
-  if (length(away) <= 0x1p-20 * length(way)) {
+  const Vector<3> path = here - there;
+  Vector<3> away = path - dot(path, along) * along;
+  if (length(away) <= 0x1p-20 * length(path)) {
     // Straight ahead or no way at all: any direction at right angles.
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)

@@ -121,9 +121,9 @@ std::optional<std::array<Rational, 2>> times_of_point(const Vec& a, const Vec& b
 /// from q.
 std::optional<Rational> later_on_line(const Vec& a, const Vec& b, const Vec& q,
                                       const std::vector<Half_space>& obstacle) {
-  const Vec way = minus(b, a);
-  if (is_zero(way)) return {};
-  const Rational at_q(dot(minus(q, a), way), dot(way, way));
+  const Vec path = minus(b, a);
+  if (is_zero(path)) return {};
+  const Rational at_q(dot(minus(q, a), path), dot(path, path));
   const auto times = times_of_point(a, b, obstacle);
   const Rational leaves = std::max(Rational(0), at_q);
   if (!times || (*times)[1] <= leaves) return {};

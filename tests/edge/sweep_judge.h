@@ -47,25 +47,25 @@ std::vector<std::uint32_t> soup_chain(const Cell_soup<D>& soup, const Snapshot<D
 }
 
 template <int D>
-oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& snapshot, const Way<D>& way,
-                                 const Particle<D>& q, const Chain& before) {
-  oracle::Edge_motion<D> motion{way.from.position,
-                                way.to.position,
+oracle::Edge_motion<D> motion_of(const Cell_soup<D>& soup, const Snapshot<D>& snapshot,
+                                 const Vertex_path<D>& path, const Particle<D>& q, const Chain& before) {
+  oracle::Edge_motion<D> motion{path.from.position,
+                                path.to.position,
                                 q.position,
                                 {},
                                 {},
                                 snapshot.index(q.cell),
                                 soup_chain(soup, snapshot, before),
-                                way.blocked};
-  for (const Cell c : way.visited) motion.way.push_back(snapshot.index(c));
+                                path.blocked};
+  for (const Cell c : path.visited) motion.path.push_back(snapshot.index(c));
   const std::vector<std::uint32_t> crossed =
-      soup_chain(soup, snapshot, {way.crossed.begin(), way.crossed.end()});
-  auto passed = way.crossed.begin();
-  for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
+      soup_chain(soup, snapshot, {path.crossed.begin(), path.crossed.end()});
+  auto passed = path.crossed.begin();
+  for (std::size_t i = 0; i + 1 < path.visited.size(); ++i) {
     auto& facets = motion.passed.emplace_back();
-    for (Cell cell = way.visited[i]; cell != way.visited[i + 1]; ++passed) {
-      facets.push_back(crossed[static_cast<std::size_t>(passed - way.crossed.begin())]);
-      cell = snapshot.neighbor(*passed);
+    for (Cell cell = path.visited[i]; cell != path.visited[i + 1]; ++passed) {
+      facets.push_back(crossed[static_cast<std::size_t>(passed - path.crossed.begin())]);
+      cell = snapshot.neighbour(*passed);
     }
   }
   return motion;

@@ -224,8 +224,8 @@ TEST(CcdStatic, EdgeAndWideMembrane) {
     const Edge_motion& m = row.motion;
     const auto& [a, b] = row.obstacle;
     const double size = length(b - a) + length(m.p0 - a) + length(m.q0 - a);
-    const Vector<3> way{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
-    const std::array<Point<3>, 3> membrane{a, b, a + size * way};
+    const Vector<3> path{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
+    const std::array<Point<3>, 3> membrane{a, b, a + size * path};
     const Environment<3> environment = membrane_environment(membrane, std::array{m.p0, m.p1, m.q0, m.q1});
     check_motion(environment, membrane, m, p_first);
     check_motion(environment, membrane, m.q_first(), q_first);

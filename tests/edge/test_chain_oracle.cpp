@@ -59,10 +59,10 @@ class Scene {
     const auto walked = move(snapshot, to, c.b, counts.walk, {Walk_strategy::certified, &visited, &crossed});
     const bool blocked = walked.status != Walk_status::arrived;
     if (blocked) to = particle(c.b, snapshot.index(visited.back()));
-    const Way<D> way{from, to, visited, crossed, blocked};
-    Judged judged{motion_of(oracle.soup(), snapshot, way, q, before), {}, {}};
+    const Vertex_path<D> path{from, to, visited, crossed, blocked};
+    Judged judged{motion_of(oracle.soup(), snapshot, path, q, before), {}, {}};
     judged.outcomes = oracle.judge(judged.motion);
-    judged.result = sweep_triangle(snapshot, way, q, before, counts);
+    judged.result = sweep_triangle(snapshot, path, q, before, counts);
     const Sweep_fault fault = fault_of(oracle, judged.motion, judged.outcomes, snapshot, judged.result);
     EXPECT_EQ(fault, Sweep_fault::none) << fault_names[static_cast<std::size_t>(fault)];
     return judged;
@@ -75,7 +75,7 @@ class Scene {
       const Cell c = snapshot.cell(cells[i]);
       std::size_t f = 0;
       const auto leads = [&](Half_facet h) {
-        return !snapshot.is_impassable(h) && snapshot.neighbor(h) == snapshot.cell(cells[i + 1]);
+        return !snapshot.is_impassable(h) && snapshot.neighbour(h) == snapshot.cell(cells[i + 1]);
       };
       while (!leads(Snapshot<D>::half_facet(c, f))) ++f;
       chain.push_back(Snapshot<D>::half_facet(c, f));

@@ -60,7 +60,7 @@ void check_membrane(const Triangle& t, std::span<const Point<3>> inside, Membran
   const Cell above = snapshot.cell(0), below = snapshot.cell(1);
   const Half_facet membrane = Snapshot<3>::half_facet(above, 0);
   EXPECT_TRUE(snapshot.is_impassable(membrane));
-  EXPECT_EQ(snapshot.neighbor(membrane), below);
+  EXPECT_EQ(snapshot.neighbour(membrane), below);
   Triangle corners;
   for (std::size_t i = 0; i < 3; ++i) corners[i] = snapshot.point(snapshot.loop(membrane)[i]);
   EXPECT_EQ(corners, (Triangle{t[0], t[2], t[1]}));
@@ -93,9 +93,9 @@ std::vector<Point<3>> points_round(const Triangle& t, Random& random, double siz
   std::vector<Point<3>> points;
   for (int k = 0; k < 3; ++k) {
     const Point<3> on = t[0] + random.real(0, 0.7) * (t[1] - t[0]) + random.real(0, 0.7) * (t[2] - t[0]);
-    const Vector<3> way = random_point(random, size);
-    points.push_back(on + way);
-    points.push_back(on - random.real(0.1, 1) * way);
+    const Vector<3> path = random_point(random, size);
+    points.push_back(on + path);
+    points.push_back(on - random.real(0.1, 1) * path);
   }
   return points;
 }

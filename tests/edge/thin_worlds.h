@@ -170,7 +170,7 @@ int walls_beside_ways(const Snapshot<D>& snapshot) {
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
     for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
       const Half_facet facet = Snapshot<D>::half_facet(snapshot.cell(i), f);
-      const Cell next = snapshot.neighbor(facet);
+      const Cell next = snapshot.neighbour(facet);
       if (next != Cell::none) ++shared[{snapshot.cell(i), next}][snapshot.is_impassable(facet)];
     }
   int walls = 0;
@@ -181,9 +181,9 @@ int walls_beside_ways(const Snapshot<D>& snapshot) {
 /// Passable facets in whose plane both of their cells have boundary facets.
 template <int D>
 int slits_beside_ways(const Snapshot<D>& snapshot) {
-  const auto has_wall_in_plane = [&](Half_facet way) {
-    const Cell c = snapshot.cell_of(way);
-    const auto plane = snapshot.loop(way);
+  const auto has_wall_in_plane = [&](Half_facet path) {
+    const Cell c = snapshot.cell_of(path);
+    const auto plane = snapshot.loop(path);
     const auto in_plane = [&](std::uint32_t v) {
       Predicate_counts counts;
       const auto x = [&](std::size_t i) { return snapshot.point(plane[i]); };
@@ -196,7 +196,7 @@ int slits_beside_ways(const Snapshot<D>& snapshot) {
     };
     for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
       const Half_facet wall = Snapshot<D>::half_facet(c, f);
-      if (snapshot.neighbor(wall) != Cell::none) continue;
+      if (snapshot.neighbour(wall) != Cell::none) continue;
       const auto loop = snapshot.loop(wall);
       if (std::all_of(loop.begin(), loop.end(), in_plane)) return true;
     }
@@ -205,10 +205,10 @@ int slits_beside_ways(const Snapshot<D>& snapshot) {
   int ways = 0;
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
     for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
-      const Half_facet way = Snapshot<D>::half_facet(snapshot.cell(i), f);
-      if (snapshot.is_impassable(way)) continue;
-      const Half_facet other = snapshot.opposite(way);
-      ways += way < other && has_wall_in_plane(way) && has_wall_in_plane(other);
+      const Half_facet path = Snapshot<D>::half_facet(snapshot.cell(i), f);
+      if (snapshot.is_impassable(path)) continue;
+      const Half_facet other = snapshot.opposite(path);
+      ways += path < other && has_wall_in_plane(path) && has_wall_in_plane(other);
     }
   return ways;
 }

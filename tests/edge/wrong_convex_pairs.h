@@ -61,12 +61,12 @@ int forget_slits(Snapshot<D>& snapshot) {
   int wrong = 0;
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
     for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
-      const Half_facet way = Snapshot<D>::half_facet(snapshot.cell(i), f);
-      if (snapshot.is_impassable(way) || snapshot.is_convex_pair(way)) continue;
-      const Cell a = snapshot.cell(i), b = snapshot.neighbor(way);
-      const auto plane = snapshot.loop(way);
+      const Half_facet path = Snapshot<D>::half_facet(snapshot.cell(i), f);
+      if (snapshot.is_impassable(path) || snapshot.is_convex_pair(path)) continue;
+      const Cell a = snapshot.cell(i), b = snapshot.neighbour(path);
+      const auto plane = snapshot.loop(path);
       if (!bounds(a, b, plane) || !bounds(b, a, plane)) continue;
-      Snapshot_compiler<-1>::set_convex_pair(snapshot, way);
+      Snapshot_compiler<-1>::set_convex_pair(snapshot, path);
       ++wrong;
     }
   return wrong;

@@ -19,7 +19,7 @@ namespace cellwalk::test {
 /// A facet as seen from its cell, free of anything that depends on the order in which a snapshot was made.
 struct Facet_facts {
   std::vector<std::uint32_t> loop;  ///< rotated to start at the lowest point
-  std::uint32_t neighbor;           ///< input index, or no_facet
+  std::uint32_t neighbour;          ///< input index, or no_facet
   bool impassable, convex_pair;
 
   auto operator<=>(const Facet_facts&) const = default;
@@ -57,11 +57,11 @@ Snapshot_facts<D> facts(const Snapshot<D>& snapshot) {
       EXPECT_EQ(snapshot.facet_of(f), k);
       std::vector<std::uint32_t> loop = snapshot.loop(f);
       if (D == 3) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-      const Cell neighbor = snapshot.neighbor(f);
-      if (neighbor != Cell::none) {
+      const Cell neighbour = snapshot.neighbour(f);
+      if (neighbour != Cell::none) {
         EXPECT_EQ(snapshot.opposite(snapshot.opposite(f)), f);
       }
-      cell.facets.push_back({loop, neighbor == Cell::none ? no_facet : snapshot.index(neighbor),
+      cell.facets.push_back({loop, neighbour == Cell::none ? no_facet : snapshot.index(neighbour),
                              snapshot.is_impassable(f), snapshot.is_convex_pair(f)});
     }
     std::sort(cell.facets.begin(), cell.facets.end());

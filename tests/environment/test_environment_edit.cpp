@@ -84,7 +84,7 @@ void edit_point(Environment<D>& environment, Random& random, Tally& tally) {
     for (std::size_t k = 0; k < snapshot.facet_count(snapshot.cell(i)); ++k) {
       const Half_facet f = snapshot.half_facet(snapshot.cell(i), k);
       const auto loop = snapshot.loop(f);
-      on_boundary |= snapshot.neighbor(f) == Cell::none && std::count(loop.begin(), loop.end(), point) > 0;
+      on_boundary |= snapshot.neighbour(f) == Cell::none && std::count(loop.begin(), loop.end(), point) > 0;
     }
   try {
     environment.move_vertex(point, target);

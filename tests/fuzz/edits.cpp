@@ -81,10 +81,10 @@ auto facets_of(const Snapshot<D>& snapshot) {
       const Half_facet f = snapshot.half_facet(c, k);
       auto loop = snapshot.loop(f);
       if (D == 3) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-      const Cell neighbor = snapshot.neighbor(f);
+      const Cell neighbour = snapshot.neighbour(f);
       facets.emplace(i, snapshot.is_solid(c), loop,
-                     neighbor == Cell::none ? no_facet : snapshot.index(neighbor), snapshot.is_impassable(f),
-                     snapshot.is_convex_pair(f));
+                     neighbour == Cell::none ? no_facet : snapshot.index(neighbour),
+                     snapshot.is_impassable(f), snapshot.is_convex_pair(f));
     }
   }
   return facets;

@@ -145,12 +145,12 @@ class Mover {
       to.position = target;
       to.cell = visited.back();
     }
-    const Way<D> way{from, to, visited, crossed, blocked};
-    const Sweep_result<D> result = sweep_triangle<D>(snapshot_, way, q, before, counts, certificates);
+    const Vertex_path<D> path{from, to, visited, crossed, blocked};
+    const Sweep_result<D> result = sweep_triangle<D>(snapshot_, path, q, before, counts, certificates);
     if (!blocked && !result.contact) demand_chain(to, q, result.chain);
     if (!sweeps_ || !has_few_digits(from.position) || !has_few_digits(target) || !has_few_digits(q.position))
       return;
-    const auto motion = test::motion_of(sweeps_->soup(), snapshot_, way, q, before);
+    const auto motion = test::motion_of(sweeps_->soup(), snapshot_, path, q, before);
     try {
       const oracle::Outcomes outcomes = sweeps_->judge(motion);
       const auto fault = test::fault_of(*sweeps_, motion, outcomes, snapshot_, result);

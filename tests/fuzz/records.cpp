@@ -2,8 +2,8 @@
 // Readers of tables, scenes, recorded motions, traces, and of what is compressed.
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/io/gzip.h>
-#include <cellwalk/internal/io/motion_record_file.h>
 #include <cellwalk/internal/io/query_file.h>
+#include <cellwalk/internal/io/repro_file.h>
 #include <cellwalk/internal/io/trace_file.h>
 #include <cellwalk/io/scene.h>
 
@@ -16,7 +16,7 @@
 #include "fuzz/decoder.h"
 #include "fuzz/targets.h"
 #include "io/files/text.h"
-#include "io/results/motion_format.h"
+#include "io/results/recording_format.h"
 
 namespace cellwalk::fuzz {
 namespace {
@@ -40,7 +40,7 @@ void query(const io::Csv_table& table, const std::array<std::string_view, N>& pr
     demand(rows.size() == table.row_count(), "rows are lost");
     for (const auto& row : rows)
       for (const auto& p : row.points)
-        demand(!row.invalid.empty() || is_finite(p), "a query that is not finite, without a reason");
+        demand(!row.error.empty() || is_finite(p), "a query that is not finite, without a reason");
   });
 }
 
@@ -89,7 +89,7 @@ void record(std::string_view bytes) {
             demand(v < motion.soup.points.size(), "an index is out of range");
           demand(!motion.cell || *motion.cell < motion.soup.cell_count(), "a cell is out of range");
         },
-        io::parse_motion_record("in", bytes));
+        io::parse_repro("in", bytes));
   });
 }
 
@@ -111,10 +111,10 @@ void trace(std::string_view bytes) {
 
 void motion(std::string_view bytes) {
   reads([&] {
-    const Motion_scene scene = io::parse_motion("in", bytes);
+    const Recording_scene scene = io::parse_recording("in", bytes);
     const std::uint64_t records =
         1 + std::uint64_t{scene.steps} / scene.every + (scene.steps % scene.every != 0);
-    demand(records == scene.record_count() && bytes.size() >= records, "more records than bytes");
+    demand(records == scene.frame_count() && bytes.size() >= records, "more records than bytes");
     for (const auto* loops : {&scene.walls, &scene.floor})
       for (const auto& loop : *loops)
         for (const std::uint32_t v : loop) demand(v < scene.points.size(), "an index is out of range");

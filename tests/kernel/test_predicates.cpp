@@ -40,8 +40,8 @@ TEST(Predicates, FindPointsInConvexPolygonsOfEveryPlane) {
                                                         {{{0, 1, 0}, {2, 1, 0}, {2, 1, 2}, {0, 1, 2}}},
                                                         {{{0, 0, 0}, {2, 0, 2}, {2, 2, 4}, {0, 2, 2}}}}};
   for (const auto& square : squares) {
-    const Point<3> center = 0.5 * (square[0] + square[2]), outside = 2 * square[2] - square[0];
-    EXPECT_TRUE(in_convex_polygon(square, center));
+    const Point<3> centre = 0.5 * (square[0] + square[2]), outside = 2 * square[2] - square[0];
+    EXPECT_TRUE(in_convex_polygon(square, centre));
     EXPECT_TRUE(in_convex_polygon(square, square[3]));
     EXPECT_TRUE(in_convex_polygon(square, 0.5 * (square[0] + square[1])));
     EXPECT_FALSE(in_convex_polygon(square, outside));

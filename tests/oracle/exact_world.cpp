@@ -263,7 +263,7 @@ Trace Exact_world<D, N>::trace(const Point<D>& from, const Point<D>& to, int ext
     trace.incidences[i].first = rank(incidence_spans[i].first);
     trace.incidences[i].last = rank(incidence_spans[i].last);
     const std::int64_t opposite = table_.opposite[incidence_half_facets[i]];
-    if (opposite >= 0) trace.incidences[i].neighbor = trace.visit_of(table_.cell[opposite]);
+    if (opposite >= 0) trace.incidences[i].neighbour = trace.visit_of(table_.cell[opposite]);
   }
   return trace;
 }

@@ -17,7 +17,7 @@ std::vector<int> linked_classes(const Trace& trace, int first, int last) {
     return v;
   };
   for (const Incidence& i : trace.incidences)
-    if (i.passable && i.first <= first && last <= i.last) parent[root(i.visit)] = root(i.neighbor);
+    if (i.passable && i.first <= first && last <= i.last) parent[root(i.visit)] = root(i.neighbour);
   std::vector<int> result(trace.visits.size(), -1);
   for (std::size_t v = 0; v < result.size(); ++v)
     if (trace.visits[v].first <= first && last <= trace.visits[v].last) result[v] = root(static_cast<int>(v));

@@ -29,7 +29,7 @@ struct Visit {
 struct Incidence {
   int visit = 0;            ///< whose facet it is
   std::uint32_t facet = 0;  ///< its number in the cell
-  int neighbor = -1;        ///< visit of the cell on the other side; -1 on the boundary
+  int neighbour = -1;       ///< visit of the cell on the other side; -1 on the boundary
   bool passable = false;
   int first = 0, last = 0;
 };

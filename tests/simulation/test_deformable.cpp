@@ -64,7 +64,7 @@ struct Seen {
 
 /// Runs bodies and checks at every step that energy is bounded, and every so often that they are valid.
 template <int D>
-Seen run(std::vector<Deformable<D>>& bodies, const Flight_conditions<D>& conditions, int steps) {
+Seen run(std::vector<Deformable<D>>& bodies, const Dynamics_options<D>& conditions, int steps) {
   constexpr int steps_between_checks = 50;
   Seen seen;
   Body_counts counts;
@@ -90,7 +90,7 @@ Seen run(std::vector<Deformable<D>>& bodies, const Flight_conditions<D>& conditi
         const double now = length(d.body().positions()[v] - d.body().positions()[u]);
         seen.most_deformed = std::max(seen.most_deformed, std::abs(now / lengths[e] - 1));
       }
-      d.body().catch_up(counts);
+      d.body().refresh(counts);
       EXPECT_NO_THROW(d.body().validate());
     }
   }
@@ -103,7 +103,7 @@ void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& s
   for (const Shape_material& material : materials)
     for (const double restitution : {1.0, 0.4}) {
       auto bodies = thrown<D>(snapshot, shape, material, 4, 3, 9);
-      Flight_conditions<D> conditions;
+      Dynamics_options<D> conditions;
       conditions.time_step = 0.02;
       conditions.restitution = restitution;
       conditions.friction = restitution < 1 ? 0.2 : 0;
@@ -148,7 +148,7 @@ void expect_bodies_come_to_rest(const Snapshot<D>& snapshot, const Body_soup<D>&
   for (const Shape_material& material : materials) {
     if (material.deformation == 1) continue;  // nothing resists stretching and shearing: it flows
     auto bodies = thrown<D>(snapshot, shape, material, 4, 2, 5);
-    Flight_conditions<D> conditions;
+    Dynamics_options<D> conditions;
     conditions.time_step = 0.01;
     conditions.restitution = 0.5;
     conditions.friction = 0.2;
@@ -186,7 +186,7 @@ TEST(Deformable, FliesStraightAndTurnsEvenly) {
     Deformable<3> d(
         Body<3>(snapshot, locator, transformed(generate_body(Hexahedron_shape{1, false}), placement)),
         material, {1, 0.5, 0.25}, {0, 0, std::numbers::pi / 2});
-    Flight_conditions<3> conditions;
+    Dynamics_options<3> conditions;
     conditions.time_step = 0.01;
     Step_report<3> report;
     Body_counts counts;
@@ -211,7 +211,7 @@ TEST(Deformable, BouncesWithItsRestitution) {
     Deformable<3> d(
         Body<3>(snapshot, locator, transformed(generate_body(Hexahedron_shape{0.5, false}), placement)), {},
         {0, 0, -1}, {});
-    Flight_conditions<3> conditions;
+    Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
     conditions.restitution = restitution;
     Step_report<3> report;
@@ -232,7 +232,7 @@ TEST(Deformable, FrictionSlowsItDown) {
     placement.position = {1, 0.5};
     Deformable<2> d(Body<2>(snapshot, locator, transformed(generate_body(Quad_shape{0.5}), placement)), {},
                     {1, 0}, {});
-    Flight_conditions<2> conditions;
+    Dynamics_options<2> conditions;
     conditions.restitution = 0.3;
     conditions.friction = friction;
     conditions.gravity = {0, -9.81};
@@ -255,7 +255,7 @@ TEST(Deformable, FrictionSlowsItDown) {
 TEST(Deformable, SoftBodiesAreDeformedByWalls) {
   const Snapshot<3> snapshot = rooms<3>({3, 3, 3});
   const Body_soup<3> shape = generate_body(Icosphere_shape{0.4, 1});
-  Flight_conditions<3> conditions;
+  Dynamics_options<3> conditions;
   conditions.time_step = 0.01;
   conditions.gravity = {0, 0, -9.81};
   conditions.restitution = 0.5;
@@ -277,7 +277,7 @@ TEST(Deformable, StaysWhereItIsIfItsMotionIsNotFinite) {
   for (const double huge : {1e200, 1e308}) {
     Deformable<2> d(Body<2>(snapshot, locator, transformed(generate_body(Quad_shape{0.5}), placement)), {},
                     {1, 0}, {});
-    Flight_conditions<2> conditions;
+    Dynamics_options<2> conditions;
     conditions.gravity = {huge, huge};
     conditions.time_step = 1e150;
     Step_report<2> report;
@@ -296,7 +296,7 @@ TEST(Deformable, BodiesOfOneVertexOrOneEdgeFlyToo) {
        {generate_body(Polyline_shape<3>{{{0, 0, 0}}}), generate_body(Catheter_shape<3>{0.4, 2}),
         generate_body(Catheter_shape<3>{0.6, 5})}) {
     auto bodies = thrown<3>(snapshot, shape, {Shape_mode::linear, 0.5, 0.5, true}, 3, 3, 6);
-    Flight_conditions<3> conditions;
+    Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
     contacts += run<3>(bodies, conditions, 1000).contacts;
   }
@@ -309,7 +309,7 @@ TEST(Deformable, GivesTheSameBitsWithEveryCompiler) {
   std::size_t contacts = 0;
   for (const Shape_material& material : materials) {
     auto bodies = thrown<3>(snapshot, generate_body(Hexahedron_shape{0.3, false}), material, 3, 3, 8);
-    Flight_conditions<3> conditions;
+    Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
     conditions.gravity = {0, 0, -3};
     conditions.restitution = 0.8;

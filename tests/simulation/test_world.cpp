@@ -37,7 +37,7 @@ std::array<std::size_t, 3> run_checked(const Snapshot<D>& snapshot, World<D>& wo
     for (std::size_t k = 0; k < world.particles().size(); ++k)
       EXPECT_TRUE(test::is_where_it_says(locator, world.particles()[k]))
           << "particle " << k << ", step " << i;
-    for (const Contact_record<D>& c : world.contacts()) {
+    for (const Run_contact<D>& c : world.contacts()) {
       EXPECT_TRUE(test::lies_in_a_wall(snapshot, c.contact.point, c.contact.normal, 1e-9))
           << "particle " << c.particle << ", step " << i;
       EXPECT_NEAR(length(c.contact.normal), 1, 1e-15);

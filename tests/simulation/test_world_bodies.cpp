@@ -45,15 +45,15 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
   for (int i = 0; i < steps; ++i) {
     world.step();
     world.validate();
-    for (const Moving_body<D>& flight : world.bodies()) {
-      const auto positions = flight.body().positions();
+    for (const Moving_body<D>& rigid_body : world.bodies()) {
+      const auto positions = rigid_body.body().positions();
       for (const Point<D>& x : positions)
         for (int k = 0; k < D; ++k) EXPECT_TRUE(x[k] >= 0 && x[k] <= size[k]) << "step " << i;
-      for (const auto& [u, v] : flight.body().edges())
+      for (const auto& [u, v] : rigid_body.body().edges())
         for (const Point<D>& low : solid)
           EXPECT_FALSE(pierces<D>(positions[u], positions[v], low, margin)) << "step " << i;
     }
-    for (const Contact_record<D>& c : world.contacts()) {
+    for (const Run_contact<D>& c : world.contacts()) {
       EXPECT_EQ(c.step, world.steps_done());
       EXPECT_NEAR(length(c.contact.normal), 1, 1e-14);
       EXPECT_TRUE(Exact_time() <= c.contact.time && c.contact.time <= Exact_time(1));
@@ -107,8 +107,8 @@ TEST(WorldBodies, NothingPassesAWall3) {
 
 template <int D>
 std::uint64_t hash_of(const World<D>& world, std::uint64_t h = 0) {
-  for (const auto& flight : world.bodies())
-    for (const auto& x : flight.body().positions())
+  for (const auto& rigid_body : world.bodies())
+    for (const auto& x : rigid_body.body().positions())
       for (const double c : x) h = scramble(h ^ std::bit_cast<std::uint64_t>(c));
   return h;
 }
@@ -162,13 +162,13 @@ TEST(WorldBodies, CopiesStartEverywhereInAllDirections) {
   const World<2> world(snapshot, scene, {generate_body(Catheter_shape<2>{0.4, 2})});
   std::array<int, 4> in_cell{};
   Vector<2> sum{};
-  for (const Moving_body<2>& flight : world.bodies()) {
-    const auto x = flight.body().positions();
+  for (const Moving_body<2>& rigid_body : world.bodies()) {
+    const auto x = rigid_body.body().positions();
     EXPECT_EQ(x[0][0], x[1][0]) << "turned upright";
     EXPECT_NEAR(x[1][1] - x[0][1], 0.2, 1e-15);
     ++in_cell[static_cast<std::size_t>(x[0][0])];
-    EXPECT_NEAR(length(flight.velocity()), 2, 1e-12);
-    sum = sum + flight.velocity();
+    EXPECT_NEAR(length(rigid_body.velocity()), 2, 1e-12);
+    sum = sum + rigid_body.velocity();
   }
   EXPECT_EQ(in_cell[1], 0);
   for (const int i : {0, 2, 3}) EXPECT_NEAR(in_cell[static_cast<std::size_t>(i)], 100, 40);

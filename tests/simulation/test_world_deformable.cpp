@@ -75,7 +75,7 @@ TEST(WorldDeformable, BodiesAreIndependent) {
   World<3> together(snapshot, hexahedra(6, {Shape_mode::linear, 0.5, 0.8, true}), {shape});
   std::vector<Moving_body<3>> alone(together.bodies().begin(), together.bodies().end());
   for (int i = 0; i < 100; ++i) together.step();
-  Flight_conditions<3> conditions;
+  Dynamics_options<3> conditions;
   conditions.time_step = 0.02;
   Body_counts counts;
   Step_report<3> report;

@@ -6,7 +6,7 @@
 #include <cellwalk/body/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rigid_body.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@ namespace cellwalk::test {
 
 /// Bodies at random places where they fit, thrown in random directions.
 template <int D>
-std::vector<Flight<D>> throw_bodies(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int count,
-                                    double speed, std::uint64_t seed) {
+std::vector<Rigid_body<D>> throw_bodies(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int count,
+                                        double speed, std::uint64_t seed) {
   const Locator<D> locator(snapshot);
   Random random(seed);
-  std::vector<Flight<D>> result;
+  std::vector<Rigid_body<D>> result;
   for (int tries = 0; static_cast<int>(result.size()) < count; ++tries) {
     if (tries == 10000) {
       ADD_FAILURE() << "no room for bodies";
@@ -61,21 +61,21 @@ template <int D>
 Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, int steps, double time_step,
           int steps_between_checks, std::uint64_t seed, bool compare, const Body_options& options = {}) {
   Flown flown;
-  std::vector<Flight<D>> flights = throw_bodies(snapshot, shape, bodies, 1.0, seed);
-  std::vector<Flight<D>> plain = flights;
-  Flight_conditions<D> conditions, without;
+  std::vector<Rigid_body<D>> rigid_bodies = throw_bodies(snapshot, shape, bodies, 1.0, seed);
+  std::vector<Rigid_body<D>> plain = rigid_bodies;
+  Dynamics_options<D> conditions, without;
   conditions.time_step = time_step;
   conditions.body = options;
   without = conditions;
   without.body.clearance = false;
   Step_report<D> report, others;
-  std::vector<double> way(flights.size());
+  std::vector<double> way(rigid_bodies.size());
   Body_counts plain_counts;
   for (int s = 0; s < steps; ++s)
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-      const Point<D> before = flights[i].body().positions()[0];
+    for (std::size_t i = 0; i < rigid_bodies.size(); ++i) {
+      const Point<D> before = rigid_bodies[i].body().positions()[0];
       report.clear();
-      flights[i].step(conditions, report, flown.counts);
+      rigid_bodies[i].step(conditions, report, flown.counts);
       flown.contacts += report.contacts.size();
       for (const auto& c : report.contacts) {
         flown.edge_contacts += c.contact.body == Body_feature::edge;
@@ -86,17 +86,17 @@ Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, in
         plain[i].step(without, others, plain_counts);
         bool is_same = others.contacts.size() == report.contacts.size();
         for (std::uint32_t v = 0; v < shape.points.size(); ++v)
-          is_same = is_same && flights[i].body().positions()[v] == plain[i].body().positions()[v];
+          is_same = is_same && rigid_bodies[i].body().positions()[v] == plain[i].body().positions()[v];
         flown.differing += !is_same;
       }
-      if (s >= steps / 2) way[i] += length(flights[i].body().positions()[0] - before);
+      if (s >= steps / 2) way[i] += length(rigid_bodies[i].body().positions()[0] - before);
       if (s % steps_between_checks != 0 && s + 1 != steps) continue;
-      flights[i].body().catch_up(flown.counts);
-      EXPECT_NO_THROW(flights[i].body().validate());
+      rigid_bodies[i].body().refresh(flown.counts);
+      EXPECT_NO_THROW(rigid_bodies[i].body().validate());
       ++flown.validated;
     }
-  for (std::size_t i = 0; i < flights.size(); ++i)
-    flown.stuck += !(way[i] > 0.02 * length(flights[i].velocity()) * time_step * steps / 2);
+  for (std::size_t i = 0; i < rigid_bodies.size(); ++i)
+    flown.stuck += !(way[i] > 0.02 * length(rigid_bodies[i].velocity()) * time_step * steps / 2);
   return flown;
 }
 

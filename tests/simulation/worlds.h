@@ -68,7 +68,7 @@ bool lies_in_a_wall(const Snapshot<D>& snapshot, const Point<D>& p, const Vector
     if (snapshot.is_solid(c)) continue;
     for (std::size_t k = 0; k < snapshot.facet_count(c); ++k) {
       const Half_facet f = Snapshot<D>::half_facet(c, k);
-      const bool wall = snapshot.is_impassable(f) || snapshot.neighbor(f) == Cell::none;
+      const bool wall = snapshot.is_impassable(f) || snapshot.neighbour(f) == Cell::none;
       if (wall && length(normal + outward(snapshot, f)) < error && is_near(snapshot, f, p, error))
         return true;
     }

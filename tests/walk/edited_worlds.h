@@ -85,9 +85,9 @@ Point<D> new_place(const Snapshot<D>& snapshot, std::uint32_t& point, Random& ra
     }
   }
   const std::size_t n = loop.size(), at = random.chance(0.5) ? 1 : random.below(n);
-  const bool by_neighbors = random.chance(0.5);
-  const std::size_t next = (at + (by_neighbors ? 1 : 1 + random.below(n - 1))) % n;
-  const std::size_t previous = (at + (by_neighbors ? n - 1 : 1 + random.below(n - 1))) % n;
+  const bool by_neighbours = random.chance(0.5);
+  const std::size_t next = (at + (by_neighbours ? 1 : 1 + random.below(n - 1))) % n;
+  const std::size_t previous = (at + (by_neighbours ? n - 1 : 1 + random.below(n - 1))) % n;
   point = loop[at];
   const Point<D>&x = snapshot.point(point), &a = snapshot.point(loop[next]),
         &b = snapshot.point(loop[previous]);

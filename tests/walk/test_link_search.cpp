@@ -46,9 +46,9 @@ TEST_F(LinkSearch, FindsCellsInOrderAndTheWaysToThem) {
   links.append_way(2, way);
   ASSERT_EQ(way.size(), 3u) << "behind what was there";
   EXPECT_EQ(snapshot_.cell_of(way[1]), start_);
-  EXPECT_EQ(snapshot_.neighbor(way[1]), links.cell(1));
+  EXPECT_EQ(snapshot_.neighbour(way[1]), links.cell(1));
   EXPECT_EQ(snapshot_.cell_of(way[2]), links.cell(1));
-  EXPECT_EQ(snapshot_.neighbor(way[2]), links.cell(2));
+  EXPECT_EQ(snapshot_.neighbour(way[2]), links.cell(2));
   EXPECT_TRUE(links.contains(snapshot_.cell(1)));
 }
 

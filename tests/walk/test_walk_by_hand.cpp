@@ -111,7 +111,7 @@ TEST(WalkByHand, ReportsTheWallItMeets) {
   EXPECT_EQ(facet.kind, Contact_kind::facet);
   EXPECT_EQ(scene.snapshot().index(facet.cell), 0u);
   EXPECT_TRUE(scene.snapshot().is_impassable(facet.facet));
-  EXPECT_EQ(scene.snapshot().index(scene.snapshot().neighbor(facet.facet)), 1u);
+  EXPECT_EQ(scene.snapshot().index(scene.snapshot().neighbour(facet.facet)), 1u);
   const Wall_contact<3> edge = scene.contact(0, {0.5, 0.5, 0.25}, {1.5, 1.5, 0.75});
   EXPECT_EQ(edge.time, 0.5);
   EXPECT_EQ(edge.kind, Contact_kind::edge);

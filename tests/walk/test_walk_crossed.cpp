@@ -27,7 +27,7 @@ void expect_a_way(const Snapshot<D>& snapshot, Cell start, const Walk_result<D>&
   for (const Half_facet f : crossed) {
     ASSERT_EQ(snapshot.cell_of(f), cell);
     ASSERT_FALSE(snapshot.is_impassable(f));
-    cell = snapshot.neighbor(f);
+    cell = snapshot.neighbour(f);
     if (met < visited.size() && visited[met] == cell) ++met;
   }
   EXPECT_EQ(cell, result.cell);

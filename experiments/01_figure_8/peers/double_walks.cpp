@@ -28,7 +28,7 @@ constexpr std::size_t faces = 6;
 /// A hexahedron: a plane of outward normal for each facet, lane by lane, and what is behind it.
 struct Hexahedron {
   std::array<double, faces> x, y, z, offset;
-  std::array<std::uint32_t, faces> neighbor;  ///< no_facet: a wall
+  std::array<std::uint32_t, faces> neighbour;  ///< no_facet: a wall
 };
 
 std::vector<Hexahedron> hexahedra(const Grid_world& world) {
@@ -51,7 +51,7 @@ std::vector<Hexahedron> hexahedra(const Grid_world& world) {
       table[c].z[i] = n[2];
       table[c].offset[i] = dot(n, a);
       const bool is_wall = other == no_facet || soup.impassable[f] || soup.impassable[other];
-      table[c].neighbor[i] = is_wall ? no_facet : cell_of[other];
+      table[c].neighbour[i] = is_wall ? no_facet : cell_of[other];
     }
   }
   return table;
@@ -112,8 +112,8 @@ class Double_walk {
         }
       }
       if (exit == faces) return true;
-      if (h.neighbor[exit] == no_facet) return false;
-      cell = h.neighbor[exit];
+      if (h.neighbour[exit] == no_facet) return false;
+      cell = h.neighbour[exit];
       counter.crossings();
     }
     return false;

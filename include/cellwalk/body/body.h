@@ -77,7 +77,7 @@ class Body {
                                              const Body_options& options, Body_counts& counts);
 
   /// Registers what was moved without tests in a region free of walls.
-  void catch_up(Body_counts& counts);
+  void refresh(Body_counts& counts);
   /// Catches up and gives the region up.
   void leave_region(Body_counts& counts);
   /// The particles and chains. \pre caught up, and no edit since

@@ -25,7 +25,7 @@ struct Body_contact {
 
 /// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
 template <int D>
-struct Blocked_move {
+struct Rejected_move {
   std::uint32_t vertex = 0;
   bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
   std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
@@ -80,7 +80,7 @@ struct Step_report {
   /// if there is none.
   std::vector<Body_contact<D>> contacts;
   /// Vertex by vertex; one without an entry moved, and nothing was met.
-  std::vector<Blocked_move<D>> blocked;
+  std::vector<Rejected_move<D>> blocked;
 
   void clear() {
     contacts.clear();

@@ -18,7 +18,7 @@ namespace cellwalk {
 /// The supporting walls of a face: the walls in its plane that overlap its interior, each seen from the cell
 /// on the side of the face; in ascending order. Of coincident walls that are not glued, those whose cells are
 /// on that side. Nearly always empty. Independent of the order of the corners of the face.
-using Face_rests = boost::container::small_vector<Half_facet, 2>;
+using Supporting_walls = boost::container::small_vector<Half_facet, 2>;
 
 /// The chain of a side of a face, from its first end to its second or, reversed, from its second to its
 /// first.
@@ -50,8 +50,8 @@ struct Face_counts {
 static_assert(names_all_before<Face_counts>(offsetof(Face_counts, walk)));
 
 struct Face_result {
-  Face_rests rests;  ///< after the move
-  /// If set, a wall comes through the face, and `rests` is empty. The normal is that of the face at that time,
+  Supporting_walls supporting_walls;  ///< after the move
+  /// If set, a wall comes through the face, and `supporting_walls` is empty. The normal is that of the face at that time,
   /// on the side from which the face came, or, if the interior of the wall is met (kind facet), that of the
   /// wall on the side of the face. `body` is the feature of the face that meets the wall: its interior, one of
   /// its edges, or p.
@@ -59,7 +59,7 @@ struct Face_result {
   /// True if no wall comes through the face, but one of its edges, which moved in the plane of a wall and
   /// passed its rim, is on the other side of the wall. Then the time is 0, the point is the start of p, and
   /// the normal is that of the wall on the side of the face, if the wall has that side.
-  bool is_edge_astray = false;
+  bool is_edge_on_other_side = false;
 };
 
 /// Sweeps the face pqr while p moves along its path and q and r stand still. Returns the supporting walls
@@ -68,7 +68,7 @@ struct Face_result {
 ///
 /// Walls that cross an edge of the face come through it too, and are reported at the same time as by
 /// sweep_triangle(), or earlier; walls that hit only the edges (in the plane of the face) are not reported.
-/// \param rests the supporting walls of the face before the move
+/// \param supporting_walls the supporting walls of the face before the move
 /// \param chains the chains of its edges after the move; if one is null, only a contact is searched, and no
 ///        supporting walls are returned
 /// \pre the sweeps of the edges pq and pr are free, at least up to the time of a contact
@@ -77,12 +77,12 @@ struct Face_result {
 /// interior.
 /// Cost: about 60 ns a cell near the face if it meets no wall; some hundred ns a wall near it; some ten us
 /// for the time of a contact; up to milliseconds if the face or one of its edges lies in the plane of walls.
-Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
-                       const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
-                       Face_counts& counts);
+Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, const Particle<3>& q,
+                       const Particle<3>& r, const Supporting_walls& supporting_walls,
+                       const Face_chains& chains, Face_counts& counts);
 
 struct Face_registration {
-  Face_rests rests;
+  Supporting_walls supporting_walls;
   /// If set, this wall pierces the face, alone or together with others that it meets in the plane of the
   /// face, or it lies between the face and one of its edges.
   Half_facet piercing = Half_facet::none;
@@ -96,7 +96,7 @@ struct Face_registration {
 /// Cost: some us if walls are near, up to milliseconds if it lies in their plane.
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
-                                const Face_rests& known = {});
+                                const Supporting_walls& known = {});
 
 }  // namespace cellwalk
 

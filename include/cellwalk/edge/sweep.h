@@ -72,11 +72,12 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 
 /// Sweeps one edge of a vertex whose walk is known. Only contacts of the edge before p is blocked count; with
 /// Touch::stop those of p as well. The result's p and cells are not set.
-/// \param way the path of p
+/// \param path the path of p
 /// \param before the chain of the edge before the move
 template <int D>
-Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                 const Chain& before, const Sweep_options& options, Edge_counts& counts);
+Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                 const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                                 Edge_counts& counts);
 
 /// The chain of an edge that is free.
 struct Free_chain {
@@ -89,13 +90,14 @@ struct Free_chain {
 /// Tests whether the edge is free while p moves along a free path, and returns its chain after the move, or
 /// none. It decides like sweep_edge_along() with Touch::pass, but does not locate a contact, which is the
 /// most expensive part.
-/// \param way the path of p
+/// \param path the path of p
 /// \param before the chain of the edge before the move
 /// \pre !way.blocked
 /// Cost: that of the sweep; if a wall pierces the swept triangle, some twenty signs.
 template <int D>
-std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                     const Chain& before, const Sweep_options& options, Edge_counts& counts);
+std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                     const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                                     Edge_counts& counts);
 
 /// The contact of a vertex whose walk from one point to another is blocked.
 /// Cost: some signs for each facet of the last cell, and a rational number.

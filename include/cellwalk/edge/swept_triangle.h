@@ -17,7 +17,7 @@ struct Swept_triangle {
 
 /// The path of p, as reported by Walk_options. The spans refer to memory of the caller.
 template <int D>
-struct Way {
+struct Vertex_path {
   Particle<D> from, to;
   std::span<const Cell> visited;
   std::span<const Half_facet> crossed;

@@ -100,7 +100,7 @@ class Snapshot {
   /// their whole intersection, so that no slit lies between them.
   bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.
-  Cell neighbor(Half_facet f) const {
+  Cell neighbour(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
@@ -144,10 +144,10 @@ class Snapshot {
   /// The number of blocks if it is the same for all cells, otherwise 0.
   std::size_t uniform_blocks() const { return uniform_blocks_; }
   /// Prefetches the planes of the neighbours across the first four facets, one of which the walk needs next.
-  void prefetch_neighbors(Cell c) const {
-    const std::uint32_t* neighbors = links(c);
+  void prefetch_neighbours(Cell c) const {
+    const std::uint32_t* neighbours = links(c);
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t link = neighbors[i] & link_mask;
+      const std::uint32_t link = neighbours[i] & link_mask;
       __builtin_prefetch(planes_.data() + (link == link_mask ? to_index(c) : link));
     }
   }

@@ -19,13 +19,13 @@
 namespace cellwalk {
 
 /// A generator by name with its numeric options (a single number is a list of one).
-struct Recipe {
+struct Generator_call {
   std::string generator;
   std::map<std::string, std::vector<double>> options;
 };
 
 /// The source of the environment: a mesh file (relative to the scene's folder) or a generator call.
-using Environment_source = std::variant<std::string, Recipe>;
+using Environment_source = std::variant<std::string, Generator_call>;
 
 /// One free particle.
 template <int D>

@@ -6,7 +6,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/material.h>
 #include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rigid_body.h>
 #include <cellwalk/simulation/shape_matching.h>
 
 #include <span>
@@ -38,7 +38,7 @@ class Deformable {
   /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays in place, and
   /// loses its velocity.
   /// Cost: that of Shape_matching::goals and of Body::step.
-  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
+  void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }

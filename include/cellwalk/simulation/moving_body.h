@@ -4,7 +4,7 @@
 #define CELLWALK_SIMULATION_MOVING_BODY_H
 
 #include <cellwalk/simulation/deformable.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rigid_body.h>
 #include <cellwalk/simulation/rod.h>
 
 #include <span>
@@ -18,12 +18,12 @@ namespace cellwalk {
 template <int D>
 class Moving_body {
  public:
-  Moving_body(Flight<D> flight) : kind_(std::move(flight)) {}
+  Moving_body(Rigid_body<D> flight) : kind_(std::move(flight)) {}
   Moving_body(Deformable<D> deformable) : kind_(std::move(deformable)) {}
   Moving_body(Rod<D> rod) : kind_(std::move(rod)) {}
 
   /// Advances by one time step. What conditions.body asks for is appended to the report, contacts at least.
-  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts) {
+  void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
     std::visit([&](auto& moving) { moving.step(conditions, report, counts); }, kind_);
   }
 
@@ -52,7 +52,7 @@ class Moving_body {
   }
 
  private:
-  std::variant<Flight<D>, Deformable<D>, Rod<D>> kind_;
+  std::variant<Rigid_body<D>, Deformable<D>, Rod<D>> kind_;
 };
 
 }  // namespace cellwalk

@@ -5,7 +5,7 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/flight.h>
+#include <cellwalk/simulation/rigid_body.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace cellwalk {
 namespace detail {
 template <int D>
-struct Chain_state;
+struct Rod_state;
 template <int D>
 struct Natural_bend;
 }  // namespace detail
@@ -46,7 +46,7 @@ class Rod {
   /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are
   /// used.
   /// Cost: about 1 us a vertex, and that of Body::step.
-  void step(const Flight_conditions<D>& conditions, Step_report<D>& report, Body_counts& counts);
+  void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }
   const Body<D>& body() const { return body_; }
@@ -72,7 +72,7 @@ class Rod {
   void pass_way_points(Body_counts& counts);
   void aim();
   double along(std::size_t vertex) const;
-  detail::Chain_state<D> state() const;
+  detail::Rod_state<D> state() const;
   detail::Natural_bend<D> bend() const;
 
   const Snapshot<D>* snapshot_;

@@ -9,8 +9,8 @@
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/contact_record.h>
 #include <cellwalk/simulation/moving_body.h>
+#include <cellwalk/simulation/run_contact.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/particle.h>
 #include <cellwalk/walk/walk.h>
@@ -61,7 +61,7 @@ class World {
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
   /// met.
-  std::span<const Contact_record<D>> contacts() const { return contacts_; }
+  std::span<const Run_contact<D>> contacts() const { return contacts_; }
   /// The report of the last step of one body. \pre there was one
   const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
   /// The counts of the walks of particles.
@@ -72,7 +72,7 @@ class World {
   Body_counts body_counts(std::size_t body) const;
 
   /// Checks I1 for every particle, and I1, I2 and (if faces are swept) I3 for every body, by exact
-  /// predicates. Bodies are refreshed first (see Body::catch_up), which affects the counts only.
+  /// predicates. Bodies are refreshed first (see Body::refresh), which affects the counts only.
   /// \throw Error(other) naming the first particle or body that violates them; Error(usage) as step()
   void validate();
 
@@ -97,14 +97,14 @@ class World {
   std::vector<Body_soup<D>> shapes_;
   std::vector<Moving_body<D>> bodies_;
   std::vector<std::size_t> entry_of_;
-  Flight_conditions<D> conditions_;
-  std::vector<Contact_record<D>> contacts_;
+  Dynamics_options<D> conditions_;
+  std::vector<Run_contact<D>> contacts_;
   struct Body_step {
     Step_report<D> report;  ///< of the latest step
     Body_counts counts;     ///< of all steps
   };
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
-  std::vector<Contact<D>> met_;
+  std::vector<Contact<D>> timed_contacts_;
   Walk_counts counts_;
 };
 

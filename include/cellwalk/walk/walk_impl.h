@@ -42,7 +42,7 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
     if (exit.verdict == Certified_exit::inside) break;
     const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
     if (exit.verdict != Certified_exit::leaves || snapshot.is_impassable(f)) return Cell::none;
-    cell = snapshot.neighbor(f);
+    cell = snapshot.neighbour(f);
     starts_inside = true;
     if (crossed) crossed->push_back(f);
   }
@@ -54,10 +54,10 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
 
 /// One walk in progress.
 template <class Kernel, int D>
-class Walker {
+class Particle_walk {
  public:
-  Walker(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& to, Walk_counts& counts,
-         const Walk_options& options)
+  Particle_walk(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& to, Walk_counts& counts,
+                const Walk_options& options)
       : snapshot_(snapshot), a_(from.position), b_(to), counts_(counts), options_(options), cell_(from.cell) {
     result_.aimed = from.aimed;
     starts_inside_ = from.dimension == D;
@@ -106,9 +106,9 @@ class Walker {
         result_.status = Walk_status::lost;
         return false;
       case Exit::facet:
-        return pass(exit.number);
+        return pass(exit.facet_index);
       default:
-        result_.aimed = exit.number;
+        result_.aimed = exit.facet_index;
         return pass_star(exit);
     }
   }
@@ -122,8 +122,8 @@ class Walker {
     passed_ = exit;
     if (Kernel::is_exact && star.cell(first) == cell_) return true;
     if (options_.crossed) {
-      const Star_way way = star.way(first);
-      options_.crossed->insert(options_.crossed->end(), way.begin(), way.end());
+      const Star_path path = star.path(first);
+      options_.crossed->insert(options_.crossed->end(), path.begin(), path.end());
     }
     enter(star.cell(first));
     in_boundary_ = true;
@@ -231,13 +231,13 @@ class Walker {
     std::uint64_t evaluated = 0;
     Certified_exit exit;
     for (;;) {
-      snapshot_.prefetch_neighbors(cell);
+      snapshot_.prefetch_neighbours(cell);
       exit = find_exit(cell, starts_inside);
       evaluated += 2 * snapshot_.block_count(cell);
       if (exit.verdict != Certified_exit::leaves) break;
       const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
       if (snapshot_.is_impassable(f)) break;
-      cell = snapshot_.neighbor(f);
+      cell = snapshot_.neighbour(f);
       starts_inside = true;
       ++crossed;
       if (options_.visited) options_.visited->push_back(cell);
@@ -258,7 +258,7 @@ class Walker {
     result_.aimed = facet;
     if (snapshot_.is_impassable(f)) return block({Exit::facet, facet, 0, 0}, f);
     if (options_.crossed) options_.crossed->push_back(f);
-    return enter(snapshot_.neighbor(f));
+    return enter(snapshot_.neighbour(f));
   }
 
   /// Maps the start into the frame, once.
@@ -372,7 +372,7 @@ class Walker {
 template <class Kernel, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options) {
-  return detail::Walker<Kernel, D>(snapshot, particle, target, counts, options).run();
+  return detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts, options).run();
 }
 
 template <class Kernel, int D>

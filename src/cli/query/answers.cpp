@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "cli/common/kind_names.h"
+#include "cli/common/contact_kind_names.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -45,7 +45,7 @@ void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
       time = contact->rounded_time();
       end = fields(contact->point);
       normal = fields(contact->normal);
-      kind = kind_names[static_cast<std::size_t>(contact->kind)];
+      kind = contact_kind_names[static_cast<std::size_t>(contact->kind)];
       body = feature_names[static_cast<std::size_t>(contact->body)];
     }
     const auto write = [&](const auto&... body_field) {

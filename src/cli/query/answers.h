@@ -32,7 +32,7 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
     const std::size_t end = std::min(begin + batch, rows.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i)
-        if (rows[i].invalid.empty()) answers[i] = answer(rows[i], counts.local());
+        if (rows[i].error.empty()) answers[i] = answer(rows[i], counts.local());
     });
     progress.update(end);
   }

@@ -9,14 +9,14 @@
 
 #include <algorithm>
 
-#include "cli/common/kind_names.h"
+#include "cli/common/contact_kind_names.h"
 #include "picture_plot.h"
 
 namespace cellwalk::cli {
 namespace {
 
-using namespace query_colors;
-using drawing::Key;
+using namespace query_colours;
+using drawing::Legend_entry;
 
 constexpr double thin = 1, usual = 1.6, thick = 2.6, heavy = 3.4, widest = 5.5;
 
@@ -89,14 +89,14 @@ std::string title_of(std::size_t row, const Answer<2>& answer, const char* mover
   if (!answer.contact) return fmt::format("row {}: free; {}", row, cells);
   return fmt::format("row {}: contact with {} {} at time {:.4g}; {}", row,
                      answer.contact->kind == Contact_kind::edge ? "an" : "a",
-                     kind_names[static_cast<std::size_t>(answer.contact->kind)],
+                     contact_kind_names[static_cast<std::size_t>(answer.contact->kind)],
                      answer.contact->rounded_time(), cells);
 }
 
 void add_contact(Query_plot& plot, const Answer<2>& answer) {
   if (!answer.contact) return;
   plot.contact(answer.contact->point, answer.contact->normal);
-  plot.key(Key::disc, contact, "contact, and its normal");
+  plot.key(Legend_entry::disc, contact, "contact, and its normal");
 }
 
 }  // namespace
@@ -113,24 +113,25 @@ void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Loc
   const std::set<std::uint32_t> vertices = passed_vertices(snapshot, walk, a, b);
   const std::array<Tint, 2> tints{{{star_of(snapshot, vertices), star}, {walk.cells(), visited}}};
   Query_plot plot(snapshot, points, tints);
-  plot.key(Key::patch, visited, "cells visited");
+  plot.key(Legend_entry::patch, visited, "cells visited");
   const Point<2> end = answer.contact ? answer.contact->point : b;
   plot.line(a, end, usual, Layer::lines, motion);
   if (answer.contact) plot.dashes(end, b, usual, Layer::lines, motion);
-  plot.key(Key::line, motion, answer.contact ? "the motion from a towards b" : "the motion from a to b");
+  plot.key(Legend_entry::line, motion,
+           answer.contact ? "the motion from a towards b" : "the motion from a to b");
   for (const Half_facet f : walk.crossed) plot.facet(f, heavy, crossed);
-  if (!walk.crossed.empty()) plot.key(Key::line, crossed, "facets crossed");
+  if (!walk.crossed.empty()) plot.key(Legend_entry::line, crossed, "facets crossed");
   for (const std::uint32_t v : vertices) plot.spot(snapshot.point(v), 1.3, passed_vertex);
   if (!vertices.empty()) {
-    plot.key(Key::disc, passed_vertex, "vertices passed through");
-    plot.key(Key::patch, star, "other cells round them");
+    plot.key(Legend_entry::disc, passed_vertex, "vertices passed through");
+    plot.key(Legend_entry::patch, star, "other cells round them");
   }
   const Half_facet f = Snapshot<2>::half_facet(walk.result.cell, walk.result.aimed);
   if (!answer.contact && vertices.empty() && is_aimed_at(snapshot, f, a, b)) {
     const auto loop = snapshot.loop(f);
     plot.triangle(a, snapshot.point(loop[0]), snapshot.point(loop[1]), cone);
     plot.facet(f, heavy, aimed);
-    plot.key(Key::line, aimed, "facet aimed at; its cone over a");
+    plot.key(Legend_entry::line, aimed, "facet aimed at; its cone over a");
   }
   add_contact(plot, answer);
   plot.point(a, "a", motion);
@@ -158,19 +159,19 @@ void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Loc
   plot.triangle(p, t, q, cone);
   plot.line(p, q, thick, Layer::edges, motion);
   plot.dashes(p, t, thin, Layer::lines, motion);
-  plot.key(Key::line, motion, "pq before the motion");
-  plot.key(Key::patch, cone, "swept while p moves to t");
-  plot.key(Key::patch, visited, "cells that p visits");
+  plot.key(Legend_entry::line, motion, "pq before the motion");
+  plot.key(Legend_entry::patch, cone, "swept while p moves to t");
+  plot.key(Legend_entry::patch, visited, "cells that p visits");
   for (const Half_facet f : before) plot.facet(f, widest, chain);
-  if (!before.empty()) plot.key(Key::line, chain, "chain of pq: the facets it passes");
+  if (!before.empty()) plot.key(Legend_entry::line, chain, "chain of pq: the facets it passes");
   if (!way.result.contact) {
     plot.dashes(t, q, usual, Layer::lines, motion);
-    plot.key(Key::dashes, motion, "tq after the motion");
-    plot.key(Key::patch, along_edge, "cells the temporary particle visits");
+    plot.key(Legend_entry::dashes, motion, "tq after the motion");
+    plot.key(Legend_entry::patch, along_edge, "cells the temporary particle visits");
     for (const Half_facet f : along.crossed) plot.facet(f, thick, crossed, Layer::kept_facets);
     if (!along.crossed.empty())
       plot.key(
-          Key::line, crossed,
+          Legend_entry::line, crossed,
           along.result.contact ? "facets it crosses up to a wall" : "chain of tq: the facets it crosses");
   }
   if (answer.contact && answer.contact->body != Body_feature::vertex)

@@ -9,8 +9,8 @@
 namespace cellwalk::cli {
 namespace {
 
-using namespace query_colors;
-using drawing::Color;
+using namespace query_colours;
+using drawing::Colour;
 
 constexpr int panel_width = 800;                                        // pixels
 constexpr double least_shape = 0.3, largest_shape = 1.1;                // height of a panel beside its width
@@ -80,24 +80,24 @@ Query_plot::Query_plot(const Snapshot<2>& snapshot, std::span<const Point<2>> po
                                         {lower_[0], upper_[1], 0}}};
   drawing::add_patch(panel_.drawing, ground, material(solid));  // seen where there is no cell
   for (const Cell cell : shown) {
-    Color color = snapshot.is_solid(cell) ? solid : free_cell;
+    Colour colour = snapshot.is_solid(cell) ? solid : free_cell;
     for (const Tint& tint : tints)
-      if (tint.cells.contains(cell)) color = tint.color;
-    add_cell(cell, color);
+      if (tint.cells.contains(cell)) colour = tint.colour;
+    add_cell(cell, colour);
     if (tinted.contains(cell) && tinted.size() <= most_numbers)
       label(place_of_number(snapshot.view(cell), points.front(), points.back()),
             std::to_string(snapshot.index(cell)), -8, -6);
   }
 }
 
-void Query_plot::add_cell(Cell cell, const Color& color) {
+void Query_plot::add_cell(Cell cell, const Colour& colour) {
   const Cell_view<2> view = snapshot_.view(cell);
   std::vector<Point<3>> loop;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     const Point<2>& x = view.point(view.loop(i)[0]);
     loop.push_back({x[0], x[1], height(Layer::cells)});
   }
-  drawing::add_patch(panel_.drawing, loop, material(color));
+  drawing::add_patch(panel_.drawing, loop, material(colour));
   if (snapshot_.is_solid(cell)) return;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     const bool is_wall = snapshot_.is_impassable(Snapshot<2>::half_facet(cell, i));
@@ -109,47 +109,47 @@ void Query_plot::add_cell(Cell cell, const Color& color) {
 double Query_plot::height(Layer layer) const { return 1e-4 * unit_ * static_cast<double>(layer); }
 
 void Query_plot::line(const Point<2>& from, const Point<2>& to, double width, Layer layer,
-                      const Color& color) {
+                      const Colour& colour) {
   drawing::add_flat_line(panel_.drawing, from, to, width * width_share * unit_, height(layer),
-                         material(color));
+                         material(colour));
 }
 
 void Query_plot::dashes(const Point<2>& from, const Point<2>& to, double width, Layer layer,
-                        const Color& color) {
+                        const Colour& colour) {
   const double z = height(layer), share = width_share * unit_;
   drawing::add_dashes(panel_.drawing, {from[0], from[1], z}, {to[0], to[1], z}, width * share / 2,
-                      dash * share, true, material(color));
+                      dash * share, true, material(colour));
 }
 
-void Query_plot::facet(Half_facet f, double width, const Color& color, Layer layer) {
+void Query_plot::facet(Half_facet f, double width, const Colour& colour, Layer layer) {
   const auto loop = snapshot_.loop(f);
-  line(snapshot_.point(loop[0]), snapshot_.point(loop[1]), width, layer, color);
+  line(snapshot_.point(loop[0]), snapshot_.point(loop[1]), width, layer, colour);
 }
 
-void Query_plot::triangle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Color& color) {
+void Query_plot::triangle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Colour& colour) {
   const double z = height(Layer::patches);
   const std::array<Point<3>, 3> corners{{{a[0], a[1], z}, {b[0], b[1], z}, {c[0], c[1], z}}};
-  drawing::add_patch(panel_.drawing, corners, material(color));
+  drawing::add_patch(panel_.drawing, corners, material(colour));
 }
 
-void Query_plot::spot(const Point<2>& x, double size, const Color& color) {
+void Query_plot::spot(const Point<2>& x, double size, const Colour& colour) {
   drawing::add_disc(panel_.drawing, x, size * spot_lines * width_share * unit_, height(Layer::spots),
-                    material(color));
+                    material(colour));
 }
 
-void Query_plot::point(const Point<2>& x, const std::string& name, const Color& color) {
-  spot(x, 1, color);
+void Query_plot::point(const Point<2>& x, const std::string& name, const Colour& colour) {
+  spot(x, 1, colour);
   label(x, name, 10, 9);
 }
 
 void Query_plot::contact(const Point<2>& x, const Vector<2>& normal) {
-  spot(x, 1.3, query_colors::contact);
+  spot(x, 1.3, query_colours::contact);
   drawing::add_flat_arrow(panel_.drawing, x, normal, arrow_lines * width_share * unit_,
-                          2 * width_share * unit_, height(Layer::arrows), material(query_colors::contact));
+                          2 * width_share * unit_, height(Layer::arrows), material(query_colours::contact));
 }
 
-void Query_plot::key(drawing::Key::Sign sign, const Color& color, const std::string& text) {
-  keys_.push_back({sign, color, text});
+void Query_plot::key(drawing::Legend_entry::Swatch swatch, const Colour& colour, const std::string& text) {
+  legend_.push_back({swatch, colour, text});
 }
 
 void Query_plot::label(const Point<2>& x, const std::string& text, double right, double up) {
@@ -159,14 +159,14 @@ void Query_plot::label(const Point<2>& x, const std::string& text, double right,
 void Query_plot::write(io::Atomic_file& file, const std::string& title) {
   panel_.title = title;
   const double shape = (upper_[1] - lower_[1]) / std::max(upper_[0] - lower_[0], 1e-300);
-  drawing::Sheet_options options;
+  drawing::Figure_options options;
   options.camera = {{0, 0, 1}, {0, 1, 0}, 0};
   options.panel_width = panel_width;
   options.panel_height =
       static_cast<int>(std::lround(panel_width * std::clamp(shape, least_shape, largest_shape)));
   options.columns = 1;
-  options.key_columns = 2;
-  file.write(drawing::encode_png(drawing::make_sheet({&panel_, 1}, keys_, options)));
+  options.legend_columns = 2;
+  file.write(drawing::encode_png(drawing::make_figure({&panel_, 1}, legend_, options)));
 }
 
 }  // namespace cellwalk::cli

@@ -5,7 +5,7 @@
 
 #include <cellwalk/edge/contact.h>
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/internal/drawing/sheet.h>
+#include <cellwalk/internal/drawing/figure.h>
 #include <cellwalk/io/atomic_file.h>
 
 #include <set>
@@ -15,8 +15,8 @@
 
 namespace cellwalk::cli {
 
-namespace query_colors {
-constexpr drawing::Color free_cell{0.99, 0.99, 0.99}, solid{0.76, 0.77, 0.79}, wall{0.36, 0.37, 0.40},
+namespace query_colours {
+constexpr drawing::Colour free_cell{0.99, 0.99, 0.99}, solid{0.76, 0.77, 0.79}, wall{0.36, 0.37, 0.40},
     grid{0.74, 0.76, 0.79}, visited{0.86, 0.92, 0.985}, star{1.0, 0.94, 0.76}, along_edge{0.86, 0.94, 0.84},
     motion{0.08, 0.16, 0.42}, crossed{0.08, 0.58, 0.32}, aimed{0.90, 0.45, 0.05},
     cone{0.95, 0.62, 0.12, 0.22}, chain{0.25, 0.45, 0.85}, passed_vertex{0.55, 0.20, 0.65},
@@ -26,7 +26,7 @@ constexpr drawing::Color free_cell{0.99, 0.99, 0.99}, solid{0.76, 0.77, 0.79}, w
 /// Cells of a colour.
 struct Tint {
   std::set<Cell> cells;
-  drawing::Color color;
+  drawing::Colour colour;
 };
 
 /// How far up something lies on what is below: the higher one is seen.
@@ -38,32 +38,33 @@ class Query_plot {
   /// Shows the cells near the given points and all that are tinted, with the number of each of the latter. Later tints are over earlier ones.
   Query_plot(const Snapshot<2>& snapshot, std::span<const Point<2>> points, std::span<const Tint> tints);
 
-  void line(const Point<2>& from, const Point<2>& to, double width, Layer layer, const drawing::Color& color);
+  void line(const Point<2>& from, const Point<2>& to, double width, Layer layer,
+            const drawing::Colour& colour);
   void dashes(const Point<2>& from, const Point<2>& to, double width, Layer layer,
-              const drawing::Color& color);
-  void facet(Half_facet f, double width, const drawing::Color& color, Layer layer = Layer::facets);
-  void triangle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const drawing::Color& color);
-  void spot(const Point<2>& x, double size, const drawing::Color& color);
+              const drawing::Colour& colour);
+  void facet(Half_facet f, double width, const drawing::Colour& colour, Layer layer = Layer::facets);
+  void triangle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const drawing::Colour& colour);
+  void spot(const Point<2>& x, double size, const drawing::Colour& colour);
   /// A point with its name beside it.
-  void point(const Point<2>& x, const std::string& name, const drawing::Color& color);
+  void point(const Point<2>& x, const std::string& name, const drawing::Colour& colour);
   /// Point and normal.
   void contact(const Point<2>& x, const Vector<2>& normal);
-  void key(drawing::Key::Sign sign, const drawing::Color& color, const std::string& text);
+  void key(drawing::Legend_entry::Swatch swatch, const drawing::Colour& colour, const std::string& text);
 
   /// \throw Error(other) where it cannot be written
   void write(io::Atomic_file& file, const std::string& title);
 
  private:
-  void add_cell(Cell cell, const drawing::Color& color);
+  void add_cell(Cell cell, const drawing::Colour& colour);
   void label(const Point<2>& x, const std::string& text, double right, double up);
   double height(Layer layer) const;
-  std::uint32_t material(const drawing::Color& color) {
-    return panel_.drawing.add_material({color, 0, false});
+  std::uint32_t material(const drawing::Colour& colour) {
+    return panel_.drawing.add_material({colour, 0, false});
   }
 
   const Snapshot<2>& snapshot_;
   drawing::Panel panel_;
-  std::vector<drawing::Key> keys_;
+  std::vector<drawing::Legend_entry> legend_;
   Point<2> lower_, upper_;
   double unit_ = 1;
 };

@@ -19,9 +19,9 @@
 #include "cli/common/counts_json.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
-#include "kernel_words.h"
+#include "kernel_names.h"
 #include "picture.h"
-#include "replay_failure.h"
+#include "walk_repro.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -71,17 +71,17 @@ void report(const Query_options& options, Query_files& files, const Snapshot<D>&
   }
   write_json(files.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
   files.all.commit(fmt::format("{}: {} motions{}\n", options.output, answers.size(), line));
-  const auto invalid =
-      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.invalid.empty(); });
-  if (invalid != rows.end())
-    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, invalid->line,
-               invalid->invalid, tally[static_cast<std::size_t>(Motion_status::invalid)]);
+  const auto error =
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.error.empty(); });
+  if (error != rows.end())
+    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, error->line,
+               error->error, tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
 /// Nothing is answered where the record or picture that is wanted cannot be made.
 template <int D, std::size_t N>
 void check_row(const Query_options& options, const std::vector<Query_row<D, N>>& rows) {
-  if (options.row && (*options.row >= rows.size() || !rows[*options.row].invalid.empty()))
+  if (options.row && (*options.row >= rows.size() || !rows[*options.row].error.empty()))
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
   if (D == 3 && !options.picture.empty())
     throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
@@ -105,8 +105,8 @@ void record_row(const Query_options& options, Query_files& files, const Environm
   if (files.record == nullptr) return;
   const std::size_t row = *options.row;
   const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
-  record_motion(*files.record, environment, moves[row].points[0], moves[row].points[1], options.move,
-                fmt::format("row {} of a query: {}", row, status));
+  write_repro_of(*files.record, environment, moves[row].points[0], moves[row].points[1], options.move,
+                 fmt::format("row {} of a query: {}", row, status));
 }
 
 template <int D>
@@ -187,7 +187,7 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
 
 void query(Query_options& options, const CLI::App& command) {
   refuse_missing(options, command);
-  if (!options.failure.empty()) return replay_failure(options.failure);
+  if (!options.failure.empty()) return walk_repro(options.failure);
   refuse_misfits(options, command);
   options.move.strategy = options.strategy.value_or(
       options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
@@ -203,7 +203,7 @@ void query(Query_options& options, const CLI::App& command) {
 
 void add_move_options(CLI::App& command, Query_options& options) {
   constexpr const char* group = "With --mode move";
-  add_choice(command, "--kernel", options.move.kernel, kernel_words,
+  add_choice(command, "--kernel", options.move.kernel, kernel_names,
              "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
              "determinants up to that count as 0")
       ->group(group);

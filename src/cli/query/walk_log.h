@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/common/kind_names.h"
+#include "cli/common/contact_kind_names.h"
 
 namespace cellwalk::cli {
 
@@ -47,7 +47,7 @@ std::string end_of(const Snapshot<D>& snapshot, const Walk_result<D>& result) {
     case Walk_status::contact:
       return fmt::format("is blocked in cell {} at time {} by a wall of cell {}: {}", cell,
                          result.contact->time, snapshot.index(snapshot.cell_of(result.contact->facet)),
-                         kind_names[static_cast<std::size_t>(result.contact->kind)]);
+                         contact_kind_names[static_cast<std::size_t>(result.contact->kind)]);
     case Walk_status::lost:
       break;
   }
@@ -69,8 +69,8 @@ std::string step_text(const Snapshot<D>& snapshot, const Point<D>& from, const P
     const bool is_wall = snapshot.is_impassable(f);
     text += fmt::format(
         "    facet {}: target {}, {}", i, sign_text(side, exact),
-        is_wall ? std::string("wall") : fmt::format("to cell {}", snapshot.index(snapshot.neighbor(f))));
-    if (!is_wall && snapshot.neighbor(f) == next)
+        is_wall ? std::string("wall") : fmt::format("to cell {}", snapshot.index(snapshot.neighbour(f))));
+    if (!is_wall && snapshot.neighbour(f) == next)
       passages += fmt::format("{}{}", passages.empty() ? "" : ", ", i);
     if (side > 0 || exact > 0) {
       text += "; line against its ridges";

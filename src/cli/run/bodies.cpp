@@ -11,8 +11,8 @@
 #include <numeric>
 #include <utility>
 
+#include "cli/common/contact_kind_names.h"
 #include "cli/common/counts_json.h"
-#include "cli/common/kind_names.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -94,7 +94,8 @@ ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
       {"count", sizes.bodies}, {"vertices", sizes.vertices}, {"edges", sizes.edges}, {"faces", sizes.faces}};
   if (sizes.guided > 0) result["guided"] = {{"count", sizes.guided}, {"arrived", sizes.arrived}};
   for (std::size_t f = 0; f < contacts.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) result["contacts"][feature_names[f]][kind_names[k]] = contacts[f][k];
+    for (std::size_t k = 0; k < 3; ++k)
+      result["contacts"][feature_names[f]][contact_kind_names[k]] = contacts[f][k];
   if (!notes.empty()) result["notes"] = notes;
   return result;
 }

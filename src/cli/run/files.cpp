@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "cli/common/kind_names.h"
+#include "cli/common/contact_kind_names.h"
 #include "grids.h"
 
 namespace cellwalk::cli {
@@ -39,19 +39,19 @@ template <int D>
 void Run_files<D>::record(const World<D>& world, bool is_last) {
   // In the plane the third coordinates are left empty, as the writer does with what is not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  for (const Contact_record<D>& c : world.contacts()) {
+  for (const Run_contact<D>& c : world.contacts()) {
     const Point<D>& x = c.contact.point;
     const Vector<D>& normal = c.contact.normal;
     const auto feature = static_cast<std::size_t>(c.contact.body),
                kind = static_cast<std::size_t>(c.contact.kind);
     const double z = D == 3 ? x[D - 1] : nothing, nz = D == 3 ? normal[D - 1] : nothing;
-    const Met_body met = c.body.value_or(Met_body{});
+    const Body_hit met = c.body.value_or(Body_hit{});
     ++contacts_[kind];
     if (c.body) ++body_contacts_[feature][kind];
-    table_.row(c.step, field(!c.body, c.particle), c.contact.rounded_time(), x[0], x[1], z, kind_names[kind],
-               normal[0], normal[1], nz, c.cell, field(c.body.has_value(), met.body),
-               field(c.body.has_value(), met.vertex), c.body ? feature_names[feature] : "",
-               field(c.body.has_value(), met.number));
+    table_.row(c.step, field(!c.body, c.particle), c.contact.rounded_time(), x[0], x[1], z,
+               contact_kind_names[kind], normal[0], normal[1], nz, c.cell,
+               field(c.body.has_value(), met.body), field(c.body.has_value(), met.vertex),
+               c.body ? feature_names[feature] : "", field(c.body.has_value(), met.number));
   }
   if (every_ == 0) return;
   since_frame_.insert(since_frame_.end(), world.contacts().begin(), world.contacts().end());

@@ -46,7 +46,7 @@ class Run_files {
   double time_step_;
   io::Csv_writer table_;
   std::vector<io::Pvd_entry> entries_;
-  std::vector<Contact_record<D>> since_frame_;
+  std::vector<Run_contact<D>> since_frame_;
   std::vector<Point<D>> before_;  ///< of the bodies' vertices, a step ago
   std::array<std::uint64_t, 3> contacts_{};
   Body_contacts body_contacts_{};

@@ -19,13 +19,13 @@ void append_vector(std::vector<double>& values, const std::array<double, D>& v) 
 }  // namespace
 
 template <int D>
-io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts) {
+io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Run_contact<D>>& contacts) {
   io::Vtu_grid grid;
   const auto particles = world.particles();
   std::vector<double> velocity;
   Integers number(particles.size()), met(particles.size(), 0);
   std::iota(number.begin(), number.end(), 0);
-  for (const Contact_record<D>& c : contacts)
+  for (const Run_contact<D>& c : contacts)
     if (!c.body) ++met[c.particle];
   for (std::uint32_t i = 0; i < particles.size(); ++i) {
     grid.points.push_back(in_space(particles[i].position));
@@ -40,7 +40,7 @@ io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Contact_rec
 }
 
 template <int D>
-io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record<D>>& contacts,
+io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>>& contacts,
                          const std::vector<Point<D>>& before, double time_step) {
   io::Vtu_grid grid;
   Integers body_of_point, vertex_of_point, body, feature, number;
@@ -75,7 +75,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
       add(io::Vtu_cell::triangle, Body_feature::face, f, faces[f]);
   }
   Integers met(grid.cell_count(), 0);
-  for (const Contact_record<D>& c : contacts)
+  for (const Run_contact<D>& c : contacts)
     if (c.body) ++met[begin[c.body->body][static_cast<std::size_t>(c.contact.body)] + c.body->number];
   grid.point_data.push_back({"body", 1, std::move(body_of_point)});
   grid.point_data.push_back({"vertex", 1, std::move(vertex_of_point)});
@@ -88,12 +88,12 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Contact_record
 }
 
 template <int D>
-io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>& contacts) {
+io::Vtu_grid contacts_grid(const std::vector<Run_contact<D>>& contacts) {
   constexpr std::int64_t none = -1;
   io::Vtu_grid grid;
   Integers step, particle, kind, body, vertex, feature, number;
   std::vector<double> normal;
-  for (const Contact_record<D>& c : contacts) {
+  for (const Run_contact<D>& c : contacts) {
     const std::uint32_t point[] = {static_cast<std::uint32_t>(grid.points.size())};
     grid.points.push_back(in_space(c.contact.point));
     grid.add_cell(io::Vtu_cell::vertex, point);
@@ -127,11 +127,11 @@ std::vector<Point<D>> body_positions(const World<D>& world) {
   return positions;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                 \
-  template io::Vtu_grid particles_grid(const World<D>&, const std::vector<Contact_record<D>>&); \
-  template io::Vtu_grid bodies_grid(const World<D>&, const std::vector<Contact_record<D>>&,     \
-                                    const std::vector<Point<D>>&, double);                      \
-  template io::Vtu_grid contacts_grid(const std::vector<Contact_record<D>>&);                   \
+#define CELLWALK_INSTANTIATE(D)                                                              \
+  template io::Vtu_grid particles_grid(const World<D>&, const std::vector<Run_contact<D>>&); \
+  template io::Vtu_grid bodies_grid(const World<D>&, const std::vector<Run_contact<D>>&,     \
+                                    const std::vector<Point<D>>&, double);                   \
+  template io::Vtu_grid contacts_grid(const std::vector<Run_contact<D>>&);                   \
   template std::vector<Point<D>> body_positions(const World<D>&);
 
 CELLWALK_INSTANTIATE(2)

@@ -42,7 +42,7 @@ Materials add_materials(Drawing& d, bool planar) {
           d.add_material({{0.10, 0.27, 0.53}, 0, lit}),
           d.add_material({{0.05, 0.52, 0.50}, 0, lit}),
           d.add_material(
-              {planar ? drawing::Color{0.55, 0.77, 0.76} : drawing::Color{0.05, 0.52, 0.50, 0.45}, 0, lit}),
+              {planar ? drawing::Colour{0.55, 0.77, 0.76} : drawing::Colour{0.05, 0.52, 0.50, 0.45}, 0, lit}),
           d.add_material({{0.96, 0.58, 0.08}, 0, lit}),
           d.add_material({{0.98, 0.96, 0.94}, 0, lit}),
           d.add_material({{0.70, 0.72, 0.75}, 0, lit}),
@@ -61,10 +61,10 @@ double diagonal(const Cell_soup<D>& soup) {
 
 /// The contacts to show: one in each cube of a coarse grid, the earliest.
 template <int D>
-std::vector<Contact_record<D>> thinned(const std::vector<Contact_record<D>>& contacts, double grid) {
+std::vector<Run_contact<D>> thinned(const std::vector<Run_contact<D>>& contacts, double grid) {
   std::set<std::array<std::int64_t, D>> seen;
-  std::vector<Contact_record<D>> result;
-  for (const Contact_record<D>& c : contacts) {
+  std::vector<Run_contact<D>> result;
+  for (const Run_contact<D>& c : contacts) {
     std::array<std::int64_t, D> cube;
     for (std::size_t i = 0; i < D; ++i) cube[i] = std::llround(c.contact.point[i] / grid);
     if (seen.insert(cube).second) result.push_back(c);
@@ -189,18 +189,18 @@ Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.particles().s
 
 template <int D>
 void Run_picture<D>::record(const World<D>& world) {
-  for (const Contact_record<D>& c : world.contacts())
+  for (const Run_contact<D>& c : world.contacts())
     if (!c.body) trails_[c.particle].push_back(c.contact.point);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     auto& trail = trails_[i];
     trail.push_back(world.particles()[i].position);
     if (trail.size() > trail_steps) trail.erase(trail.begin(), trail.end() - trail_steps);
   }
-  for (const Contact_record<D>& c : world.contacts()) {
+  for (const Run_contact<D>& c : world.contacts()) {
     const bool is_catheter = c.body && world.bodies()[c.body->body].template as<Rod<D>>();
     (!c.body ? free_contacts_ : is_catheter ? catheter_contacts_ : body_contacts_).push_back(c);
   }
-  const auto old = [&](const Contact_record<D>& c) { return c.step + trail_steps <= world.steps_done(); };
+  const auto old = [&](const Run_contact<D>& c) { return c.step + trail_steps <= world.steps_done(); };
   for (auto* latest : {&body_contacts_, &free_contacts_})
     latest->erase(latest->begin(), std::find_if_not(latest->begin(), latest->end(), old));
 }
@@ -234,9 +234,9 @@ Drawing Run_picture<D>::draw(const Cell_soup<D>& soup, const World<D>& world, co
     draw_line(drawing, smooth<D>(chain), size, layer(4), m.catheter);
     draw_dot(drawing, chain.front(), 1.6 * size, layer(5), m.catheter);
   }
-  const auto draw_contacts = [&](const std::vector<Contact_record<D>>& contacts, double factor) {
+  const auto draw_contacts = [&](const std::vector<Run_contact<D>>& contacts, double factor) {
     const double scale = factor * unit;
-    for (const Contact_record<D>& c : thinned<D>(contacts, contact_grid * unit)) {
+    for (const Run_contact<D>& c : thinned<D>(contacts, contact_grid * unit)) {
       draw_dot(drawing, c.contact.point, contact_size * scale, layer(7), m.contact);
       draw_arrow(drawing, c.contact.point, c.contact.normal, arrow_length * scale, arrow_size * scale,
                  layer(8), m.contact);

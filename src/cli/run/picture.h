@@ -26,8 +26,8 @@ class Run_picture {
 
  private:
   std::vector<std::vector<Point<D>>> trails_;  ///< of the particles, the latest steps only
-  std::vector<Contact_record<D>> catheter_contacts_;
-  std::vector<Contact_record<D>> body_contacts_, free_contacts_;  ///< of the latest steps
+  std::vector<Run_contact<D>> catheter_contacts_;
+  std::vector<Run_contact<D>> body_contacts_, free_contacts_;  ///< of the latest steps
 };
 
 extern template class Run_picture<2>;

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <vector>
 
-#include "cli/common/kind_names.h"
+#include "cli/common/contact_kind_names.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -35,7 +35,7 @@ ordered_json read_report(const fs::path& path) {
     ordered_json report = ordered_json::parse(text);
     for (const char* key : {"dimension", "steps", "environment", "contacts", "manifest"}) report.at(key);
     for (const char* key : {"cells", "walls"}) report.at("environment").at(key).get<std::uint64_t>();
-    for (const char* kind : kind_names) report.at("contacts").at(kind).get<std::uint64_t>();
+    for (const char* kind : contact_kind_names) report.at("contacts").at(kind).get<std::uint64_t>();
     return report;
   } catch (const nlohmann::json::exception&) {
     refuse(path, "is damaged: it is not the report of a run; run the scene again");
@@ -95,9 +95,10 @@ class Contact_table {
 
   std::uint8_t kind_of(std::size_t row) const {
     const auto word = table_.field(row, kind_column_);
-    const auto found = std::find(std::begin(kind_names), std::end(kind_names), word.value_or(""));
-    if (found == std::end(kind_names)) refuse_row(row, "its kind is none");
-    return static_cast<std::uint8_t>(found - std::begin(kind_names));
+    const auto found =
+        std::find(std::begin(contact_kind_names), std::end(contact_kind_names), word.value_or(""));
+    if (found == std::end(contact_kind_names)) refuse_row(row, "its kind is none");
+    return static_cast<std::uint8_t>(found - std::begin(contact_kind_names));
   }
 
   Columns columns(const char* x, const char* y, const char* z) const {
@@ -124,8 +125,8 @@ Run_results read_run(const fs::path& folder) {
   const fs::path motion = folder / "motion.gz";
   if (!fs::exists(motion, ignored))
     refuse(motion, "is missing: run the scene again, with output.motion_every left out or more than 0");
-  results.motion = io::read_motion(motion);
-  const Motion_scene& scene = results.motion.scene;
+  results.motion = io::read_recording(motion);
+  const Recording_scene& scene = results.motion.scene;
   if (results.report["steps"] != scene.steps || results.report["dimension"] != scene.dimension)
     refuse(motion, "belongs to another run than run.json beside it; run the scene again");
   const Contact_table contacts(folder / "contacts.csv", scene.steps, scene.dimension == 3);

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_CLI_RUN_RESULTS_H
 #define CELLWALK_CLI_RUN_RESULTS_H
 
-#include <cellwalk/internal/io/motion_file.h>
+#include <cellwalk/internal/io/recording_file.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,7 +15,7 @@ namespace cellwalk::cli {
 
 struct Run_results {
   nlohmann::ordered_json report;  ///< run.json
-  io::Motion_file motion;         ///< motion.gz
+  io::Recording motion;           ///< motion.gz
   /// contacts.csv as pages take it, little endian: their number (uint32), their steps (uint32), points and normals (3 float32 each), kinds
   /// (uint8, by Contact_kind).
   std::string contacts;

@@ -17,16 +17,16 @@
 
 #include "bodies.h"
 #include "cli/common/command.h"
+#include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/interruption.h"
-#include "cli/common/kind_names.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
 #include "files.h"
-#include "motion.h"
 #include "picture.h"
-#include "record.h"
+#include "recording.h"
 #include "scene_source.h"
+#include "trace.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -70,7 +70,7 @@ Prepared_environment prepare(const Environment_source& source, const std::string
     Loaded_environment loaded = load_with_progress(*file, options);
     return {std::move(loaded.environment), loaded.built.certificate};
   }
-  const auto& recipe = std::get<Recipe>(source);
+  const auto& generator_call = std::get<Generator_call>(source);
   const Progress progress("generating and certifying the environment");
   Build_report report;
   const auto build = [&](auto soup) -> Any_environment {
@@ -79,7 +79,7 @@ Prepared_environment prepare(const Environment_source& source, const std::string
   };
   try {
     auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },
-                                  generate(recipe.generator, recipe.options));
+                                  generate(generator_call.generator, generator_call.options));
     return {std::move(environment), report.certificate};
   } catch (const Error& error) {
     // A recipe is input here, whatever it would be on a command line.
@@ -104,7 +104,7 @@ struct Run {
   World<D> make_world() const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
-  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_motion<D>* motion) const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_recording<D>* motion) const;
   std::string summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
 };
 
@@ -123,12 +123,12 @@ World<D> Run<D>::make_world() const {
 template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
-  const auto record = start_record(outputs.record, options.scene, environment, world, scene);
+  const auto record = start_trace(outputs.record, options.scene, environment, world, scene);
   const Cell_soup<D> soup = environment.soup();
   const std::filesystem::path& folder = outputs.folder.path();
   const Interruption interruption;
   Run_files<D> files(folder, soup, world, scene);
-  std::optional<Run_motion<D>> motion;
+  std::optional<Run_recording<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
   std::optional<Run_picture<D>> picture;
@@ -194,18 +194,18 @@ ordered_json Run<D>::scene_text() const {
 
 template <int D>
 ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
-                            const Run_motion<D>* motion) const {
+                            const Run_recording<D>* motion) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
   result["particles"] = {{"free", world.particles().size()}};
   ordered_json kinds;
-  for (std::size_t k = 0; k < 3; ++k) kinds[kind_names[k]] = files.contacts()[k];
+  for (std::size_t k = 0; k < 3; ++k) kinds[contact_kind_names[k]] = files.contacts()[k];
   result["contacts"] = kinds;
   if (!world.bodies().empty())
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
   result["frames"] = files.frame_count();
-  if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->record_count()}};
+  if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->frame_count()}};
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
   if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ordered_ways.h"
+#include "chain_search.h"
 
 namespace cellwalk {
 namespace {
@@ -21,7 +21,7 @@ struct Any_way {
     if constexpr (D == 2)
       return false;
     else
-      return detail::Turn<Exact>(p, q, counts)(x, y);
+      return detail::Rotational_order<Exact>(p, q, counts)(x, y);
   }
 };
 
@@ -34,9 +34,9 @@ Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p
   if (!result.contact || p.position == q.position) return result;
   const detail::Rational_segment<D> segment(p.position, q.position);
   const Any_way<D> rule{p.position, q.position, counts};
-  detail::Ordered_ways<D, Any_way<D>> ways(snapshot, segment, q, rule, counts);
-  if (!ways.find(p.cell)) return result;
-  result.chain = ways.chain();
+  detail::Chain_search<D, Any_way<D>> search(snapshot, segment, q, rule, counts);
+  if (!search.find(p.cell)) return result;
+  result.chain = search.chain();
   result.contact.reset();
   return result;
 }
@@ -47,7 +47,7 @@ bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<
   Cell cell = p.cell;
   for (const Half_facet f : chain) {
     if (snapshot.cell_of(f) != cell || snapshot.is_impassable(f)) return false;
-    cell = snapshot.neighbor(f);
+    cell = snapshot.neighbour(f);
   }
   if (cell != q.cell) return false;
   if (passes(snapshot, chain, p.position, q.position, counts)) return true;

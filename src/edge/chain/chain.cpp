@@ -73,7 +73,7 @@ Chain reversed(const Snapshot<D>& snapshot, const Chain& chain) {
 }
 
 template <int D>
-void walk_start(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed) {
+void prepend_crossed_facets(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed) {
   for (const Half_facet f : crossed) {
     if (!chain.empty() && chain.front() == f)
       chain.erase(chain.begin());
@@ -105,7 +105,7 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
   template Chain_result<D> detail::chain_of_walk<D>(const Snapshot<D>&, const Particle<D>&,          \
                                                     const Particle<D>&, Walk_counts&, bool&);        \
   template Chain reversed<D>(const Snapshot<D>&, const Chain&);                                      \
-  template void walk_start<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);              \
+  template void prepend_crossed_facets<D>(const Snapshot<D>&, Chain&, std::span<const Half_facet>);  \
   template bool passes<D>(const Snapshot<D>&, const Chain&, const Point<D>&, const Point<D>&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -15,7 +15,7 @@ Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Fract
   for (const Half_facet f : chain) {
     const std::optional<Span> met = edge.in_facet(f);
     if (met && t < met->low) break;
-    cell = edge.snapshot().neighbor(f);
+    cell = edge.snapshot().neighbour(f);
   }
   return cell;
 }

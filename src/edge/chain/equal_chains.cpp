@@ -12,11 +12,11 @@ namespace {
 
 /// Cells linked at a point of a segment.
 template <int D>
-class Linked {
+class Link_path {
  public:
   /// Searches from a cell that holds the point at t until `to` is found.
-  Linked(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
-         const Fraction& t)
+  Link_path(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
+            const Fraction& t)
       : links_(snapshot, from) {
     const auto holds_point = [&](const Cell_view<D>& cell, std::size_t i) {
       const std::optional<Span> met = segment.in_facet(cell, i);
@@ -27,7 +27,7 @@ class Linked {
         if (!is_wall) last_before = std::max<Fraction>(last_before, met->high);
         return false;
       }
-      if (!is_wall && !links_.contains(snapshot.neighbor(f))) {
+      if (!is_wall && !links_.contains(snapshot.neighbour(f))) {
         part.low = std::max<Fraction>(part.low, met->low);
         part.high = std::min<Fraction>(part.high, met->high);
       }
@@ -46,7 +46,7 @@ class Linked {
   explicit operator bool() const { return reached_; }
 
   /// The facets on the way to it. \pre it is linked
-  std::vector<Half_facet> way() const {
+  std::vector<Half_facet> path() const {
     std::vector<Half_facet> facets;
     links_.append_way(links_.place(), facets);
     return facets;
@@ -68,7 +68,7 @@ template <int D>
 std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
                                      Cell cell, Cell other, const Fraction& low, const Fraction& high) {
   if (cell == other || !(low < high)) return {};
-  const Linked<D> linked(snapshot, segment, cell, other, middle(low, high));
+  const Link_path<D> linked(snapshot, segment, cell, other, middle(low, high));
   if (linked) {
     const auto before = first_parting(snapshot, segment, cell, other, low, linked.part.low);
     return before ? before : first_parting(snapshot, segment, cell, other, linked.part.high, high);
@@ -92,7 +92,7 @@ std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment
     Fraction next = last;
     if (met) next = std::min<Fraction>(end, std::max<Fraction>(last, met->low));
     pieces.push_back({cell, last, next});
-    cell = snapshot.neighbor(f);
+    cell = snapshot.neighbour(f);
     last = next;
   }
   pieces.push_back({cell, last, end});
@@ -118,7 +118,7 @@ std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_se
 template <int D>
 std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
                                 Cell to, const Fraction& t) {
-  return Linked<D>(snapshot, segment, from, to, t).way();
+  return Link_path<D>(snapshot, segment, from, to, t).path();
 }
 
 template <int D>

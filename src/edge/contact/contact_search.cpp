@@ -34,13 +34,13 @@ Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t ver
 
 /// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the motion.
 template <int D>
-Contact<D> bisected(const Snapshot<D>& snapshot, const Way<D>& way, Contact<D> contact, double time,
+Contact<D> bisected(const Snapshot<D>& snapshot, const Vertex_path<D>& path, Contact<D> contact, double time,
                     std::size_t corner) {
   contact.time = Exact_time(time);
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
   const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(contact.facet))[corner]);
   const Vector<D> normal = mean_normal(snapshot, snapshot.cell_of(contact.facet), vertex);
-  if (dot(normal, way.from.position - way.to.position) > 0) contact.normal = normal;
+  if (dot(normal, path.from.position - path.to.position) > 0) contact.normal = normal;
   return contact;
 }
 
@@ -58,7 +58,7 @@ std::size_t nearest_corner(const Snapshot<D>& snapshot, Half_facet wall, const P
 }  // namespace
 
 template <int D>
-Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                              const Sweep_until<D>& sweep_until, double tolerance, Edge_counts& counts) {
   ++counts.searches;
   std::optional<Contact<D>> last;
@@ -74,15 +74,16 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Way<D>& way, con
     const double middle = low + (high - low) / 2;
     (is_free_until(middle) ? low : high) = middle;
   }
-  last->normal = edge_normal(snapshot, {way.from.position, way.to.position, q.position}, *last, last->normal);
-  return bisected(snapshot, way, *last, low, last->corner);
+  last->normal =
+      edge_normal(snapshot, {path.from.position, path.to.position, q.position}, *last, last->normal);
+  return bisected(snapshot, path, *last, low, last->corner);
 }
 
 template <int D>
-std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                         double tolerance, Edge_counts& counts) {
+std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                         const Particle<D>& q, double tolerance, Edge_counts& counts) {
   ++counts.searches;
-  const Point<D>&a = way.from.position, &b = way.to.position;
+  const Point<D>&a = path.from.position, &b = path.to.position;
   std::optional<Wall_contact<D>> last;
   const auto is_free_at = [&](const Particle<D>& p) {
     ++counts.search_walks;
@@ -91,13 +92,13 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<
     return !walked.contact;
   };
   double low = 0, high = 1;
-  if (way.blocked)
-    high = to_time(exit_time<D>(snapshot.view(way.visited.back()), a, b, counts.walk).value()).rounded();
-  else if (is_free_at(way.to)) {
+  if (path.blocked)
+    high = to_time(exit_time<D>(snapshot.view(path.visited.back()), a, b, counts.walk).value()).rounded();
+  else if (is_free_at(path.to)) {
     ++counts.search_misses;
     return {};
   }
-  Particle<D> reached = way.from;
+  Particle<D> reached = path.from;
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;
     Particle<D> p = reached;
@@ -116,40 +117,40 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Way<
   }
   Contact<D> contact = to_contact(*last, Exact_time(low), Body_feature::edge);
   contact.normal = edge_normal(snapshot, {a, b, q.position}, contact, contact.normal);
-  return bisected(snapshot, way, contact, low, nearest_corner(snapshot, contact.facet, contact.point));
+  return bisected(snapshot, path, contact, low, nearest_corner(snapshot, contact.facet, contact.point));
 }
 
 template <int D>
-Flooded traversed_cells(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Flooded traversed_cells(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                         Edge_counts& counts) {
   std::vector<Cell> visited;
   Walk_options options;
   options.visited = &visited;
-  walk(snapshot, way.to, q.position, counts.walk, options);
+  walk(snapshot, path.to, q.position, counts.walk, options);
   return {visited.begin(), visited.end()};
 }
 
 template <int D>
-Flooded flooded_cells(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Flooded flooded_cells(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                       Edge_counts& counts) {
   Flooded cells;
-  flood<D>(snapshot, way.from.cell, {way.from.position, way.to.position, q.position}, counts,
+  flood<D>(snapshot, path.from.cell, {path.from.position, path.to.position, q.position}, counts,
            std::numeric_limits<std::size_t>::max(), cells, [](Half_facet) { return true; });
   return cells;
 }
 
 template <int D>
-std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const Way<D>& way,
+std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                             const Particle<D>& q, std::span<const Cell> cells, bool below,
                                             Edge_counts& counts) {
   ++counts.searches;
-  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
+  const Swept_triangle<D> triangle{path.from.position, path.to.position, q.position};
   std::optional<Contact<D>> first;
   for (const Cell c : cells) {
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (!snapshot.is_impassable(f) || (below && !may_meet(cell, i, triangle, counts.walk))) continue;
+      if (!snapshot.is_impassable(f) || (below && !may_intersect(cell, i, triangle, counts.walk))) continue;
       ++counts.search_walls;
       for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
         if (below && !may_meet_ridge(cell, i, k, triangle, counts.walk)) continue;
@@ -164,15 +165,18 @@ std::optional<Contact<D>> exhaustive_search(const Snapshot<D>& snapshot, const W
   return first;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template Contact<D> dichotomic_search<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,           \
-                                           const Sweep_until<D>&, double, Edge_counts&);                    \
-  template std::optional<Contact<D>> segment_search<D>(const Snapshot<D>&, const Way<D>&,                   \
-                                                       const Particle<D>&, double, Edge_counts&);           \
-  template Flooded traversed_cells<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, Edge_counts&); \
-  template Flooded flooded_cells<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, Edge_counts&);   \
-  template std::optional<Contact<D>> exhaustive_search<D>(                                                  \
-      const Snapshot<D>&, const Way<D>&, const Particle<D>&, std::span<const Cell>, bool, Edge_counts&);
+#define CELLWALK_INSTANTIATE(D)                                                                            \
+  template Contact<D> dichotomic_search<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&,  \
+                                           const Sweep_until<D>&, double, Edge_counts&);                   \
+  template std::optional<Contact<D>> segment_search<D>(const Snapshot<D>&, const Vertex_path<D>&,          \
+                                                       const Particle<D>&, double, Edge_counts&);          \
+  template Flooded traversed_cells<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&,       \
+                                      Edge_counts&);                                                       \
+  template Flooded flooded_cells<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&,         \
+                                    Edge_counts&);                                                         \
+  template std::optional<Contact<D>> exhaustive_search<D>(const Snapshot<D>&, const Vertex_path<D>&,       \
+                                                          const Particle<D>&, std::span<const Cell>, bool, \
+                                                          Edge_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

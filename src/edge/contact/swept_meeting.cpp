@@ -99,16 +99,16 @@ std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
   }
   if (!first || (part == Part::off_start && !goes_on)) return {};
   Meeting<D> meeting{time, {}, CGAL::is_zero((*first)[2])};
-  meeting.point.weight = (*first)[0] + (*first)[1] + (*first)[2];
+  meeting.point.denominator = (*first)[0] + (*first)[1] + (*first)[2];
   for (int i = 0; i < D; ++i)
-    meeting.point.place[i] =
+    meeting.point.numerator[i] =
         (*first)[0] * corners[0][i] + (*first)[1] * corners[1][i] + (*first)[2] * corners[2][i];
   return meeting;
 }
 
 /// p moves in the line of the edge. What is swept off its start is a part of the way of p.
 template <int D>
-std::optional<Meeting<D>> meeting_in_line(const Swept_triangle<D>& t, const Half_spaces<D>& feature) {
+std::optional<Meeting<D>> collinear_meeting(const Swept_triangle<D>& t, const Half_spaces<D>& feature) {
   if (lies_between<D>(t.a, t.q, t.b)) return {};
   if (!lies_between<D>(t.a, t.b, t.q)) return meeting_in_triangle<D>({t.a, t.b, t.a}, feature);
   auto meeting = meeting_in_triangle<D>({t.q, t.b, t.q}, feature);
@@ -166,7 +166,7 @@ bool is_against(const Vector<D>& normal, const Vector<D>& back) {
 
 template <int D>
 std::optional<Meeting<D>> first_meeting(const Swept_triangle<D>& triangle, const Half_spaces<D>& feature) {
-  if (are_collinear(triangle.a, triangle.b, triangle.q)) return meeting_in_line<D>(triangle, feature);
+  if (are_collinear(triangle.a, triangle.b, triangle.q)) return collinear_meeting<D>(triangle, feature);
   return meeting_in_triangle<D>(triangle, feature);
 }
 

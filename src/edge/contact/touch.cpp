@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "touch.h"
 
-#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/edge/may_intersect.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <limits>

@@ -12,13 +12,13 @@ namespace cellwalk::detail {
 /// The share of the way from a to b at which it leaves a cell: where it passes the plane of the first facet that has b outside.
 /// \pre the way passes the closed cell, and b lies outside
 template <int D>
-Moment<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
-  std::optional<Moment<D>> first;
+Event_time<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
+  std::optional<Event_time<D>> first;
   for (std::size_t i = 0; i < cell.facet_count(); ++i) {
     const Moving_orientation<D> side = moving_side<D>(cell, i, a, b, counts);
     if (side.at_1() <= 0) continue;
     if (!side.has_root()) return {};  // a lies in the plane
-    const auto time = Moment<D>::root_of(side);
+    const auto time = Event_time<D>::root_of(side);
     if (!first || time < *first) first = time;
   }
   return *first;

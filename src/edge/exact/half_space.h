@@ -51,19 +51,19 @@ inline Ring_vector<3> exact_cross(const Ring_vector<3>& a, const Ring_vector<3>&
 /// The point place / weight. The weight is positive.
 template <int D>
 struct Exact_point {
-  Ring_vector<D> place;
-  Ring weight = Ring(1);
+  Ring_vector<D> numerator;
+  Ring denominator = Ring(1);
 
   /// Its coordinates, rounded towards 0.
   Point<D> rounded() const {
     Point<D> x;
-    for (int i = 0; i < D; ++i) x[i] = to_double(Fraction(place[i], weight));
+    for (int i = 0; i < D; ++i) x[i] = to_double(Fraction(numerator[i], denominator));
     return x;
   }
   /// From another point to this one, times the weight.
   Ring_vector<D> from(const Ring_vector<D>& x) const {
     Ring_vector<D> r;
-    for (int i = 0; i < D; ++i) r[i] = place[i] - weight * x[i];
+    for (int i = 0; i < D; ++i) r[i] = numerator[i] - denominator * x[i];
     return r;
   }
 };

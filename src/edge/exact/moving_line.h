@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-#include "moment.h"
+#include "event_time.h"
 
 namespace cellwalk::detail {
 
@@ -31,7 +31,7 @@ Moving_orientation<D> moving_side(const Cell_view<D>& cell, std::size_t i, const
 template <int D>
 class Moving_line {
  public:
-  Moving_line(const Swept_triangle<D>& triangle, const Moment<D>& s, Walk_counts& counts)
+  Moving_line(const Swept_triangle<D>& triangle, const Event_time<D>& s, Walk_counts& counts)
       : triangle_(triangle), s_(s), counts_(counts) {}
 
   int along(const Cell_view<D>& cell, std::size_t i, std::size_t k) const {
@@ -66,7 +66,7 @@ class Moving_line {
   template <class Note>
   void for_all_roots(const Cell_view<D>& cell, std::size_t i, Note note) const {
     const auto note_root = [&](const Moving_orientation<D>& f) {
-      if (f.has_root() && s_.sign_after(f) != f.at_1()) note(Moment<D>::root_of(f));
+      if (f.has_root() && s_.sign_after(f) != f.at_1()) note(Event_time<D>::root_of(f));
     };
     note_root(side_of(cell, i));
     const auto loop = cell.loop(i);
@@ -89,14 +89,14 @@ class Moving_line {
   }
 
   const Swept_triangle<D>& triangle() const { return triangle_; }
-  const Moment<D>& time() const { return s_; }
+  const Event_time<D>& time() const { return s_; }
   Walk_counts& counts() const { return counts_; }
 
  private:
   static Point<2> drop(const Point<D>& x, int axis) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
 
-  Moving_orientation<D> function(const typename Moving_orientation<D>::Fixed& fixed, int turn = 1) const {
-    return {triangle_.a, triangle_.b, fixed, turn, counts_.predicates};
+  Moving_orientation<D> function(const typename Moving_orientation<D>::Fixed& fixed, int sense = 1) const {
+    return {triangle_.a, triangle_.b, fixed, sense, counts_.predicates};
   }
 
   /// In a plane that holds the whole triangle: p(s) and two points of it, seen along an axis along which the triangle has an
@@ -110,12 +110,12 @@ class Moving_line {
     const Moving_orientation<2> f(drop(triangle_.a, axis), drop(triangle_.b, axis),
                                   {drop(x, axis), drop(y, axis)}, 1, counts_.predicates);
     if (!f.has_root()) return;
-    const Moment<D> root(f.root());
+    const Event_time<D> root(f.root());
     if (s_ < root) note(root);
   }
 
   const Swept_triangle<D>& triangle_;
-  const Moment<D>& s_;
+  const Event_time<D>& s_;
   Walk_counts& counts_;
 };
 

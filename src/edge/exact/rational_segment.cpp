@@ -33,10 +33,10 @@ bool is_off(const Point<3>& u, const Point<3>& v, const Point<3>& x) {
 
 template <int D>
 Exact_point<D> Rational_segment<D>::at(const Fraction& t) const {
-  const Ring rest = t.denominator() - t.numerator(), part = t.numerator() * p_.weight;
+  const Ring rest = t.denominator() - t.numerator(), part = t.numerator() * p_.denominator;
   Exact_point<D> x;
-  for (int i = 0; i < D; ++i) x.place[i] = rest * p_.place[i] + part * q_[i];
-  x.weight = t.denominator() * p_.weight;
+  for (int i = 0; i < D; ++i) x.numerator[i] = rest * p_.numerator[i] + part * q_[i];
+  x.denominator = t.denominator() * p_.denominator;
   return x;
 }
 
@@ -53,7 +53,7 @@ bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) c
     span.high = t;
     span.high_border = border;
   };
-  const Ring at_p = h.at(p_), at_q = p_.weight * h.at(q_);
+  const Ring at_p = h.at(p_), at_q = p_.denominator * h.at(q_);
   const int sign_p = CGAL::sign(at_p), sign_q = CGAL::sign(at_q);
   if (sign_p >= 0 && sign_q >= 0) return true;
   if (sign_p <= 0 && sign_q <= 0) {
@@ -90,7 +90,7 @@ Fraction Rational_segment<D>::at_border(const Cell_view<D>& cell, std::size_t i,
   const Half_space<D> plane = plane_of(cell, i);
   const Half_space<D> h =
       border < 2 ? plane : side_space(cell, i, static_cast<std::size_t>(border - 2), plane);
-  const Ring at_p = h.at(p_), at_q = p_.weight * h.at(q_);
+  const Ring at_p = h.at(p_), at_q = p_.denominator * h.at(q_);
   if (CGAL::is_zero(at_q)) return 1;
   return {at_p, at_p - at_q};
 }
@@ -99,7 +99,7 @@ template <int D>
 Fraction Rational_segment<D>::in_plane(const Cell_view<D>& cell, std::size_t i) const {
   const Half_space<D> plane = plane_of(cell, i);
   const Ring at_p = plane.at(p_);
-  return {at_p, at_p - p_.weight * plane.at(q_)};
+  return {at_p, at_p - p_.denominator * plane.at(q_)};
 }
 
 template <int D>

@@ -17,16 +17,16 @@ class Border {
   Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
       : snapshot_(snapshot), side_(side), opposite_(opposite), counts_(counts) {}
 
-  Half_facet wall_between(const Near_walls& near) {
+  Half_facet wall_between(const Candidate_walls& candidates) {
     boost::container::small_vector<Half_facet, 4> holding;
-    for (const Half_facet wall : near.walls)
+    for (const Half_facet wall : candidates.walls)
       if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0 && side(wall, opposite_) != 0)
         holding.push_back(wall);  // and not the face
     if (holding.empty()) return Half_facet::none;
     edge_.emplace(snapshot_, side_.from, side_.to);
     // Between the ends of the pieces that walls hold, all is as in the middle.
     std::vector<Fraction> ends;
-    for (const Half_facet wall : near.walls) {
+    for (const Half_facet wall : candidates.walls) {
       const std::optional<Span> met = edge_->in_facet(wall);
       if (met) ends.insert(ends.end(), {met->low, met->high});
     }
@@ -79,11 +79,11 @@ class Border {
 }  // namespace
 
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
-                          const Near_walls& near, Walk_counts& counts) {
+                          const Candidate_walls& candidates, Walk_counts& counts) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Face_side& next = sides[(k + 1) % 3];
     const Point<3>& opposite = next.chain.is_reversed ? next.from : next.to;
-    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(near);
+    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(candidates);
     if (wall != Half_facet::none) return wall;
   }
   return Half_facet::none;

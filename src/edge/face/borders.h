@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_FACE_BORDERS_H
 #define CELLWALK_EDGE_FACE_BORDERS_H
 
-#include "find_rests.h"
+#include "find_supporting_walls.h"
 
 namespace cellwalk::detail {
 
@@ -13,7 +13,7 @@ namespace cellwalk::detail {
 /// \pre the face has an inside that no wall pierces, and rests on the sides on which its edges pass
 /// Cost: six signs a wall; some hundred us where an edge lies in one.
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
-                          const Near_walls& near, Walk_counts& counts);
+                          const Candidate_walls& candidates, Walk_counts& counts);
 
 }  // namespace cellwalk::detail
 

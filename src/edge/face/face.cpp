@@ -7,17 +7,17 @@
 #include <cmath>
 
 #include "borders.h"
+#include "broad_phase.h"
 #include "edge/exact/exit_time.h"
-#include "find_rests.h"
-#include "near_walls.h"
+#include "find_supporting_walls.h"
 #include "swept_tetrahedron.h"
 #include "triangle_in_plane.h"
 
 namespace cellwalk {
 namespace {
 
+using detail::Candidate_walls;
 using detail::Corners;
-using detail::Near_walls;
 using detail::Swept_tetrahedron;
 using detail::Triangle_in_plane;
 
@@ -27,30 +27,31 @@ class Face_sweep {
   Face_sweep(const Snapshot<3>& snapshot, const Corners& corners, Face_counts& counts)
       : snapshot_(snapshot), corners_(corners), tetrahedron_(corners, counts), counts_(counts) {}
 
-  std::optional<Contact<3>> first_contact(const Near_walls& near, const Face_rests& rests) {
-    for (const Half_facet rest : rests)
-      if (side(rest, corners_[1]) > 0) note(rest);
-    for (const Half_facet wall : near.walls)
+  std::optional<Contact<3>> first_contact(const Candidate_walls& candidates,
+                                          const Supporting_walls& supporting_walls) {
+    for (const Half_facet supporting_wall : supporting_walls)
+      if (side(supporting_wall, corners_[1]) > 0) note(supporting_wall);
+    for (const Half_facet wall : candidates.walls)
       if (tetrahedron_.meets(view(wall), snapshot_.facet_of(wall))) note(wall);
     if (wall_ == Half_facet::none) return {};
     return contact();
   }
 
   /// The rests of the face at the end of a free motion.
-  Face_rests rests_at_end(const Near_walls& near) const {
-    Face_rests rests;
+  Supporting_walls supporting_walls_at_end(const Candidate_walls& candidates) const {
+    Supporting_walls supporting_walls;
     std::optional<Triangle_in_plane> face;
-    for (const Half_facet wall : near.walls) {
+    for (const Half_facet wall : candidates.walls) {
       if (side(wall, corners_[1]) != 0) continue;
       if (!face) face.emplace(std::array{corners_[1], corners_[2], corners_[3]}, counts_.walk);
       const std::size_t i = snapshot_.facet_of(wall);
       if (!face->holds(view(wall), i) || !face->overlaps(view(wall), i)) continue;
       // Of walls that coincide without being glued, the face lies on the one whose cell is on its side.
-      const Half_facet rest = side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall);
-      if (rest != Half_facet::none) rests.push_back(rest);
+      const Half_facet supporting_wall = side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall);
+      if (supporting_wall != Half_facet::none) supporting_walls.push_back(supporting_wall);
     }
-    detail::sort(rests);
-    return rests;
+    detail::sort(supporting_walls);
+    return supporting_walls;
   }
 
  private:
@@ -96,7 +97,7 @@ class Face_sweep {
 };
 
 /// The contact of a face of which an edge lies on the other side of a wall.
-Face_result astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
+Face_result edge_on_other_side(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
   Contact<3> contact;
   contact.point = start;
   contact.body = Body_feature::edge;
@@ -108,74 +109,77 @@ Face_result astray(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>&
 
 /// Rests of a face that moved in its plane, or was put there.
 Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
-                           const Particle<3>& r, const Face_chains& chains, const Near_walls& near,
-                           const Face_rests& known, detail::Known use, Face_counts& counts) {
+                           const Particle<3>& r, const Face_chains& chains, const Candidate_walls& candidates,
+                           const Supporting_walls& known, detail::Known use, Face_counts& counts) {
   if (are_collinear(p.position, q.position, r.position)) return {};
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
-  return detail::find_rests(snapshot, triangle, detail::sides_of(chains, p, q, r), near, known, use);
+  return detail::find_supporting_walls(snapshot, triangle, detail::sides_of(chains, p, q, r), candidates,
+                                       known, use);
 }
 
 }  // namespace
 
-Face_result sweep_face(const Snapshot<3>& snapshot, const Way<3>& way, const Particle<3>& q,
-                       const Particle<3>& r, const Face_rests& rests, const Face_chains& chains,
-                       Face_counts& counts) {
+Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, const Particle<3>& q,
+                       const Particle<3>& r, const Supporting_walls& supporting_walls,
+                       const Face_chains& chains, Face_counts& counts) {
   ++counts.faces;
-  const Corners corners{way.from.position, way.to.position, q.position, r.position};
-  Near_walls near(way.from.cell);
-  detail::find_near_walls(snapshot, corners, near, counts);
-  if (near.walls.empty()) {
+  const Corners corners{path.from.position, path.to.position, q.position, r.position};
+  Candidate_walls candidates(path.from.cell);
+  detail::find_candidate_walls(snapshot, corners, candidates, counts);
+  if (candidates.walls.empty()) {
     ++counts.clear;
     return {};
   }
-  counts.walls += near.walls.size();
-  const bool is_made = !way.blocked && chains.are_complete();
+  counts.walls += candidates.walls.size();
+  const bool is_made = !path.blocked && chains.are_complete();
   Face_result result;
   if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
     if (!is_made) return result;
     ++counts.flat;
-    const Face_registration end =
-        standing(snapshot, way.to, q, r, chains, near, rests, detail::Known::binding, counts);
-    if (end.piercing != Half_facet::none) return astray(snapshot, end.piercing, corners[0]);
-    result.rests = end.rests;
+    const Face_registration end = standing(snapshot, path.to, q, r, chains, candidates, supporting_walls,
+                                           detail::Known::binding, counts);
+    if (end.piercing != Half_facet::none) return edge_on_other_side(snapshot, end.piercing, corners[0]);
+    result.supporting_walls = end.supporting_walls;
   } else {
     Face_sweep sweep(snapshot, corners, counts);
-    result.contact = sweep.first_contact(near, rests);
-    if (result.contact && way.blocked) {
-      const Cell last = way.visited.back();
+    result.contact = sweep.first_contact(candidates, supporting_walls);
+    if (result.contact && path.blocked) {
+      const Cell last = path.visited.back();
       const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
       if (result.contact->time >= to_time(blocked.value())) result.contact.reset();
     }
     if (result.contact || !is_made) return result;
-    result.rests = sweep.rests_at_end(near);
+    result.supporting_walls = sweep.supporting_walls_at_end(candidates);
   }
   if (are_collinear(corners[1], corners[2], corners[3])) return result;
   const Half_facet wall =
-      detail::wall_at_border(snapshot, detail::sides_of(chains, way.to, q, r), near, counts.walk);
+      detail::wall_at_border(snapshot, detail::sides_of(chains, path.to, q, r), candidates, counts.walk);
   if (wall == Half_facet::none) return result;
-  return astray(snapshot, wall, corners[0]);
+  return edge_on_other_side(snapshot, wall, corners[0]);
 }
 
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
-                                const Face_rests& known) {
+                                const Supporting_walls& known) {
   ++counts.faces;
-  Near_walls near(p.cell);
-  detail::find_near_walls(snapshot, {p.position, p.position, q.position, r.position}, near, counts);
-  if (near.walls.empty()) {
+  Candidate_walls candidates(p.cell);
+  detail::find_candidate_walls(snapshot, {p.position, p.position, q.position, r.position}, candidates,
+                               counts);
+  if (candidates.walls.empty()) {
     ++counts.clear;
     return {};
   }
-  counts.walls += near.walls.size();
+  counts.walls += candidates.walls.size();
   Face_registration result =
-      standing(snapshot, p, q, r, chains, near, known, detail::Known::preferred, counts);
+      standing(snapshot, p, q, r, chains, candidates, known, detail::Known::preferred, counts);
   if (result.piercing != Half_facet::none || are_collinear(p.position, q.position, r.position)) return result;
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
-  for (const Half_facet wall : near.walls)
+  for (const Half_facet wall : candidates.walls)
     if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
       result.piercing = wall;
   if (result.piercing == Half_facet::none)
-    result.piercing = detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), near, counts.walk);
+    result.piercing =
+        detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), candidates, counts.walk);
   return result;
 }
 

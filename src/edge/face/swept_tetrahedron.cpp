@@ -36,10 +36,10 @@ std::vector<Volumes> clipped(const std::vector<Volumes>& polygon, std::size_t k)
 
 Exact_point<3> point_of(const Volumes& volumes, const Corners& corners) {
   Exact_point<3> x;
-  x.weight = volumes[0] + volumes[1] + volumes[2] + volumes[3];
+  x.denominator = volumes[0] + volumes[1] + volumes[2] + volumes[3];
   for (std::size_t i = 0; i < 3; ++i) {
-    x.place[i] = 0;
-    for (std::size_t k = 0; k < 4; ++k) x.place[i] += volumes[k] * Ring(corners[k][i]);
+    x.numerator[i] = 0;
+    for (std::size_t k = 0; k < 4; ++k) x.numerator[i] += volumes[k] * Ring(corners[k][i]);
   }
   return x;
 }
@@ -71,11 +71,11 @@ bool reaches_inside(const std::vector<Volumes>& polygon) {
 Swept_tetrahedron::Swept_tetrahedron(const Corners& corners, Face_counts& counts)
     : corners_(corners),
       counts_(counts),
-      turn_(Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3])) {}
+      sense_(Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3])) {}
 
 int Swept_tetrahedron::sign(std::size_t corner, const Point<3>& x) const {
   const Corners c = with(corners_, corner, x);
-  return turn_ * Exact::orientation(counts_.walk.predicates, c[0], c[1], c[2], c[3]);
+  return sense_ * Exact::orientation(counts_.walk.predicates, c[0], c[1], c[2], c[3]);
 }
 
 bool Swept_tetrahedron::meets(const Cell_view<3>& cell, std::size_t i) const {

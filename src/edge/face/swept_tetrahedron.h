@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "broad_phase.h"
 #include "edge/exact/rational_segment.h"
-#include "near_walls.h"
 
 namespace cellwalk::detail {
 
@@ -52,7 +52,7 @@ class Swept_tetrahedron {
 
   Corners corners_;
   Face_counts& counts_;
-  int turn_;  ///< orientation of a, b, q, r
+  int sense_;  ///< orientation of a, b, q, r
 };
 
 }  // namespace cellwalk::detail

@@ -13,12 +13,12 @@ namespace cellwalk::detail {
 Triangle_in_plane::Triangle_in_plane(const std::array<Point<3>, 3>& corners, Walk_counts& counts)
     : corners_(corners), counts_(counts) {
   for (; axis_ < 3; ++axis_) {
-    own_turn_ = turn(corners[0], corners[1], corners[2]);
-    if (own_turn_ != 0) break;
+    own_sense_ = sense(corners[0], corners[1], corners[2]);
+    if (own_sense_ != 0) break;
   }
 }
 
-int Triangle_in_plane::turn(const Point<3>& u, const Point<3>& v, const Point<3>& w) const {
+int Triangle_in_plane::sense(const Point<3>& u, const Point<3>& v, const Point<3>& w) const {
   return Exact::orientation(counts_.predicates, drop(u), drop(v), drop(w));
 }
 
@@ -30,7 +30,7 @@ bool Triangle_in_plane::holds(const Cell_view<3>& cell, std::size_t i) const {
 int Triangle_in_plane::side_of_cell(const Cell_view<3>& cell, std::size_t i) const {
   // The first three vertices of a facet do not lie on one line; they turn counterclockwise seen from outside.
   const auto loop = cell.loop(i);
-  return -own_turn_ * turn(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+  return -own_sense_ * sense(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
 }
 
 // Convex sets of a plane, of which at least one has an area, have disjoint insides if and only if a side of one of them
@@ -40,14 +40,14 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const 
   for (std::size_t k = 0; k < 3; ++k) {
     const Point<3>&c = corners_[k], &d = corners_[(k + 1) % 3];
     if (std::none_of(loop.begin(), loop.end(),
-                     [&](std::uint16_t v) { return own_turn_ * turn(c, d, cell.point(v)) > 0; }))
+                     [&](std::uint16_t v) { return own_sense_ * sense(c, d, cell.point(v)) > 0; }))
       return false;
   }
-  const int facet_turn = -side_of_cell(cell, i) * own_turn_;
+  const int facet_sense = -side_of_cell(cell, i) * own_sense_;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Point<3>&u = cell.point(loop[k]), &v = cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]);
     if (std::none_of(corners_.begin(), corners_.end(),
-                     [&](const Point<3>& x) { return facet_turn * turn(u, v, x) > 0; }))
+                     [&](const Point<3>& x) { return facet_sense * sense(u, v, x) > 0; }))
       return false;
   }
   return true;
@@ -57,13 +57,13 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const 
 void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,
                                      std::vector<Ring_vector<3>>& sides) const {
   const auto loop = cell.loop(i);
-  const int facet_turn = -side_of_cell(cell, i) * own_turn_;
+  const int facet_sense = -side_of_cell(cell, i) * own_sense_;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Point<2> u = drop(cell.point(loop[k])), v = drop(cell.point(loop[(k + 1) % loop.size()]));
     Ring_vector<3>& side = sides.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
       side[c] = Exact_value::orientation(u, v, drop(corners_[c]));
-      if (facet_turn < 0) side[c] = -side[c];
+      if (facet_sense < 0) side[c] = -side[c];
     }
   }
 }
@@ -99,14 +99,14 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& c, std::size_t i, const Cel
 bool Triangle_in_plane::overlaps(const Point<3>& u, const Point<3>& v) const {
   bool is_left = false, is_right = false;
   for (const Point<3>& x : corners_) {
-    const int s = turn(u, v, x);
+    const int s = sense(u, v, x);
     is_left |= s > 0;
     is_right |= s < 0;
   }
   if (!is_left || !is_right) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Point<3>&c = corners_[k], &d = corners_[(k + 1) % 3];
-    if (own_turn_ * turn(c, d, u) <= 0 && own_turn_ * turn(c, d, v) <= 0) return false;
+    if (own_sense_ * sense(c, d, u) <= 0 && own_sense_ * sense(c, d, v) <= 0) return false;
   }
   return true;
 }

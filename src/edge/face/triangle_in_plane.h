@@ -31,7 +31,7 @@ class Triangle_in_plane {
   int side_of_cell(const Cell_view<3>& cell, std::size_t i) const;
 
   /// The side() towards which (e, e^2, e^3) points, e small: a side of the plane by its direction alone.
-  int fixed_side() const { return own_turn_; }
+  int fixed_side() const { return own_sense_; }
 
   /// True if the inside of a facet in the plane and that of the triangle overlap.
   bool overlaps(const Cell_view<3>& cell, std::size_t i) const;
@@ -43,14 +43,14 @@ class Triangle_in_plane {
   bool is_pierced_by(const Cell_view<3>& cell, std::size_t i) const;
 
  private:
-  int turn(const Point<3>& u, const Point<3>& v, const Point<3>& w) const;
+  int sense(const Point<3>& u, const Point<3>& v, const Point<3>& w) const;
   void append_sides(const Cell_view<3>& cell, std::size_t i, std::vector<Ring_vector<3>>& sides) const;
   Point<2> drop(const Point<3>& x) const { return {x[(axis_ + 1) % 3], x[(axis_ + 2) % 3]}; }
 
   std::array<Point<3>, 3> corners_;
   Walk_counts& counts_;
   std::size_t axis_ = 0;  ///< the first along which the triangle has an area
-  int own_turn_ = 0;      ///< of the corners, seen so
+  int own_sense_ = 0;     ///< of the corners, seen so
 };
 
 }  // namespace cellwalk::detail

@@ -12,11 +12,11 @@ bool is_pierced(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>
     return Exact::orientation(counts.predicates, u, v, w);
   };
   if (side<Exact>(cell, i, t.q, counts) == 0) return false;
-  const int turn = sign(t.a, t.b, t.q);
-  if (turn == 0) return false;
+  const int sense = sign(t.a, t.b, t.q);
+  if (sense == 0) return false;
   for (const std::uint16_t v : cell.loop(i)) {
     const Point<2>& x = cell.point(v);
-    if (turn * sign(t.a, t.b, x) > 0 && turn * sign(t.b, t.q, x) > 0 && turn * sign(t.q, t.a, x) > 0)
+    if (sense * sign(t.a, t.b, x) > 0 && sense * sign(t.b, t.q, x) > 0 && sense * sign(t.q, t.a, x) > 0)
       return true;
   }
   return false;
@@ -34,8 +34,8 @@ bool is_pierced(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>
     const std::size_t next = k + 1 == loop.size() ? 0 : k + 1;
     if (heights[k] * heights[next] >= 0) continue;
     const Point<3>&u = cell.point(loop[k]), &v = cell.point(loop[next]);
-    const int turn = sign(u, v, t.a, t.b);
-    if (turn != 0 && sign(u, v, t.b, t.q) == turn && sign(u, v, t.q, t.a) == turn) return true;
+    const int sense = sign(u, v, t.a, t.b);
+    if (sense != 0 && sign(u, v, t.b, t.q) == sense && sign(u, v, t.q, t.a) == sense) return true;
   }
   return false;
 }

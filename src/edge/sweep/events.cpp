@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "collinear_sweep.h"
+#include "edge/chain/differ_around_ridge.h"
 #include "edge/chain/equal_chains.h"
-#include "edge/chain/plainly_equal.h"
 #include "edge/contact/edge_contact.h"
 #include "edge/exact/exit_time.h"
 #include "edge/exact/rational_segment.h"
-#include "in_line.h"
-#include "moving_walk.h"
+#include "moving_line_walk.h"
 #include "relink.h"
 
 namespace cellwalk::detail {
@@ -19,36 +19,36 @@ namespace {
 /// p leaves a cell: when, through which facets, and for which cell.
 template <int D>
 struct Step {
-  Moment<D> time;
+  Event_time<D> time;
   std::span<const Half_facet> facets;
   Cell next;
 };
 
 template <int D>
-class Events {
+class Event_sweep {
  public:
-  Events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, Walk_counts& counts,
-         std::optional<double> until)
+  Event_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
+              Walk_counts& counts, std::optional<double> until)
       : snapshot_(snapshot),
-        triangle_{way.from.position, way.to.position, q.position},
-        first_(way.from.cell),
-        start_(way.from.cell),
+        triangle_{path.from.position, path.to.position, q.position},
+        first_(path.from.cell),
+        start_(path.from.cell),
         q_(q),
         counts_(counts) {
-    plan(way);
-    if (until) limit_ = Moment<D>(*until);
-    if (!way.blocked) return;
-    const auto blocked = exit_time<D>(snapshot.view(way.visited.back()), triangle_.a, triangle_.b, counts);
+    plan(path);
+    if (until) limit_ = Event_time<D>(*until);
+    if (!path.blocked) return;
+    const auto blocked = exit_time<D>(snapshot.view(path.visited.back()), triangle_.a, triangle_.b, counts);
     if (!limit_ || blocked < *limit_) limit_ = blocked;
   }
 
   Sweep_result<D> run(const Chain& before) {
     Sweep_result<D> result{{}, before};
     Chain& chain = result.chain;
-    Moment<D> time;
+    Event_time<D> time;
     for (auto step = steps_.begin(); !limit_ || time < *limit_;) {
       for (; step != steps_.end() && !(time < step->time); ++step) {
-        walk_start(snapshot_, chain, step->facets);
+        prepend_crossed_facets(snapshot_, chain, step->facets);
         start_ = step->next;
       }
       const Moving_line<D> line(triangle_, time, counts_);
@@ -59,11 +59,11 @@ class Events {
       };
       Half_facet parting = Half_facet::none;
       const auto accept = [&](const Chain& other) {
-        return are_plainly_equal(snapshot_, line, chain, other) ||
+        return differ_only_around_one_ridge(snapshot_, line, chain, other) ||
                are_equal(snapshot_, exact_segment(), start_, chain, other, parting);
       };
-      Moving_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
-      std::optional<Moment<D>> next;
+      Moving_line_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
+      std::optional<Event_time<D>> next;
       const bool is_found = walk.from(start_);
       // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell which one it goes.
       const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
@@ -71,7 +71,7 @@ class Events {
           is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
       if (relinked) {
         chain = relinked->chain;
-        if (relinked->end < Moment<D>(1.0)) next = relinked->end;
+        if (relinked->end < Event_time<D>(1.0)) next = relinked->end;
       } else if (is_found) {
         chain = walk.chain();
       } else {
@@ -95,24 +95,24 @@ class Events {
     return *in_wall_plane_;
   }
 
-  void plan(const Way<D>& way) {
+  void plan(const Vertex_path<D>& path) {
     std::size_t passed = 0;
-    for (std::size_t i = 0; i + 1 < way.visited.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < path.visited.size(); ++i) {
       const std::size_t first = passed;
-      Cell cell = way.visited[i];
-      while (cell != way.visited[i + 1]) cell = snapshot_.neighbor(way.crossed[passed++]);
-      const auto facets = way.crossed.subspan(first, passed - first);
+      Cell cell = path.visited[i];
+      while (cell != path.visited[i + 1]) cell = snapshot_.neighbour(path.crossed[passed++]);
+      const auto facets = path.crossed.subspan(first, passed - first);
       steps_.push_back({passing_time(facets), facets, cell});
     }
   }
 
   /// The first time at which p lies in all of some facets, which it passes together.
-  Moment<D> passing_time(std::span<const Half_facet> facets) const {
+  Event_time<D> passing_time(std::span<const Half_facet> facets) const {
     if (facets.size() == 1) {
       const Half_facet f = facets.front();
       const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f),
                                        triangle_.a, triangle_.b, counts_);
-      if (side.has_root()) return Moment<D>::root_of(side);
+      if (side.has_root()) return Event_time<D>::root_of(side);
       if (side.at_1() != 0) return {};  // a lies in it
     }
     const Rational_segment<D> way_of_p(triangle_.a, triangle_.b);
@@ -120,13 +120,13 @@ class Events {
     for (const Half_facet f : facets)
       if (const auto met = way_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
         time = std::max<Fraction>(time, met->low);
-    return Moment<D>(time);
+    return Event_time<D>(time);
   }
 
   /// The next time at which one of the signs changes that make the edge pass its chain.
-  std::optional<Moment<D>> end_of(const Chain& chain, const Moving_line<D>& line) const {
-    std::optional<Moment<D>> end;
-    const auto note = [&](const Moment<D>& root) {
+  std::optional<Event_time<D>> end_of(const Chain& chain, const Moving_line<D>& line) const {
+    std::optional<Event_time<D>> end;
+    const auto note = [&](const Event_time<D>& root) {
       if (!end || root < *end) end = root;
     };
     for (const Half_facet f : chain)
@@ -149,7 +149,7 @@ class Events {
   /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time of a line.
   bool leaves_through(const Cell_view<D>& cell, std::size_t i, const Moving_line<D>& line) const {
     if (side<Exact>(cell, i, triangle_.q, counts_) <= 0) return false;
-    const Moment<D>& now = line.time();
+    const Event_time<D>& now = line.time();
     if (now.sign_of(line.side_of(cell, i)) > 0) return false;
     const std::size_t ridges = cell.loop(i).size();
     for (std::size_t k = 0; k < ridges; ++k)
@@ -164,22 +164,22 @@ class Events {
   const Particle<D>& q_;
   Walk_counts& counts_;
   std::vector<Step<D>> steps_;
-  std::optional<Moment<D>> limit_;  ///< no event from then on matters
+  std::optional<Event_time<D>> limit_;  ///< no event from then on matters
   std::optional<bool> in_wall_plane_;
 };
 
 }  // namespace
 
 template <int D>
-Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts, std::optional<double> until) {
-  if (are_collinear(way.from.position, way.to.position, q.position))
-    return sweep_in_line(snapshot, way, q, before, counts, until);
-  return Events<D>(snapshot, way, q, counts, until).run(before);
+  if (are_collinear(path.from.position, path.to.position, q.position))
+    return collinear_sweep(snapshot, path, q, before, counts, until);
+  return Event_sweep<D>(snapshot, path, q, counts, until).run(before);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                    \
-  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+#define CELLWALK_INSTANTIATE(D)                                                                            \
+  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
                                             const Chain&, Walk_counts&, std::optional<double>);
 
 CELLWALK_INSTANTIATE(2)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/sweep.h>
-#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/edge/may_intersect.h>
 
-#include "confirm.h"
+#include "confirm_chain.h"
 #include "edge/flood/pierced.h"
 #include "events.h"
 
@@ -10,20 +10,20 @@ namespace cellwalk {
 namespace {
 
 template <int D>
-std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Way<D>& way,
+std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                           const Particle<D>& q, const Chain& before, Edge_counts& counts) {
   ++counts.event_sweeps;
-  Sweep_result<D> result = detail::follow_events(snapshot, way, q, before, counts.walk);
+  Sweep_result<D> result = detail::follow_events(snapshot, path, q, before, counts.walk);
   if (result.contact) return {};
   return Free_chain{std::move(result.chain)};
 }
 
 /// What the walls near a swept triangle prove of it.
-enum class Walls_say { free, blocked, nothing };
+enum class Triangle_verdict { free, blocked, undecided };
 
 template <int D>
-Walls_say ask_walls(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
-                    Edge_counts& counts) {
+Triangle_verdict classify_triangle(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
+                                   Edge_counts& counts) {
   detail::Flooded found;
   bool is_met = false, is_pierced = false;
   const auto on_wall = [&](Half_facet f) {
@@ -36,29 +36,30 @@ Walls_say ask_walls(const Snapshot<D>& snapshot, Cell start, const Swept_triangl
       detail::flood(snapshot, start, triangle, counts, detail::most_flooded, found, on_wall);
   if (is_pierced) {
     ++counts.pierced;
-    return Walls_say::blocked;
+    return Triangle_verdict::blocked;
   }
-  if (!is_whole || is_met) return Walls_say::nothing;
+  if (!is_whole || is_met) return Triangle_verdict::undecided;
   ++counts.clear;
-  return Walls_say::free;
+  return Triangle_verdict::free;
 }
 
 }  // namespace
 
 template <int D>
-std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                     const Chain& before, const Sweep_options& options, Edge_counts& counts) {
-  if (way.from.position == way.to.position) {
+std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                     const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                                     Edge_counts& counts) {
+  if (path.from.position == path.to.position) {
     ++counts.edges;
     ++counts.same_chain;
-    return Free_chain{before, way.is_apart};
+    return Free_chain{before, path.is_apart};
   }
   Chain_result<D> result;
   const std::uint64_t signs = counts.walk.predicates.orientations;
-  if (detail::is_confirmed(snapshot, way, q, before, options.certificates, result, counts)) {
+  if (detail::confirm_chain(snapshot, path, q, before, options.certificates, result, counts)) {
     // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside, or its ends lie
     // strictly inside of cells. With the way of p, so does the edge at all times before, but perhaps where it started.
-    return Free_chain{result.chain, way.is_apart && counts.walk.predicates.orientations == signs};
+    return Free_chain{result.chain, path.is_apart && counts.walk.predicates.orientations == signs};
   }
   ++counts.changed;
   // Where a facet is passed in its inside, the edge is on both sides of it, wherever it came from.
@@ -66,26 +67,28 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Way<D>& 
       result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
   if (is_crossed) return {};
   if (options.sweep == Sweep::three_segments)
-    return result.contact || result.has_choice ? chain_by_events(snapshot, way, q, before, counts)
+    return result.contact || result.has_choice ? chain_by_events(snapshot, path, q, before, counts)
                                                : Free_chain{result.chain};
   if (options.certificates.flood) {
-    const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-    switch (ask_walls(snapshot, way.from.cell, triangle, counts)) {
-      case Walls_say::blocked:
+    const Swept_triangle<D> triangle{path.from.position, path.to.position, q.position};
+    switch (classify_triangle(snapshot, path.from.cell, triangle, counts)) {
+      case Triangle_verdict::blocked:
         return {};
-      case Walls_say::free:
+      case Triangle_verdict::free:
         if (!result.contact) return Free_chain{result.chain, true};
         break;
-      case Walls_say::nothing:
+      case Triangle_verdict::undecided:
         break;
     }
   }
-  return chain_by_events(snapshot, way, q, before, counts);
+  return chain_by_events(snapshot, path, q, before, counts);
 }
 
-template std::optional<Free_chain> free_chain<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
-                                                 const Chain&, const Sweep_options&, Edge_counts&);
-template std::optional<Free_chain> free_chain<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
-                                                 const Chain&, const Sweep_options&, Edge_counts&);
+template std::optional<Free_chain> free_chain<2>(const Snapshot<2>&, const Vertex_path<2>&,
+                                                 const Particle<2>&, const Chain&, const Sweep_options&,
+                                                 Edge_counts&);
+template std::optional<Free_chain> free_chain<3>(const Snapshot<3>&, const Vertex_path<3>&,
+                                                 const Particle<3>&, const Chain&, const Sweep_options&,
+                                                 Edge_counts&);
 
 }  // namespace cellwalk

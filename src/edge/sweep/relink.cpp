@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "relink.h"
 
-#include <cellwalk/internal/edge/may_meet.h>
+#include <cellwalk/internal/edge/may_intersect.h>
 #include <cellwalk/internal/walk/link_search.h>
 
 #include <algorithm>
 
+#include "edge/chain/chain_search.h"
 #include "edge/chain/equal_chains.h"
-#include "edge/chain/ordered_ways.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -22,10 +22,10 @@ bool holds_triangle(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cel
 }
 
 template <int D>
-class Relinking {
+class Relink_search {
  public:
-  Relinking(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, const Particle<D>& q,
-            const Chain& chain)
+  Relink_search(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, const Particle<D>& q,
+                const Chain& chain)
       : snapshot_(snapshot),
         line_(line),
         start_(start),
@@ -39,25 +39,25 @@ class Relinking {
 
   std::optional<Relinked<D>> run() {
     if (!lies_in_plane()) return {};
-    const Moment<D> end = next_root();
+    const Event_time<D> end = next_root();
     const Rational_segment<D> after = at(middle(line_.time().value(), end.value()));
-    Ordered_ways<D, Relinking> ways(snapshot_, after, q_, *this, line_.counts());
-    if (!ways.find(start_)) return {};
-    return Relinked<D>{ways.chain(), end};
+    Chain_search<D, Relink_search> search(snapshot_, after, q_, *this, line_.counts());
+    if (!search.find(start_)) return {};
+    return Relinked<D>{search.chain(), end};
   }
 
   /// True if a way is not equal to the chain up to a place.
-  bool is_wrong(const Chain& way, const Fraction& end) const {
-    const auto pieces = pieces_of<D>(snapshot_, now_, start_, {way.data(), way.size()}, end);
+  bool is_wrong(const Chain& path, const Fraction& end) const {
+    const auto pieces = pieces_of<D>(snapshot_, now_, start_, {path.data(), path.size()}, end);
     return parting_of(snapshot_, now_, pieces_, pieces).has_value();
   }
   /// Where the place at which the edge passes a border just after this time ends up at this time.
   Fraction limit_of(const Cell_view<D>& cell, std::size_t i, int border) const {
     return now_.at_border(cell, i, border);
   }
-  bool is_accepted(const Chain& way) const {
+  bool is_accepted(const Chain& path) const {
     Half_facet wall = Half_facet::none;
-    return are_equal(snapshot_, now_, start_, chain_, way, wall);
+    return are_equal(snapshot_, now_, start_, chain_, path, wall);
   }
   /// There are two sides only: which of them comes after the one preferred is no question.
   bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
@@ -71,9 +71,9 @@ class Relinking {
   }
 
   /// Until then, the edge passes the facets of these cells in the same way.
-  Moment<D> next_root() const {
-    Moment<D> end(1.0);
-    const auto note = [&](const Moment<D>& root) {
+  Event_time<D> next_root() const {
+    Event_time<D> end(1.0);
+    const auto note = [&](const Event_time<D>& root) {
       if (root < end) end = root;
     };
     for (const Cell c : cells_) {
@@ -105,9 +105,9 @@ bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, C
       const bool is_wall = snapshot.is_impassable(f);
       if ((is_wall || !of_walls) && line.holds_triangle(cell, i)) return true;
       if (is_wall) continue;
-      const Cell next = snapshot.neighbor(f);
+      const Cell next = snapshot.neighbour(f);
       if (std::find(cells.begin(), cells.end(), next) == cells.end() &&
-          may_be_near(cell, i, line.triangle(), line.counts()))
+          may_overlap(cell, i, line.triangle(), line.counts()))
         cells.push_back(next);
     }
   }
@@ -124,7 +124,7 @@ template <int D>
 std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
                                   const Particle<D>& q, const Chain& chain) {
   if (!may_lie_in_plane(snapshot, line, start, false)) return {};
-  return Relinking<D>(snapshot, line, start, q, chain).run();
+  return Relink_search<D>(snapshot, line, start, q, chain).run();
 }
 
 template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,

@@ -13,7 +13,7 @@ namespace cellwalk::detail {
 template <int D>
 struct Relinked {
   Chain chain;
-  Moment<D> end;
+  Event_time<D> end;
 };
 
 /// A chain of the edge just after a time that starts in a cell of p and is equal to another at that time, if there is one. For

@@ -11,14 +11,14 @@
 #include "edge/contact/touch.h"
 #include "edge/exact/exit_time.h"
 #include "events.h"
-#include "moving_walk.h"
+#include "moving_line_walk.h"
 
 namespace cellwalk {
 namespace {
 
 template <int D>
-Swept_triangle<D> triangle_of(const Way<D>& way, const Particle<D>& q) {
-  return {way.from.position, way.to.position, q.position};
+Swept_triangle<D> triangle_of(const Vertex_path<D>& path, const Particle<D>& q) {
+  return {path.from.position, path.to.position, q.position};
 }
 
 template <int D>
@@ -29,98 +29,100 @@ void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>
 /// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
 /// be a double. Where p moves in the line of the edge, the events say the same.
 template <int D>
-bool is_free_where_blocked(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                            Walk_counts& counts) {
-  if (are_collinear(way.from.position, way.to.position, q.position)) return false;
+  if (are_collinear(path.from.position, path.to.position, q.position)) return false;
   // The motion seen backwards: p enters its last cell at the last of the times at which it passes planes of the facets beyond
   // which it comes from, and what is just after that then is just before it now.
-  const Swept_triangle<D> backwards{way.to.position, way.from.position, q.position};
-  const Cell last = way.visited.back();
+  const Swept_triangle<D> backwards{path.to.position, path.from.position, q.position};
+  const Cell last = path.visited.back();
   const Cell_view<D> cell = snapshot.view(last);
-  detail::Moment<D> time;
+  detail::Event_time<D> time;
   for (std::size_t i = 0; i < cell.facet_count(); ++i) {
     const auto side = detail::moving_side<D>(cell, i, backwards.a, backwards.b, counts);
     if (side.at_0() <= 0) continue;
     if (!side.has_root()) return true;  // p is blocked at once
-    if (const auto root = detail::Moment<D>::root_of(side); time < root) time = root;
+    if (const auto root = detail::Event_time<D>::root_of(side); time < root) time = root;
   }
   const detail::Moving_line<D> line(backwards, time, counts);
   const auto accept = [](const Chain&) { return true; };
-  return detail::Moving_walk<D, decltype(accept)>(snapshot, line, q, accept).from(last);
+  return detail::Moving_line_walk<D, decltype(accept)>(snapshot, line, q, accept).from(last);
 }
 
 /// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
 template <int D>
-Sweep_result<D> detect(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                        const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (options.sweep != Sweep::three_segments)
-    return sweep_triangle(snapshot, way, q, before, counts, options.certificates);
-  if (way.blocked) {
+    return sweep_triangle(snapshot, path, q, before, counts, options.certificates);
+  if (path.blocked) {
     ++counts.edges;
     ++counts.changed;
-    if (is_free_where_blocked(snapshot, way, q, counts.walk)) {
+    if (is_free_where_blocked(snapshot, path, q, counts.walk)) {
       Sweep_result<D> result{{}, before};
-      walk_start(snapshot, result.chain, way.crossed);
+      prepend_crossed_facets(snapshot, result.chain, path.crossed);
       return result;
     }
   } else {
-    Chain_result<D> found = check_third_segment(snapshot, way, q, before, counts, options.certificates);
+    Chain_result<D> found = check_third_segment(snapshot, path, q, before, counts, options.certificates);
     if (!found.contact && !found.has_choice) return {{}, std::move(found.chain)};
   }
   // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
   // goes on, is for the events to say.
   ++counts.event_sweeps;
-  return detail::follow_events(snapshot, way, q, before, counts.walk);
+  return detail::follow_events(snapshot, path, q, before, counts.walk);
 }
 
 template <int D>
-Contact<D> locate(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q, const Chain& before,
-                  const Contact<D>& first, const Sweep_options& options, Edge_counts& counts) {
+Contact<D> locate(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
+                  const Chain& before, const Contact<D>& first, const Sweep_options& options,
+                  Edge_counts& counts) {
   switch (options.search) {
     case Contact_search::exact:
       break;
     case Contact_search::dichotomic:
       return detail::dichotomic_search<D>(
-          snapshot, way, q,
+          snapshot, path, q,
           [&](std::optional<double> until) {
-            return detail::follow_events(snapshot, way, q, before, counts.walk, until);
+            return detail::follow_events(snapshot, path, q, before, counts.walk, until);
           },
           options.tolerance, counts);
     case Contact_search::dichotomic_segment:
-      if (const auto contact = detail::segment_search(snapshot, way, q, options.tolerance, counts))
+      if (const auto contact = detail::segment_search(snapshot, path, q, options.tolerance, counts))
         return *contact;
       break;
     case Contact_search::exhaustive: {
       const detail::Flooded cells = options.cells == Search_cells::flooded
-                                        ? detail::flooded_cells(snapshot, way, q, counts)
-                                        : detail::traversed_cells(snapshot, way, q, counts);
-      if (const auto contact = detail::exhaustive_search<D>(snapshot, way, q, {cells.data(), cells.size()},
+                                        ? detail::flooded_cells(snapshot, path, q, counts)
+                                        : detail::traversed_cells(snapshot, path, q, counts);
+      if (const auto contact = detail::exhaustive_search<D>(snapshot, path, q, {cells.data(), cells.size()},
                                                             options.below, counts))
         return *contact;
       break;
     }
   }
   Contact<D> contact = first;
-  contact.normal = detail::edge_normal(snapshot, triangle_of(way, q), first, first.normal);
+  contact.normal = detail::edge_normal(snapshot, triangle_of(path, q), first, first.normal);
   return contact;
 }
 
 }  // namespace
 
 template <int D>
-Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                 const Chain& before, const Sweep_options& options, Edge_counts& counts) {
-  Sweep_result<D> result = detect(snapshot, way, q, before, options, counts);
-  if (result.contact) result.contact = locate(snapshot, way, q, before, *result.contact, options, counts);
+Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                 const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                                 Edge_counts& counts) {
+  Sweep_result<D> result = detect(snapshot, path, q, before, options, counts);
+  if (result.contact) result.contact = locate(snapshot, path, q, before, *result.contact, options, counts);
   if (options.touch == Touch::stop)
-    keep_first(result.contact, detail::first_touch(snapshot, way.from.cell, triangle_of(way, q), counts));
+    keep_first(result.contact, detail::first_touch(snapshot, path.from.cell, triangle_of(path, q), counts));
   return result;
 }
 
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
                           const Wall_contact<D>& met, Walk_counts& counts) {
-  const detail::Moment<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
+  const detail::Event_time<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
   return to_contact(met, to_time(time.value()), Body_feature::vertex);
 }
 
@@ -152,8 +154,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
   const Walk_result<D> walked =
       move(snapshot, moved, target, counts.walk, {Walk_strategy::certified, &visited, &crossed});
   moved.position = target;
-  const Way<D> way{p, moved, visited, crossed, walked.contact.has_value()};
-  Sweep_result<D> result = sweep_edge_along(snapshot, way, q, before, options, counts);
+  const Vertex_path<D> path{p, moved, visited, crossed, walked.contact.has_value()};
+  Sweep_result<D> result = sweep_edge_along(snapshot, path, q, before, options, counts);
   if (walked.contact)
     keep_first<D>(result.contact, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
   result.cells = walked.cells;
@@ -163,8 +165,9 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                              \
-  template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&,        \
-                                               const Chain&, const Sweep_options&, Edge_counts&);            \
+  template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Vertex_path<D>&,                    \
+                                               const Particle<D>&, const Chain&, const Sweep_options&,       \
+                                               Edge_counts&);                                                \
   template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&,                \
                                         const Wall_contact<D>&, Walk_counts&);                               \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/three_segments.h>
 
-#include "confirm.h"
+#include "confirm_chain.h"
 
 namespace cellwalk {
 
 template <int D>
-Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                    const Chain& before, Edge_counts& counts,
+Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                    const Particle<D>& q, const Chain& before, Edge_counts& counts,
                                     const Edge_certificates& certificates) {
   Chain_result<D> result;
-  if (!detail::is_confirmed(snapshot, way, q, before, certificates, result, counts)) ++counts.changed;
-  if (result.contact) locate_contact(snapshot, way.to.position, q.position, *result.contact);
+  if (!detail::confirm_chain(snapshot, path, q, before, certificates, result, counts)) ++counts.changed;
+  if (result.contact) locate_contact(snapshot, path.to.position, q.position, *result.contact);
   return result;
 }
 
-template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Way<2>&, const Particle<2>&,
+template Chain_result<2> check_third_segment<2>(const Snapshot<2>&, const Vertex_path<2>&, const Particle<2>&,
                                                 const Chain&, Edge_counts&, const Edge_certificates&);
-template Chain_result<3> check_third_segment<3>(const Snapshot<3>&, const Way<3>&, const Particle<3>&,
+template Chain_result<3> check_third_segment<3>(const Snapshot<3>&, const Vertex_path<3>&, const Particle<3>&,
                                                 const Chain&, Edge_counts&, const Edge_certificates&);
 
 }  // namespace cellwalk

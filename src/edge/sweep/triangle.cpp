@@ -4,40 +4,40 @@
 
 #include <utility>
 
-#include "confirm.h"
+#include "confirm_chain.h"
 #include "events.h"
 
 namespace cellwalk {
 template <int D>
-Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates) {
-  if (way.blocked) {
+  if (path.blocked) {
     // There is no chain at the end to confirm, and the wall that blocks p meets the triangle.
     ++counts.edges;
     ++counts.changed;
     ++counts.event_sweeps;
-    return detail::follow_events(snapshot, way, q, before, counts.walk);
+    return detail::follow_events(snapshot, path, q, before, counts.walk);
   }
-  if (way.from.position == way.to.position) {
+  if (path.from.position == path.to.position) {
     // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
     ++counts.edges;
     ++counts.same_chain;
     return {{}, before};
   }
   Chain_result<D> found;
-  if (detail::is_confirmed(snapshot, way, q, before, certificates, found, counts))
+  if (detail::confirm_chain(snapshot, path, q, before, certificates, found, counts))
     return {{}, std::move(found.chain)};
   ++counts.changed;
-  const Swept_triangle<D> triangle{way.from.position, way.to.position, q.position};
-  if (certificates.flood && !found.contact && is_clear(snapshot, way.from.cell, triangle, counts))
+  const Swept_triangle<D> triangle{path.from.position, path.to.position, q.position};
+  if (certificates.flood && !found.contact && is_free_of_walls(snapshot, path.from.cell, triangle, counts))
     return {{}, std::move(found.chain)};
   ++counts.event_sweeps;
-  return detail::follow_events(snapshot, way, q, before, counts.walk);
+  return detail::follow_events(snapshot, path, q, before, counts.walk);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                     \
-  template Sweep_result<D> sweep_triangle<D>(const Snapshot<D>&, const Way<D>&, const Particle<D>&, \
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Sweep_result<D> sweep_triangle<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
                                              const Chain&, Edge_counts&, const Edge_certificates&);
 
 CELLWALK_INSTANTIATE(2)

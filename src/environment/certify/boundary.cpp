@@ -135,7 +135,7 @@ void append_boundary_facets(const Snapshot<D>& snapshot, Cell c, std::vector<Bou
   Predicate_counts counts;
   const Cell_view<D> view = snapshot.view(c);
   for (std::size_t k = 0; k < view.facet_count(); ++k)
-    if (const Half_facet f = snapshot.half_facet(c, k); snapshot.neighbor(f) == Cell::none)
+    if (const Half_facet f = snapshot.half_facet(c, k); snapshot.neighbour(f) == Cell::none)
       facets.push_back({f, plane_of_facet<D>(counts, view, k), loop_of(view, k)});
 }
 

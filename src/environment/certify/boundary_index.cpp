@@ -53,7 +53,7 @@ std::vector<typename Boundary_index<D>::Entry> Boundary_index<D>::entries(const 
   for (const Cell c : cells)
     for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
       const Half_facet f = snapshot.half_facet(c, i);
-      if (snapshot.neighbor(f) == Cell::none)
+      if (snapshot.neighbour(f) == Cell::none)
         result.emplace_back(box_of<D>(snapshot.points(), snapshot.loop(f)), to_index(f));
     }
   return result;

@@ -43,7 +43,7 @@ std::string flaw_of_link(const Complex<D>& complex, Half_facet f) {
   const Snapshot<D>& snapshot = complex.snapshot();
   const Half_facet g = complex.opposite(f);
   if (g == Half_facet::none) {
-    if (snapshot.neighbor(f) != Cell::none)
+    if (snapshot.neighbour(f) != Cell::none)
       return "does not occur in the cell it is glued to: glue the cells again";
     return snapshot.is_impassable(f) ? "" : "lies on the boundary and is passable: mark it impassable";
   }

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> curve_order(const Cell_soup<D>& soup, const Plane_fra
     for (int k = 0; k < D; ++k) {
       double sum = 0;
       for (std::size_t i = begin; i < end; ++i)
-        sum += (soup.points[soup.vertices[i]][k] - frame.center[k]) * frame.scale;
+        sum += (soup.points[soup.vertices[i]][k] - frame.centre[k]) * frame.scale;
       const double mean = begin == end ? 0 : sum / static_cast<double>(end - begin);
       // Where the frame maps nothing, the mean is not a number and the order is that of the input.
       const double t = (mean + 1) / 2 * ((1 << curve_bits) - 1);

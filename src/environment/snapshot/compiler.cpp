@@ -167,7 +167,7 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
   const auto is_convex = [&] {
     for (std::size_t i = 0; i < va.facet_count(); ++i) {
       const Half_facet shared = s_.half_facet(a, i);
-      if (s_.neighbor(shared) != b) continue;
+      if (s_.neighbour(shared) != b) continue;
       if (s_.is_impassable(shared)) return false;
       const std::size_t j = s_.facet_of(s_.opposite(shared));
       const auto loop = va.loop(i);
@@ -176,7 +176,7 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
         const std::size_t ga = across_ridge(va, i, u, v), gb = across_ridge(vb, j, D == 2 ? u : v, u);
         if (ga == va.facet_count() || gb == vb.facet_count()) return false;
         // A ridge between two shared facets lies inside the union.
-        if (s_.neighbor(s_.half_facet(a, ga)) == b &&
+        if (s_.neighbour(s_.half_facet(a, ga)) == b &&
             s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
           continue;
         bool in_one_plane = true;

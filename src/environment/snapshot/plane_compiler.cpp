@@ -43,7 +43,7 @@ Float_plane<D> certify_plane(const Vector<D>& normal, const Vector<D>& normal_er
 template <int D>
 bool map_exactly(const Plane_frame<D>& frame, const Point<D>& x, Point<D>& y) {
   for (int i = 0; i < D; ++i) {
-    y[i] = (x[i] - frame.center[i]) * frame.scale;
+    y[i] = (x[i] - frame.centre[i]) * frame.scale;
     if (!(std::abs(y[i]) <= 1)) return false;
   }
   return true;
@@ -64,8 +64,8 @@ Plane_frame<D> make_frame(std::span<const Point<D>> points) {
     }
   double extent = 0;
   for (int i = 0; i < D; ++i) {
-    frame.center[i] = low[i] / 2 + high[i] / 2;
-    extent = std::max({extent, frame.center[i] - low[i], high[i] - frame.center[i]});
+    frame.centre[i] = low[i] / 2 + high[i] / 2;
+    extent = std::max({extent, frame.centre[i] - low[i], high[i] - frame.centre[i]});
   }
   if (!(extent > 1e-100 && extent < 1e100)) return frame;
   int exponent = 0;

@@ -25,7 +25,7 @@ std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::u
 
 template <int D>
 Half_facet Snapshot<D>::opposite(Half_facet f) const {
-  const Cell other = neighbor(f);
+  const Cell other = neighbour(f);
   if (other == Cell::none) return Half_facet::none;
   const Cell own = cell_of(f);
   const Cell_view<D> a = view(own), b = view(other);
@@ -33,7 +33,7 @@ Half_facet Snapshot<D>::opposite(Half_facet f) const {
   const std::uint32_t u = a.point_index(loop[0]), v = a.point_index(loop[1]);
   // The edge uv of one loop is the edge vu of the other; a cell has each directed edge once.
   for (std::size_t i = 0; i < b.facet_count(); ++i) {
-    if (neighbor(half_facet(other, i)) != own) continue;
+    if (neighbour(half_facet(other, i)) != own) continue;
     const auto candidate = b.loop(i);
     for (std::size_t k = 0; k < candidate.size(); ++k)
       if (b.point_index(candidate[k]) == v && b.point_index(candidate[(k + 1) % candidate.size()]) == u)
@@ -68,7 +68,7 @@ void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
   const Cell a = cell_of(f), b = cell_of(g);
   Snapshot_compiler<D> compiler(*this);
   for (std::size_t i = 0; i < facet_count(a); ++i)
-    if (neighbor(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
+    if (neighbour(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
   ++epoch_;
 }
 
@@ -88,7 +88,7 @@ void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
     for (std::size_t i = 0; i < facet_count(c); ++i) {
       const Half_facet f = half_facet(c, i);
       // A facet between two of the cells is written from the first of them, for both sides.
-      if (neighbor(f) < c && std::binary_search(sorted.begin(), sorted.end(), neighbor(f))) continue;
+      if (neighbour(f) < c && std::binary_search(sorted.begin(), sorted.end(), neighbour(f))) continue;
       compiler.write_convex_pair(f);
     }
 }

@@ -112,7 +112,7 @@ void Split_plan::repair() {
     for (std::uint32_t slot = 0; slot < stars_.size(); ++slot) {
       if (stars_[slot].found) continue;
       const bool mended = repair(slot);
-      if (!mended && !has_open_neighbor(slot)) refuse(split_cells_[slot]);
+      if (!mended && !has_open_neighbour(slot)) refuse(split_cells_[slot]);
       changed |= mended;
     }
   }
@@ -120,7 +120,7 @@ void Split_plan::repair() {
     if (!stars_[slot].found) refuse(split_cells_[slot]);
 }
 
-bool Split_plan::has_open_neighbor(std::uint32_t slot) const {
+bool Split_plan::has_open_neighbour(std::uint32_t slot) const {
   const std::uint32_t cell = split_cells_[slot];
   for (std::uint32_t f = soup_.cell_begin[cell]; f < soup_.cell_begin[cell + 1]; ++f) {
     if (!is_cut(f)) continue;

@@ -51,7 +51,7 @@ class Split_plan {
   /// Looks for other cuts of the facets of one cell that give it a star and leave its neighbours theirs.
   bool repair(std::uint32_t slot);
   /// True if a neighbour that shares a cut has no star yet: mending it may change the cut.
-  bool has_open_neighbor(std::uint32_t slot) const;
+  bool has_open_neighbour(std::uint32_t slot) const;
   bool try_cuts(std::uint32_t slot, const std::vector<std::uint32_t>& cuts,
                 const std::vector<const Triangulation*>& triangles);
   Star find_star_of(std::uint32_t slot) const;

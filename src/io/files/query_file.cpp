@@ -22,12 +22,12 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
   std::vector<Query_row<D, N>> rows(table.row_count());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     rows[r].line = table.line(r);
-    if (const auto problem = table.row_problem(r)) rows[r].invalid = *problem;
+    if (const auto problem = table.row_problem(r)) rows[r].error = *problem;
     for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t k = 0; k < D && rows[r].invalid.empty(); ++k) {
+      for (std::size_t k = 0; k < D && rows[r].error.empty(); ++k) {
         const Parsed_number number = table.number(r, columns[i][k]);
         rows[r].points[i][k] = number.value;
-        rows[r].invalid = number.reason;
+        rows[r].error = number.reason;
       }
   }
   return rows;

@@ -53,7 +53,7 @@ Content from_table(const std::string& name, std::string_view text, Read_report& 
   report.format = "CSV";
   Content content;
   for (const auto& row : query_rows<D, 1>(Csv_table::parse(name, text), {""})) {
-    if (!row.invalid.empty()) fail(name, row.line, row.invalid);
+    if (!row.error.empty()) fail(name, row.line, row.error);
     Point<3> p{};
     std::copy(row.points[0].begin(), row.points[0].end(), p.begin());
     const auto i = static_cast<std::uint32_t>(content.parts.points.size());

@@ -21,11 +21,11 @@ Environment_source environment_source(const Json_node& node) {
     return node.string();
   }
   if (!node.is_object()) node.fail("expected the name of a mesh file or {\"generate\": ...}");
-  Recipe recipe;
-  recipe.generator = node.at("generate").string();
+  Generator_call generator_call;
+  generator_call.generator = node.at("generate").string();
   for (const std::string& key : node.keys())
-    if (key != "generate") recipe.options[key] = node.at(key).numbers();
-  return recipe;
+    if (key != "generate") generator_call.options[key] = node.at(key).numbers();
+  return generator_call;
 }
 
 template <int D>

@@ -57,10 +57,10 @@ void keep_environments() {
       &Snapshot<D>::cell, &Snapshot<D>::index, &Snapshot<D>::is_solid, &Snapshot<D>::view,
       &Snapshot<D>::facet_count, &Snapshot<D>::half_facet_slots, &Snapshot<D>::half_facet,
       &Snapshot<D>::cell_of, &Snapshot<D>::facet_of, &Snapshot<D>::is_impassable,
-      &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair, &Snapshot<D>::neighbor,
+      &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair, &Snapshot<D>::neighbour,
       &Snapshot<D>::convex_passage, &Snapshot<D>::opposite, &Snapshot<D>::loop, &Snapshot<D>::points,
       &Snapshot<D>::point, &Snapshot<D>::frame, &Snapshot<D>::blocks, &Snapshot<D>::links,
-      &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks, &Snapshot<D>::prefetch_neighbors,
+      &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks, &Snapshot<D>::prefetch_neighbours,
       &Snapshot<D>::uncertified_planes, &Snapshot<D>::set_impassable, &Snapshot<D>::move_point,
       &Snapshot<D>::add_point, &Snapshot<D>::update_geometry, &Snapshot<D>::replace_cells,
       &Snapshot<D>::bytes, &Snapshot<D>::cell_slots, &Snapshot<D>::check_epoch,
@@ -73,7 +73,7 @@ void keep_bodies() {
   keep(
       +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
       &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
-      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::catch_up,
+      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::refresh,
       &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
 
   keep(&transformed<D>, &make_body<D>,
@@ -95,10 +95,11 @@ void keep_simulation() {
       &Shape_matching<D>::material, &Shape_matching<D>::goals, &nearest_rotation<D>);
 
   keep(
-      +[](Body<D> b) { return Flight<D>(std::move(b), Vector<D>{}, Spin<D>{}); },
-      +[](Body<D> b, Guided_motion<D> g) { return Flight<D>(std::move(b), std::move(g)); }, &moved<Flight<D>>,
-      &Flight<D>::step, &Flight<D>::targets, &Flight<D>::velocity, &Flight<D>::has_arrived);
-  keep_both(&Flight<D>::body, &Flight<D>::body);
+      +[](Body<D> b) { return Rigid_body<D>(std::move(b), Vector<D>{}, Spin<D>{}); },
+      +[](Body<D> b, Guided_motion<D> g) { return Rigid_body<D>(std::move(b), std::move(g)); },
+      &moved<Rigid_body<D>>, &Rigid_body<D>::step, &Rigid_body<D>::targets, &Rigid_body<D>::velocity,
+      &Rigid_body<D>::has_arrived);
+  keep_both(&Rigid_body<D>::body, &Rigid_body<D>::body);
 
   keep(
       +[](const Snapshot<D>& s, Body<D> b, const Catheter<D>& c) { return Rod<D>(s, std::move(b), c, {}); },

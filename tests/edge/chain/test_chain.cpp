@@ -99,7 +99,7 @@ TEST(Chain, IsReducedWhereTheEndWalksAlongIt) {
     std::vector<Half_facet> crossed;
     ASSERT_EQ(move(snapshot, p, target, counts, {Walk_strategy::certified, nullptr, &crossed}).status,
               Walk_status::arrived);
-    walk_start(snapshot, chain, crossed);
+    prepend_crossed_facets(snapshot, chain, crossed);
     expect_leads(snapshot, chain, p.cell, q.cell);
     EXPECT_TRUE(passes(snapshot, chain, p.position, q.position, counts));
   };

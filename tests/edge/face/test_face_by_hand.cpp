@@ -78,7 +78,7 @@ TEST(FaceByHand, TouchingASpikeIsFree) {
   Face_body body(snapshot);
   ASSERT_TRUE(place(body, snapshot, over_tip));
   ASSERT_TRUE(body.move_corner(0, {2.5, 2.5, 0.75}).is_made());  // the face lies on the tip
-  EXPECT_TRUE(body.rests().empty());
+  EXPECT_TRUE(body.supporting_walls().empty());
   EXPECT_EQ(body.registered().piercing, Half_facet::none);
   const auto down = body.move_corner(0, {2.375, 2.375, 0.75});
   ASSERT_TRUE(down.is_face_only());
@@ -131,14 +131,14 @@ TEST(FaceByHand, CutsNoCornerOffABlockOnWhichItRests) {
   Face_body body(snapshot);
   // On the side x = 2 of the block, two edges along its edges.
   ASSERT_TRUE(place(body, snapshot, {tip, Point<3>{2, 1.5, 1}, Point<3>{2, 2, 0.5}}));
-  ASSERT_EQ(body.rests().size(), 1u);
-  EXPECT_FALSE(snapshot.is_solid(snapshot.cell_of(body.rests()[0])));
+  ASSERT_EQ(body.supporting_walls().size(), 1u);
+  EXPECT_FALSE(snapshot.is_solid(snapshot.cell_of(body.supporting_walls()[0])));
   const auto outcome = body.move_corner(0, {1.5, 2, 1});
   ASSERT_TRUE(outcome.is_face_only()) << "the edges slide on the block, no wall is crossed";
   EXPECT_EQ(outcome.face.contact->time, Exact_time());
-  EXPECT_EQ(outcome.face.contact->facet, body.rests()[0]);
+  EXPECT_EQ(outcome.face.contact->facet, body.supporting_walls()[0]);
   EXPECT_TRUE(body.move_corner(0, {2.5, 2, 1}).is_made());
-  EXPECT_TRUE(body.rests().empty());
+  EXPECT_TRUE(body.supporting_walls().empty());
 }
 
 /// A membrane that a large face has strictly inside.
@@ -161,13 +161,13 @@ TEST(FaceByHand, LandsOnAMembraneAndLeavesOnlyUpwards) {
     Face_body body(snapshot);
     ASSERT_TRUE(place(body, snapshot, Floating::at(from)));
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_TRUE(body.rests().empty());
+      EXPECT_TRUE(body.supporting_walls().empty());
       ASSERT_TRUE(body.move_corner(k, Floating::at(1)[k]).is_made());
     }
-    ASSERT_EQ(body.rests().size(), 1u);
-    const Cell cell = snapshot.cell_of(body.rests()[0]);
+    ASSERT_EQ(body.supporting_walls().size(), 1u);
+    const Cell cell = snapshot.cell_of(body.supporting_walls()[0]);
     EXPECT_EQ(snapshot.index(cell), 2 + 5 * (2 + 5 * (from > 1 ? 1 : 0)));
-    EXPECT_EQ(body.registered().rests, body.rests());
+    EXPECT_EQ(body.registered().supporting_walls, body.supporting_walls());
     for (std::size_t k = 0; k < 3; ++k) {
       const auto through = body.move_corner(k, Floating::at(2 - from)[k]);
       ASSERT_TRUE(through.is_face_only());
@@ -176,10 +176,10 @@ TEST(FaceByHand, LandsOnAMembraneAndLeavesOnlyUpwards) {
     }
     // Sliding in the plane keeps the side.
     ASSERT_TRUE(body.move_corner(2, {2.5, 4.875, 1}).is_made());
-    EXPECT_EQ(body.rests().size(), 1u);
-    EXPECT_EQ(snapshot.cell_of(body.rests()[0]), cell);
+    EXPECT_EQ(body.supporting_walls().size(), 1u);
+    EXPECT_EQ(snapshot.cell_of(body.supporting_walls()[0]), cell);
     ASSERT_TRUE(body.move_corner(0, Floating::at(from)[0]).is_made());
-    EXPECT_TRUE(body.rests().empty());
+    EXPECT_TRUE(body.supporting_walls().empty());
     EXPECT_GT(body.counts.flat, 0u);
   }
 }
@@ -211,9 +211,9 @@ TEST(FaceByHand, TakesAFreeSideOfAMembraneThatItsEdgesPassed) {
   Triangle corners = Floating::at(1);
   corners[2] = {2.5, 0.5, 1};
   ASSERT_TRUE(place(body, snapshot, corners));
-  EXPECT_TRUE(body.rests().empty());
+  EXPECT_TRUE(body.supporting_walls().empty());
   ASSERT_TRUE(body.move_corner(2, {2.5, 4.75, 1}).is_made());  // in the plane, over the membrane
-  ASSERT_EQ(body.rests().size(), 1u);
+  ASSERT_EQ(body.supporting_walls().size(), 1u);
   const auto up = body.move_corner(0, Floating::at(1.5)[0]), down = body.move_corner(0, Floating::at(0.5)[0]);
   EXPECT_NE(up.face.contact.has_value(), down.face.contact.has_value());
 }
@@ -231,17 +231,18 @@ TEST(FaceByHand, SlidesOnATessellatedFloor) {
     down[2] = 1;
     ASSERT_TRUE(body.move_corner(k, down).is_made());
   }
-  EXPECT_EQ(body.rests().size(), 6u);  // tiles (0..2, 0..2) below the diagonal x + y = 3
+  EXPECT_EQ(body.supporting_walls().size(), 6u);  // tiles (0..2, 0..2) below the diagonal x + y = 3
   const auto expect_above = [&] {
-    for (const Half_facet rest : body.rests()) EXPECT_GE(snapshot.index(snapshot.cell_of(rest)), 25u);
-    EXPECT_EQ(body.registered().rests, body.rests());
+    for (const Half_facet supporting_wall : body.supporting_walls())
+      EXPECT_GE(snapshot.index(snapshot.cell_of(supporting_wall)), 25u);
+    EXPECT_EQ(body.registered().supporting_walls, body.supporting_walls());
     EXPECT_EQ(body.registered().piercing, Half_facet::none);
   };
   expect_above();
   for (const auto& [k, x, y] :
        {std::tuple{1, 4.5, 0.5}, {2, 0.5, 4.5}, {0, 4.5, 4.5}, {1, 4.0, 2.0}, {2, 3.0, 3.0}}) {
     ASSERT_TRUE(body.move_corner(static_cast<std::size_t>(k), {x, y, 1}).is_made());
-    EXPECT_FALSE(body.rests().empty());
+    EXPECT_FALSE(body.supporting_walls().empty());
     expect_above();
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -280,8 +281,9 @@ TEST(FaceByHand, WallsThatMeetInThePlaneOfTheFacePierceItTogether) {
     const Snapshot<3> snapshot = corner.compile();
     Face_body body(snapshot);
     ASSERT_TRUE(place(body, snapshot, flat));
-    ASSERT_EQ(body.rests().size(), 1u);
-    EXPECT_GE(snapshot.index(snapshot.cell_of(body.rests()[0])), 16u) << "a wall stands on the other side";
+    ASSERT_EQ(body.supporting_walls().size(), 1u);
+    EXPECT_GE(snapshot.index(snapshot.cell_of(body.supporting_walls()[0])), 16u)
+        << "a wall stands on the other side";
   }
 }
 

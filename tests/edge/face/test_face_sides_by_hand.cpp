@@ -52,9 +52,10 @@ bool put(Face_body& body, const Snapshot<3>& snapshot, const Triangle& corners) 
 }
 
 /// The cells on which the face rests.
-std::vector<std::uint32_t> cells_of(const Snapshot<3>& snapshot, const Face_rests& rests) {
+std::vector<std::uint32_t> cells_of(const Snapshot<3>& snapshot, const Supporting_walls& supporting_walls) {
   std::vector<std::uint32_t> cells;
-  for (const Half_facet rest : rests) cells.push_back(snapshot.index(snapshot.cell_of(rest)));
+  for (const Half_facet supporting_wall : supporting_walls)
+    cells.push_back(snapshot.index(snapshot.cell_of(supporting_wall)));
   return cells;
 }
 
@@ -67,8 +68,8 @@ TEST(FaceSidesByHand, LandsOnASlitAndLeavesAsItCame) {
     // One wall from above; from below two, that together coincide with it.
     const std::vector<std::uint32_t> cells =
         from > 1 ? std::vector<std::uint32_t>{above} : std::vector<std::uint32_t>{below, below};
-    EXPECT_EQ(cells_of(snapshot, body.rests()), cells);
-    EXPECT_EQ(body.registered().rests, body.rests());
+    EXPECT_EQ(cells_of(snapshot, body.supporting_walls()), cells);
+    EXPECT_EQ(body.registered().supporting_walls, body.supporting_walls());
     EXPECT_EQ(body.registered().piercing, Half_facet::none);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto through = body.move_corner(k, face_at(2 - from)[k]);
@@ -77,9 +78,9 @@ TEST(FaceSidesByHand, LandsOnASlitAndLeavesAsItCame) {
       EXPECT_EQ(through.face.contact->normal[2], from > 1 ? 1 : -1);
     }
     ASSERT_TRUE(body.move_corner(2, {2.5, 4.875, 1}).is_made());  // in the plane
-    EXPECT_EQ(cells_of(snapshot, body.rests()), cells);
+    EXPECT_EQ(cells_of(snapshot, body.supporting_walls()), cells);
     ASSERT_TRUE(body.move_corner(0, face_at(from)[0]).is_made());
-    EXPECT_TRUE(body.rests().empty());
+    EXPECT_TRUE(body.supporting_walls().empty());
   }
 }
 
@@ -102,16 +103,16 @@ TEST(FaceSidesByHand, BehindTheBoundaryIsNothing) {
   {
     Face_body body(snapshot);
     ASSERT_TRUE(put(body, snapshot, face_at(1)));
-    EXPECT_EQ(cells_of(snapshot, body.rests()), std::vector<std::uint32_t>{above - 1});
+    EXPECT_EQ(cells_of(snapshot, body.supporting_walls()), std::vector<std::uint32_t>{above - 1});
     ASSERT_TRUE(body.move_corner(0, face_at(0.5)[0]).is_face_only());
     ASSERT_TRUE(body.move_corner(0, face_at(1.5)[0]).is_made());
-    EXPECT_TRUE(body.rests().empty());
+    EXPECT_TRUE(body.supporting_walls().empty());
   }
   {  // on a side of the hole, two edges along its edges
     Face_body body(snapshot);
     ASSERT_TRUE(put(body, snapshot, {Point<3>{3, 3, 1}, Point<3>{3, 2.5, 1}, Point<3>{3, 3, 0.5}}));
-    ASSERT_EQ(body.rests().size(), 1u);
-    EXPECT_EQ(body.move_corner(0, {2.5, 3, 1}).face.contact->facet, body.rests()[0]);
+    ASSERT_EQ(body.supporting_walls().size(), 1u);
+    EXPECT_EQ(body.move_corner(0, {2.5, 3, 1}).face.contact->facet, body.supporting_walls()[0]);
     EXPECT_TRUE(body.move_corner(0, {3.5, 3, 1}).is_made());
   }
 }
@@ -128,19 +129,21 @@ TEST(FaceSidesByHand, AnEdgeThatPassesARimTakesNoFaceWithIt) {
       Face_body body(snapshot);
       ASSERT_TRUE(put(body, snapshot, corners)) << "over the membrane, its first two corners under it";
       for (std::size_t k = 0; k < 3; ++k) ASSERT_TRUE(body.move_corner(k, face_at(1)[k]).is_made());
-      const Face_rests rests = body.rests();
-      ASSERT_FALSE(rests.empty());
-      for (const std::uint32_t c : cells_of(snapshot, rests)) EXPECT_EQ(c, side > 0 ? above : below);
+      const Supporting_walls supporting_walls = body.supporting_walls();
+      ASSERT_FALSE(supporting_walls.empty());
+      for (const std::uint32_t c : cells_of(snapshot, supporting_walls))
+        EXPECT_EQ(c, side > 0 ? above : below);
       const auto outcome = body.move_corner(0, {0.25, 4.75, 1});  // the edge to corner 1 crosses the middle
       if (outcome.is_made()) {
         ++kept;
-        for (const std::uint32_t c : cells_of(snapshot, body.rests())) EXPECT_EQ(c, side > 0 ? above : below);
+        for (const std::uint32_t c : cells_of(snapshot, body.supporting_walls()))
+          EXPECT_EQ(c, side > 0 ? above : below);
       } else {
         ++in_the_way;
         ASSERT_TRUE(outcome.is_face_only());
-        EXPECT_TRUE(outcome.face.is_edge_astray);
+        EXPECT_TRUE(outcome.face.is_edge_on_other_side);
         EXPECT_EQ(outcome.face.contact->normal[2], side);
-        EXPECT_EQ(body.rests(), rests);
+        EXPECT_EQ(body.supporting_walls(), supporting_walls);
       }
       EXPECT_FALSE(body.move_corner(2, {2.5, 4.75, height(-0.5)}).is_made());
       EXPECT_EQ(body.registered().piercing, Half_facet::none);
@@ -174,9 +177,9 @@ TEST(FaceSidesByHand, ASideThatNothingSaysIsOneOfTheGeometry) {
         if (seed % 2 == 1) std::swap(corners[0], corners[1]);
         Face_body body(snapshot);
         ASSERT_TRUE(put(body, snapshot, corners)) << turn;
-        ASSERT_FALSE(body.rests().empty());
+        ASSERT_FALSE(body.supporting_walls().empty());
         const std::uint32_t up = flip_x * flip_y > 0 ? above : below;
-        for (const std::uint32_t c : cells_of(snapshot, body.rests()))
+        for (const std::uint32_t c : cells_of(snapshot, body.supporting_walls()))
           EXPECT_EQ(c, other.new_cell[up]) << turn;
       }
     }

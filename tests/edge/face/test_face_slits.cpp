@@ -144,13 +144,13 @@ TEST(FaceSlits, LandsAndLeaves) {
 
 /// Rests by the cells of the first listing and the points of their walls.
 std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> named(const Snapshot<3>& snapshot,
-                                                                const Face_rests& rests,
+                                                                const Supporting_walls& supporting_walls,
                                                                 const std::vector<std::uint32_t>& old_cell) {
   std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> names;
-  for (const Half_facet rest : rests) {
-    auto points = polygon(snapshot, rest);
+  for (const Half_facet supporting_wall : supporting_walls) {
+    auto points = polygon(snapshot, supporting_wall);
     std::sort(points.begin(), points.end());
-    names.insert({old_cell[snapshot.index(snapshot.cell_of(rest))], points});
+    names.insert({old_cell[snapshot.index(snapshot.cell_of(supporting_wall))], points});
   }
   return names;
 }
@@ -159,7 +159,7 @@ std::set<std::pair<std::uint32_t, std::vector<Point<3>>>> named(const Snapshot<3
 const Triangle large{Point<3>{0.125, 0.125, 1}, Point<3>{3.875, 0.125, 1}, Point<3>{0.125, 3.9375, 1}};
 
 struct Listings_seen {
-  int moves = 0, contacts = 0, with_rests = 0;
+  int moves = 0, contacts = 0, with_supporting_walls = 0;
 };
 
 /// Moves a face in a world and in the same one listed otherwise.
@@ -195,13 +195,14 @@ void compare_listings(const oracle::World<3>& world, std::uint64_t number, Listi
       if (a.face.contact) {
         EXPECT_EQ(a.face.contact->time, b.face.contact->time) << world.name;
         EXPECT_EQ(a.face.contact->kind, b.face.contact->kind) << world.name;
-        EXPECT_EQ(a.face.is_edge_astray, b.face.is_edge_astray) << world.name;
+        EXPECT_EQ(a.face.is_edge_on_other_side, b.face.is_edge_on_other_side) << world.name;
       }
-      ASSERT_EQ(named(snapshot, first.rests(), same), named(relisted, second.rests(), old_cell))
+      ASSERT_EQ(named(snapshot, first.supporting_walls(), same),
+                named(relisted, second.supporting_walls(), old_cell))
           << world.name;
       ++seen.moves;
       seen.contacts += a.face.contact.has_value();
-      seen.with_rests += !first.rests().empty();
+      seen.with_supporting_walls += !first.supporting_walls().empty();
     }
   }
 }
@@ -212,10 +213,10 @@ TEST(FaceSlits, TheOrderOfTheListMakesNoDifference) {
   for (std::uint64_t number = 0; number < count; ++number)
     for (const bool slit : {false, true}) compare_listings(layers(slit, number, 10), number, seen);
   std::cout << "listed otherwise: " << seen.moves << " moves, " << seen.contacts << " contacts, "
-            << seen.with_rests << " with rests\n";
+            << seen.with_supporting_walls << " with rests\n";
   if (count < 16) return;
   EXPECT_GT(seen.contacts, 1000);
-  EXPECT_GT(seen.with_rests, 400);
+  EXPECT_GT(seen.with_supporting_walls, 400);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Flood_seen flood(bool generic) {
       const Point<D> b = w.target(p);
       w.choose_kind();
       const Point<D> q = w.target(p);
-      const bool clear = is_clear<D>(w.snapshot, p.cell, {p.position, b, q}, counts, 1000);
+      const bool clear = is_free_of_walls<D>(w.snapshot, p.cell, {p.position, b, q}, counts, 1000);
       const bool is_hit = w.walls.is_crossed(p.position, b, q);
       ++seen.triangles;
       seen.clear += clear;

@@ -77,13 +77,13 @@ Triangle_seen sweep_triangles(bool generic) {
           check_blocked(w, from, target, visited, crossed, *walked.contact, q, edge.chain, generic, seen);
           continue;
         }
-        const Way<D> way{from, p, visited, crossed};
+        const Vertex_path<D> path{from, p, visited, crossed};
         Edge_counts bare;
         const bool is_compared = seen.sweeps % 4 == 0;
         const bool is_free =
-            is_compared && !sweep_triangle<D>(w.snapshot, way, q, edge.chain, bare, no_certificates).contact;
+            is_compared && !sweep_triangle<D>(w.snapshot, path, q, edge.chain, bare, no_certificates).contact;
         seen.compared += bare.event_sweeps;
-        edge = sweep_triangle<D>(w.snapshot, way, q, edge.chain, seen.counts);
+        edge = sweep_triangle<D>(w.snapshot, path, q, edge.chain, seen.counts);
         if (is_compared) {
           EXPECT_EQ(is_free, !edge.contact) << w.world.name << ": a certificate changes the answer";
         }

@@ -24,7 +24,7 @@ using Faults = std::array<int, static_cast<std::size_t>(Sweep_fault::count)>;
 struct Chains_seen {
   int judged = 0;                                 ///< sweeps
   int p_blocked = 0;                              ///< p was
-  int in_line = 0;                                ///< p moved in the line of the edge
+  int collinear = 0;                              ///< p moved in the line of the edge
   int must_block = 0, must_free = 0, either = 0;  ///< by the oracle
   int only_together = 0;                          ///< blocked, but crossed by no single wall
   int at_once = 0;                                ///< blocked at time 0
@@ -52,27 +52,27 @@ std::string describe(const oracle::Edge_motion<D>& motion) {
   };
   text << std::hexfloat;
   add("p from", motion.a), add("to", motion.b), add("q", motion.q);
-  add("cells of p", motion.way), add("chain", motion.chain);
+  add("cells of p", motion.path), add("chain", motion.chain);
   text << ", cell of q " << motion.q_cell << (motion.blocked ? ", p blocked" : "");
   return text.str();
 }
 
 /// A sweep, and what is said of it.
 template <int D>
-void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const Way<D>& way,
+void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const Vertex_path<D>& path,
            const Particle<D>& q, const Chain& before, const Sweep_result<D>& result, Chains_seen& seen) {
-  const auto motion = motion_of(w.world.soup, w.snapshot, way, q, before);
+  const auto motion = motion_of(w.world.soup, w.snapshot, path, q, before);
   const oracle::Outcomes outcomes = oracle.judge(motion);
   const auto fault = fault_of(oracle, motion, outcomes, w.snapshot, result);
   ++seen.judged;
   ++seen.faults[static_cast<std::size_t>(fault)];
   if (seen.is_broken)
-    seen.crossed_free += !result.contact && !way.blocked && w.walls.is_crossed(motion.a, motion.b, motion.q);
+    seen.crossed_free += !result.contact && !path.blocked && w.walls.is_crossed(motion.a, motion.b, motion.q);
   else
     EXPECT_EQ(fault, Sweep_fault::none)
         << w.world.name << ": " << fault_names[static_cast<std::size_t>(fault)] << describe(motion);
-  seen.p_blocked += way.blocked;
-  seen.in_line += are_collinear(motion.a, motion.b, motion.q);
+  seen.p_blocked += path.blocked;
+  seen.collinear += are_collinear(motion.a, motion.b, motion.q);
   seen.must_block += !outcomes.may_be_free();
   seen.must_free += outcomes.blocks.empty();
   seen.either += outcomes.may_be_free() && !outcomes.blocks.empty();
@@ -81,12 +81,12 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   seen.in_wall_free += outcomes.lies_in_wall && !result.contact;
   seen.choices += outcomes.choices > 0;
   seen.long_chains += before.size() >= 8;
-  if (way.blocked) return;
+  if (path.blocked) return;
   seen.only_together += result.contact && !w.walls.is_crossed(motion.a, motion.b, motion.q);
   seen.at_once += result.contact && result.contact->rounded_time() == 0;
   // A weaker sweep must not satisfy the oracle.
   Walk_counts counts;
-  const Chain_result<D> found = find_chain(w.snapshot, way.to, q, counts);
+  const Chain_result<D> found = find_chain(w.snapshot, path.to, q, counts);
   Sweep_result<D> third{{}, found.chain};
   if (found.contact)
     third.contact = to_contact(*found.contact, Exact_time(found.contact->time), Body_feature::edge);
@@ -120,9 +120,9 @@ void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
         to.position = target;
         to.cell = visited.back();
       }
-      const Way<D> way{from, to, visited, crossed, blocked};
-      const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, way, q, edge.chain, seen.counts);
-      judge(w, oracle, way, q, edge.chain, result, seen);
+      const Vertex_path<D> path{from, to, visited, crossed, blocked};
+      const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, path, q, edge.chain, seen.counts);
+      judge(w, oracle, path, q, edge.chain, result, seen);
       if (!blocked) edge = result;
     }
   }
@@ -131,12 +131,12 @@ void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
 void report(const std::string& name, const Chains_seen& seen) {
   const Edge_counts& c = seen.counts;
   std::cout << name << ": " << seen.judged << " sweeps, p blocked " << seen.p_blocked << ", in line "
-            << seen.in_line << "; same cell " << c.same_cell << ", same chain " << c.same_chain << ", clear "
-            << c.clear << ", events " << c.event_sweeps << "; blocked " << seen.must_block << ", free "
-            << seen.must_free << ", either " << seen.either << "; by no single wall " << seen.only_together
-            << ", at once " << seen.at_once << "; touching " << seen.touching << ", in a wall "
-            << seen.in_wall << ", of these free " << seen.in_wall_free << ", choices " << seen.choices
-            << ", long chains " << seen.long_chains << "; wrong " << count(seen.faults)
+            << seen.collinear << "; same cell " << c.same_cell << ", same chain " << c.same_chain
+            << ", clear " << c.clear << ", events " << c.event_sweeps << "; blocked " << seen.must_block
+            << ", free " << seen.must_free << ", either " << seen.either << "; by no single wall "
+            << seen.only_together << ", at once " << seen.at_once << "; touching " << seen.touching
+            << ", in a wall " << seen.in_wall << ", of these free " << seen.in_wall_free << ", choices "
+            << seen.choices << ", long chains " << seen.long_chains << "; wrong " << count(seen.faults)
             << ", of the third side " << count(seen.faults_of_third_side) << "\n";
 }
 
@@ -163,7 +163,7 @@ void test_worlds() {
     EXPECT_GT(misses(seen.faults_of_third_side), 5);
     if (generic) continue;
     EXPECT_GT(beside, 15);
-    EXPECT_GT(seen.in_line, 1'500);
+    EXPECT_GT(seen.collinear, 1'500);
     EXPECT_GT(seen.in_wall_free, 300);
     EXPECT_GT(seen.only_together, 10);
     EXPECT_GT(seen.at_once, 80);
@@ -208,7 +208,7 @@ void test_sliding() {
   EXPECT_GT(seen.judged, 2'000);
   EXPECT_GT(beside, 15);
   EXPECT_GT(seen.in_wall_free, 250);
-  EXPECT_GT(D == 2 ? seen.in_line : seen.choices, 10);
+  EXPECT_GT(D == 2 ? seen.collinear : seen.choices, 10);
 }
 
 TEST(TriangleChains, AreRightWhereEdgesSlide2) { test_sliding<2>(); }

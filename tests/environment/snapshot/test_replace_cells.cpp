@@ -90,7 +90,7 @@ void expect_gone(const Snapshot<D>& snapshot, Cell gone, const Point<D>& in_it) 
   }
   for (std::size_t k = 0; k < 4 * snapshot.block_count(gone); ++k) {
     EXPECT_TRUE(snapshot.is_impassable(snapshot.half_facet(gone, k)));
-    EXPECT_EQ(snapshot.neighbor(snapshot.half_facet(gone, k)), Cell::none);
+    EXPECT_EQ(snapshot.neighbour(snapshot.half_facet(gone, k)), Cell::none);
   }
 }
 
@@ -158,7 +158,7 @@ TEST(ReplaceCells, RaiseTheEpoch) {
   Half_facet inner = Half_facet::none, outer = Half_facet::none;
   for (std::size_t k = 0; k < 3; ++k) {
     const Half_facet f = snapshot.half_facet(snapshot.cell(0), k);
-    (snapshot.neighbor(f) == Cell::none ? outer : inner) = f;
+    (snapshot.neighbour(f) == Cell::none ? outer : inner) = f;
   }
   EXPECT_EQ(raises([&] { environment.set_impassable(inner, true); }), (Raised{true, false}));
   EXPECT_EQ(raises([&] { environment.set_impassable(inner, true); }), (Raised{false, false})) << "it is one";

@@ -52,7 +52,7 @@ void expect_same_as_soup(const Cell_soup<D>& soup, const Gluing& gluing) {
       EXPECT_TRUE(std::equal(loop.begin(), loop.end(), expected.begin(), expected.end()));
       const std::uint32_t g = gluing.opposite[f];
       if (g == no_facet) {
-        EXPECT_EQ(s.neighbor(slots[f]), Cell::none);
+        EXPECT_EQ(s.neighbour(slots[f]), Cell::none);
         EXPECT_EQ(s.opposite(slots[f]), Half_facet::none);
         EXPECT_TRUE(s.is_impassable(slots[f]));
       } else {
@@ -143,7 +143,7 @@ bool is_union_convex(const Snapshot<D>& s, Cell a, Cell b) {
   const auto inside = [&](Cell of, Cell other) {
     for (std::size_t i = 0; i < s.facet_count(of); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(of, i);
-      if (s.neighbor(f) == other) {
+      if (s.neighbour(f) == other) {
         if (s.is_impassable(f)) return false;
         continue;
       }
@@ -162,8 +162,8 @@ void expect_convex_pairs(const Cell_soup<D>& soup, std::size_t& pairs, std::size
   for (std::size_t c = 0; c < s.cell_count(); ++c)
     for (std::size_t i = 0; i < s.facet_count(s.cell(c)); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(s.cell(c), i);
-      if (s.neighbor(f) == Cell::none) continue;
-      const bool expected = is_union_convex(s, s.cell(c), s.neighbor(f));
+      if (s.neighbour(f) == Cell::none) continue;
+      const bool expected = is_union_convex(s, s.cell(c), s.neighbour(f));
       ASSERT_EQ(s.is_convex_pair(f), expected) << "cell " << c << " facet " << i;
       ++(expected ? pairs : others);
     }
@@ -191,7 +191,7 @@ TEST(Snapshot, NeighboursInSpaceAreNeighboursInMemory) {
   double distance = 0, links = 0;
   for (std::size_t c = 0; c < s.cell_count(); ++c)
     for (std::size_t i = 0; i < 4; ++i) {
-      const Cell next = s.neighbor(Snapshot<3>::half_facet(s.cell(c), i));
+      const Cell next = s.neighbour(Snapshot<3>::half_facet(s.cell(c), i));
       if (next == Cell::none) continue;
       distance += std::abs(double(to_index(next)) - double(to_index(s.cell(c)))) < 64;
       ++links;

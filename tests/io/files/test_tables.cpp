@@ -85,11 +85,11 @@ TEST(Queries, RowsCarryTheirLineAndWhatIsWrongWithThem) {
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0].points[0], (Point<3>{0.5, 0.25, 0}));
   EXPECT_EQ(rows[0].points[1], (Point<3>{1, 2, 3}));
-  EXPECT_EQ(rows[0].invalid, "");
-  EXPECT_EQ(rows[1].invalid, "ax: the fraction '1/3' is not exactly a double");
-  EXPECT_EQ(rows[2].invalid, "6 fields, where the header has 7");
-  EXPECT_EQ(rows[3].invalid, "bz: 'inf' is not finite");
-  EXPECT_EQ(rows[4].invalid, "8 fields, where the header has 7");
+  EXPECT_EQ(rows[0].error, "");
+  EXPECT_EQ(rows[1].error, "ax: the fraction '1/3' is not exactly a double");
+  EXPECT_EQ(rows[2].error, "6 fields, where the header has 7");
+  EXPECT_EQ(rows[3].error, "bz: 'inf' is not finite");
+  EXPECT_EQ(rows[4].error, "8 fields, where the header has 7");
   EXPECT_EQ(rows[2].line, 5u);
 }
 

@@ -24,7 +24,7 @@ constexpr const char* complete = R"({  // everything
 TEST(Scene, ReadsEveryKey) {
   const auto scene = std::get<Scene<3>>(parse_scene("s.json", complete));
   EXPECT_EQ(scene.title, "A test");
-  const auto& recipe = std::get<Recipe>(scene.environment);
+  const auto& recipe = std::get<Generator_call>(scene.environment);
   EXPECT_EQ(recipe.generator, "vessel");
   EXPECT_EQ(recipe.options.at("radius"), std::vector<double>{2.5});
   EXPECT_EQ(recipe.options.at("size"), (std::vector<double>{1, 2, 3}));

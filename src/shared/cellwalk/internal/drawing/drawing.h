@@ -12,7 +12,7 @@
 namespace cellwalk::drawing {
 
 /// A ball.
-void add_ball(Drawing& drawing, const Point<3>& center, double radius, std::uint32_t material);
+void add_ball(Drawing& drawing, const Point<3>& centre, double radius, std::uint32_t material);
 
 /// A round tube along a polyline, with round ends. Repeated points are skipped; a single point gives a ball.
 void add_tube(Drawing& drawing, std::span<const Point<3>> line, double radius, std::uint32_t material);
@@ -33,7 +33,7 @@ void add_flat_line(Drawing& drawing, const Point<2>& a, const Point<2>& b, doubl
                    std::uint32_t material);
 
 /// A flat disc in the plane z = height.
-void add_disc(Drawing& drawing, const Point<2>& center, double radius, double height, std::uint32_t material);
+void add_disc(Drawing& drawing, const Point<2>& centre, double radius, double height, std::uint32_t material);
 
 /// A flat arrow in the plane z = height.
 void add_flat_arrow(Drawing& drawing, const Point<2>& tail, const Vector<2>& direction, double length,

@@ -14,13 +14,13 @@
 namespace cellwalk::drawing {
 
 /// Red, green, blue and opacity, each in [0,1].
-struct Color {
+struct Colour {
   double red = 0, green = 0, blue = 0, opacity = 1;
 };
 
 /// The appearance of a surface.
 struct Material {
-  Color color;
+  Colour colour;
   /// Opacity added where the surface is seen edge-on, so that the outline of a translucent body stays
   /// visible.
   double rim = 0;
@@ -58,8 +58,8 @@ struct Picture_options {
   int height = 1000;
   int samples = 3;  ///< per pixel and direction, 1 to 8
   Camera camera;
-  Color top{1.0, 1.0, 1.0}, bottom{0.86, 0.89, 0.93};  ///< background
-  Color ink{0.13, 0.16, 0.20};                         ///< caption
+  Colour top{1.0, 1.0, 1.0}, bottom{0.86, 0.89, 0.93};  ///< background
+  Colour ink{0.13, 0.16, 0.20};                         ///< caption
 };
 
 /// Rows from the top, three bytes a pixel.
@@ -83,7 +83,8 @@ Image render(const Drawing& drawing, const Picture_options& options = {});
 
 /// Draws text with the left end of its baseline at (x,y), and capitals `size` pixels high; returns its width
 /// in pixels.
-double draw_text(Image& image, const std::string& text, double x, double y, double size, const Color& color);
+double draw_text(Image& image, const std::string& text, double x, double y, double size,
+                 const Colour& colour);
 
 /// The bytes of a PNG file (8 bits, RGB, without a date).
 std::string encode_png(const Image& image);

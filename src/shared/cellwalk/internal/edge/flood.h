@@ -17,8 +17,8 @@ namespace cellwalk {
 /// \pre a lies in the closure of `start`, a free cell
 /// Cost: some twenty signs a facet of the cells that meet the triangle.
 template <int D>
-bool is_clear(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle, Edge_counts& counts,
-              std::size_t most_cells = 64);
+bool is_free_of_walls(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
+                      Edge_counts& counts, std::size_t most_cells = 64);
 
 }  // namespace cellwalk
 

@@ -14,14 +14,14 @@ namespace cellwalk {
 /// chain, the whole swept triangle is proved free. Otherwise a temporary particle walks from p to q, and only
 /// that segment is checked: obstacles inside the triangle that cross neither it nor the path of p are missed.
 /// Paper: section III.
-/// \param way the path of p
+/// \param path the path of p
 /// \param before the chain of the edge before the move
 /// \pre !way.blocked
 /// Cost: a few ns if p and q share a cell or the chain is empty; some ten signs a facet of the chain;
 /// otherwise a walk.
 template <int D>
-Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
-                                    const Chain& before, Edge_counts& counts,
+Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                    const Particle<D>& q, const Chain& before, Edge_counts& counts,
                                     const Edge_certificates& certificates = {});
 
 }  // namespace cellwalk

@@ -21,7 +21,7 @@ namespace cellwalk {
 /// wall meets the swept triangle; then the events are followed exactly. Touching a wall is no contact. If p
 /// is blocked, only contacts of the edge before that time count (at equal times p's own comes first), and the
 /// returned chain is the last one.
-/// \param way the path of p
+/// \param path the path of p
 /// \param before the chain of the edge before the move
 /// Degenerate cases: all positions of facets, ridges and vertices relative to the swept triangle. If it is a
 /// segment (p moves in the line of the edge), a contact is only possible with a wall in that line that p
@@ -30,7 +30,7 @@ namespace cellwalk {
 /// general position; up to a millisecond if the triangle lies in planes of facets, which only concerns edges
 /// that touch or hit a wall.
 template <int D>
-Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Way<D>& way, const Particle<D>& q,
+Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates = {});
 

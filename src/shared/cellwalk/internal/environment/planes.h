@@ -2,7 +2,7 @@
 // Facet planes in lanes of four, in single precision, with a static error bound: the cheapest certificate for
 // the side of a point.
 //
-// Frame. Points are mapped to y = scale (x - center), scale a power of two, so that the environment lies in
+// Frame. Points are mapped to y = scale (x - centre), scale a power of two, so that the environment lies in
 // [-1,1]^D.
 //
 // Bound. Let g be the exact plane function of a facet, positive outside, scaled by some factor > 0 (only its
@@ -51,14 +51,14 @@ struct alignas(D == 3 ? 64 : 16) Plane_block {
 /// The map into the unit box.
 template <int D>
 struct Plane_frame {
-  Point<D> center{};
+  Point<D> centre{};
   double scale = 1;
 
   /// Maps a point; returns false if it lies outside the box, where the bound does not hold.
   bool map(const Point<D>& x, Float_point<D>& y) const {
     bool inside = true;
     for (int i = 0; i < D; ++i) {
-      const double t = (x[i] - center[i]) * scale;
+      const double t = (x[i] - centre[i]) * scale;
       inside &= std::abs(t) <= 1.0;
       y[i] = static_cast<float>(t);
     }

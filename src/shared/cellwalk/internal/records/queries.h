@@ -16,7 +16,7 @@ template <int D, std::size_t N>
 struct Query_row {
   std::array<Point<D>, N> points{};
   std::size_t line = 0;  ///< in the file, from 1
-  std::string invalid;   ///< empty, or the reason why the row is invalid
+  std::string error;     ///< empty, or the reason why the row is invalid
 };
 
 /// A motion of a particle: from points[0] to points[1].

@@ -66,7 +66,7 @@ class Replay {
   void validate();
 
  private:
-  void note(std::uint32_t body, const Blocked_move<3>& blocked);
+  void note(std::uint32_t body, const Rejected_move<3>& blocked);
 
   const Trace* trace_;
   Body_options options_;

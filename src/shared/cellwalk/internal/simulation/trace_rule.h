@@ -18,10 +18,10 @@ namespace cellwalk {
 Body_options trace_options(Sweep sweep);
 
 /// The answer to a move of which this is reported.
-std::uint8_t trace_answer(const Blocked_move<3>& blocked, Sweep sweep);
+std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep);
 
 /// Appends the answers to the moves of one body in one step. \pre what blocks was reported, vertex by vertex
-void append_answers(std::span<const Blocked_move<3>> blocked, Sweep sweep,
+void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers);
 
 /// A body at a wall stays there for good: a trace is not to start with one.

@@ -52,7 +52,7 @@ class Link_search {
     for (std::size_t i = 0; i < view.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       if (snapshot_.is_impassable(f)) continue;
-      const Cell behind = snapshot_.neighbor(f);
+      const Cell behind = snapshot_.neighbour(f);
       if (!contains(behind) && holds(view, i)) found_.push_back({behind, place(), f});
     }
   }
@@ -68,7 +68,7 @@ class Link_search {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       if (snapshot_.is_impassable(f))
         on_wall(view, i, f);
-      else if (const Cell behind = snapshot_.neighbor(f); !contains(behind))
+      else if (const Cell behind = snapshot_.neighbour(f); !contains(behind))
         found_.push_back({behind, place(), f});
     }
   }

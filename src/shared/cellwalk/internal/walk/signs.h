@@ -72,8 +72,8 @@ struct Line {
 /// The exit of a line from a cell.
 struct Exit {
   enum Kind : std::uint8_t { arrived, facet, ridge, vertex, none } kind = none;
-  std::uint16_t number = 0;    ///< the exit facet, or one that contains the ridge or vertex
-  std::uint32_t u = 0, v = 0;  ///< point indices: ridge uv (3D), or vertex u
+  std::uint16_t facet_index = 0;  ///< the exit facet, or one that contains the ridge or vertex
+  std::uint32_t u = 0, v = 0;     ///< point indices: ridge uv (3D), or vertex u
 };
 
 /// The signs of a line with respect to the ridges of a facet, none negative.
@@ -90,7 +90,7 @@ template <class Line>
 Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs signs, const Line& line) {
   const auto loop = cell.loop(i);
   const std::size_t n = loop.size();
-  const auto number = static_cast<std::uint16_t>(i);
+  const auto facet_index = static_cast<std::uint16_t>(i);
   const auto is_zero = [&](std::size_t k) { return signs[k % n] == 0; };
   const auto at = [&](std::size_t k) { return loop[k % n]; };
   // The first zero ridge of a run.
@@ -101,12 +101,12 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   while (last + 1 < first + n && is_zero(last + 1)) {
     if (!are_collinear(cell.point(at(last)), cell.point(at(last + 1)), cell.point(at(last + 2)))) {
       const std::uint32_t common = cell.point_index(at(last + 1));
-      return {Exit::vertex, number, common, common};
+      return {Exit::vertex, facet_index, common, common};
     }
     ++last;
   }
   if (last == first)
-    return {Exit::ridge, number, cell.point_index(at(first)), cell.point_index(at(first + 1))};
+    return {Exit::ridge, facet_index, cell.point_index(at(first)), cell.point_index(at(first + 1))};
   // Several ridges on one line: the signs of their vertices in order, with a vertex off the line, determine
   // the ridge or vertex.
   std::size_t off = last + 2;
@@ -115,11 +115,11 @@ Exit exit_on_zero_ridges(const Cell_view<3>& cell, std::size_t i, Ridge_signs si
   for (std::size_t k = first; k <= last + 1; ++k) {
     const int s = line.across(cell.point(at(k)), cell.point(at(off)));
     const std::uint32_t here = cell.point_index(at(k));
-    if (s == 0) return {Exit::vertex, number, here, here};
-    if (k > first && s != previous) return {Exit::ridge, number, cell.point_index(at(k - 1)), here};
+    if (s == 0) return {Exit::vertex, facet_index, here, here};
+    if (k > first && s != previous) return {Exit::ridge, facet_index, cell.point_index(at(k - 1)), here};
     previous = s;
   }
-  return {Exit::none, number, 0, 0};  // inexact policies only
+  return {Exit::none, facet_index, 0, 0};  // inexact policies only
 }
 
 /// The exit of a line through facet i; Exit::none if it leaves elsewhere.

@@ -108,9 +108,10 @@ inline int displaced_side(const Cell_view<3>& cell, std::size_t i) {
 /// its direction, starting at the direction of the displacement of displaced_side().
 /// \pre no two of the cells overlap, and the displaced point is in none of them
 template <class Kernel>
-class Turn {
+class Rotational_order {
  public:
-  Turn(const Point<3>& a, const Point<3>& b, Walk_counts& counts) : a_(a), b_(b), counts_(counts) {}
+  Rotational_order(const Point<3>& a, const Point<3>& b, Walk_counts& counts)
+      : a_(a), b_(b), counts_(counts) {}
 
   bool operator()(const Cell_view<3>& x, const Cell_view<3>& y) const {
     const Point<3>&u = first_corner(x), &v = first_corner(y);
@@ -147,7 +148,7 @@ class Turn {
 };
 
 /// The facets on a path through a star.
-using Star_way = boost::container::small_vector<Half_facet, 8>;
+using Star_path = boost::container::small_vector<Half_facet, 8>;
 
 /// The search of the star of ridge uv (or vertex u = v), through passable facets from `start`, for cells in
 /// which the motion from a towards b continues: all their facets at the ridge or vertex have b on their inner
@@ -184,10 +185,10 @@ class Star_search {
                        [&](const Candidate& c) { return c.side != candidates_.front().side; });
   }
   /// The facets on the path to a candidate.
-  Star_way way(const Candidate& candidate) const {
-    Star_way way;
-    links_.append_way(candidate.place, way);
-    return way;
+  Star_path path(const Candidate& candidate) const {
+    Star_path path;
+    links_.append_way(candidate.place, path);
+    return path;
   }
   /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides
   /// nothing.
@@ -233,7 +234,7 @@ class Star_search {
       if constexpr (D == 2)
         return false;
       else
-        return Turn<Kernel>{a_, b_, counts_}(snapshot_.view(cell(x)), snapshot_.view(cell(y)));
+        return Rotational_order<Kernel>{a_, b_, counts_}(snapshot_.view(cell(x)), snapshot_.view(cell(y)));
     });
     const int first = candidates_.front().side;
     std::stable_sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
@@ -249,7 +250,7 @@ class Star_search {
       for (std::size_t i = 0; i < view.facet_count(); ++i) {
         const Half_facet f = Snapshot<D>::half_facet(cell(x), i);
         if (snapshot_.is_impassable(f) || !facet_contains(view, i, u_, v_)) continue;
-        const Cell next = snapshot_.neighbor(f);
+        const Cell next = snapshot_.neighbour(f);
         const auto other = std::find_if(candidates_.begin(), candidates_.end(),
                                         [&](const Candidate& y) { return cell(y) == next; });
         if (other == candidates_.end() || !holds_more(view, i)) continue;

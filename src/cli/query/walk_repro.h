@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One recorded motion walked again, step by step: what a report of a wrong answer needs.
+#ifndef CELLWALK_CLI_QUERY_WALK_REPRO_H
+#define CELLWALK_CLI_QUERY_WALK_REPRO_H
+
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/io/atomic_file.h>
+
+#include <string>
+
+#include "kernel_names.h"
+
+namespace cellwalk::cli {
+
+/// Certifies the environment of a record, walks its motion by its kernel and exactly, and prints the cells, signs and choices of
+/// both, and where they part.
+/// \throw Error(input) if the record is unreadable or names unknown kernels or strategies; Error(not_certified);
+/// Error(outside) if the motion does not start in its cell, or in no free one
+void walk_repro(const std::string& path);
+
+/// Writes the record of a motion in an environment.
+template <int D>
+void write_repro_of(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
+                    const Point<D>& to, const Move_options& options, const std::string& note);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_QUERY_WALK_REPRO_H

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "recording.h"
+
+#include <cellwalk/io/vtu.h>
+#include <cellwalk/walk/walk.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cellwalk::cli {
+namespace {
+
+using io::in_space;
+
+/// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and base64 adds a third.
+constexpr std::uint64_t most_recorded_points = 5'000'000;
+/// More passable edges of the plane than this are a grey area, not lines.
+constexpr std::size_t most_lines = 40'000;
+
+/// Free cells in the order of the input.
+template <int D, class Visit>
+void for_free_cells(const Snapshot<D>& snapshot, Visit&& visit) {
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
+    if (const Cell cell = snapshot.cell(i); !snapshot.is_solid(cell)) visit(cell);
+}
+
+template <int D>
+void add_walls(const Snapshot<D>& snapshot, Recording_scene& scene) {
+  for_free_cells(snapshot, [&](Cell cell) {
+    for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
+      const Half_facet facet = snapshot.half_facet(cell, f);
+      if (snapshot.is_impassable(facet)) scene.walls.push_back(snapshot.loop(facet));
+    }
+  });
+}
+
+/// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between them.
+void add_areas(const Snapshot<3>&, Recording_scene&) {}
+void add_areas(const Snapshot<2>& snapshot, Recording_scene& scene) {
+  for_free_cells(snapshot, [&](Cell cell) {
+    auto& loop = scene.floor.emplace_back();
+    for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
+      const Half_facet facet = snapshot.half_facet(cell, f);
+      const auto ends = snapshot.loop(facet);
+      loop.push_back(ends[0]);
+      if (!snapshot.is_impassable(facet) && snapshot.index(snapshot.neighbour(facet)) > snapshot.index(cell))
+        scene.lines.push_back({ends[0], ends[1]});
+    }
+  });
+  if (scene.lines.size() > most_lines) scene.lines.clear();
+}
+
+template <int D>
+void add_bodies(const World<D>& world, Recording_scene& scene) {
+  std::uint32_t first = 0;
+  for (const Moving_body<D>& moving : world.bodies()) {
+    const Body<D>& body = moving.body();
+    const auto count = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
+    scene.bodies.push_back({moving.template as<Rod<D>>() != nullptr, count(body.vertex_count()),
+                            count(body.edges().size()), count(body.faces().size())});
+    for (const auto& [u, v] : body.edges()) scene.edges.push_back({first + u, first + v});
+    for (const auto& [u, v, w] : body.faces()) scene.faces.push_back({first + u, first + v, first + w});
+    first += count(body.vertex_count());
+  }
+}
+
+template <int D>
+Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, double time_step,
+                         std::uint32_t steps, std::uint32_t every) {
+  Recording_scene scene;
+  scene.dimension = D;
+  scene.time_step = time_step;
+  scene.steps = steps;
+  scene.every = every;
+  scene.cells = static_cast<std::uint32_t>(snapshot.cell_count());
+  scene.particles = static_cast<std::uint32_t>(world.particles().size());
+  scene.lower.fill(std::numeric_limits<double>::max());
+  scene.upper.fill(std::numeric_limits<double>::lowest());
+  for (const Point<D>& x : snapshot.points()) {
+    const Point<3>& point = scene.points.emplace_back(in_space(x));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      scene.lower[axis] = std::min(scene.lower[axis], point[axis]);
+      scene.upper[axis] = std::max(scene.upper[axis], point[axis]);
+    }
+  }
+  add_walls(snapshot, scene);
+  add_areas(snapshot, scene);
+  add_bodies(world, scene);
+  // Points that nothing names are not written.
+  std::vector<std::uint32_t> number(scene.points.size(), 0);
+  std::vector<Point<3>> named;
+  const auto rename = [&](std::uint32_t& index) {
+    if (number[index] == 0) {
+      named.push_back(scene.points[index]);
+      number[index] = static_cast<std::uint32_t>(named.size());
+    }
+    index = number[index] - 1;
+  };
+  for (auto* loops : {&scene.walls, &scene.floor})
+    for (auto& loop : *loops) std::for_each(loop.begin(), loop.end(), rename);
+  for (auto& line : scene.lines) std::for_each(line.begin(), line.end(), rename);
+  scene.points = std::move(named);
+  return scene;
+}
+
+/// The costliest way in which something was decided between two counts.
+Decision decision(const Body_counts& before, const Body_counts& now) {
+  const auto grew = [&](auto member) { return now.edges.*member > before.edges.*member; };
+  if (now.contacts > before.contacts) return Decision::contact;
+  if (grew(&Edge_counts::event_sweeps)) return Decision::events;
+  if (grew(&Edge_counts::clear)) return Decision::clear;
+  if (grew(&Edge_counts::same_chain)) return Decision::same_chain;
+  if (grew(&Edge_counts::convex_pair)) return Decision::convex_pair;
+  if (grew(&Edge_counts::same_cell)) return Decision::same_cell;
+  const auto moves = now.moves - before.moves, in_region = now.in_region - before.in_region;
+  if (moves == 0) return Decision::none;
+  if (moves == in_region) return Decision::region;
+  return grew(&Edge_counts::edges) ? Decision::events : Decision::same_cell;
+}
+
+}  // namespace
+
+template <int D>
+Run_recording<D>::Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot,
+                                const World<D>& world, double time_step, std::uint32_t steps,
+                                std::uint32_t every)
+    : snapshot_(snapshot),
+      every_(every),
+      writer_(std::move(path), scene_of(snapshot, world, time_step, steps, every)),
+      followers_(world.particles().begin(), world.particles().end()),
+      before_(world.bodies().size()) {
+  for (const Moving_body<D>& moving : world.bodies())
+    followers_.insert(followers_.end(), moving.body().particles().begin(), moving.body().particles().end());
+  add(world);
+}
+
+template <int D>
+void Run_recording<D>::record(const World<D>& world, bool is_last) {
+  if (is_last || world.steps_done() % every_ == 0) add(world);
+}
+
+/// A vertex that slid along walls need not be seen from where it was: then it is located.
+template <int D>
+void Run_recording<D>::follow(std::size_t number, const Point<D>& position) {
+  Particle<D>& follower = followers_[number];
+  Walk_counts counts;
+  if (move(snapshot_, follower, position, counts).status == Walk_status::arrived) return;
+  if (!locator_) locator_.emplace(snapshot_);
+  follower = locator_->particle_at(position).value();
+}
+
+template <int D>
+void Run_recording<D>::add(const World<D>& world) {
+  std::vector<Point<3>> positions;
+  std::vector<std::uint32_t> cells;
+  std::vector<Decision> decisions;
+  const auto free = world.particles();
+  for (const Particle<D>& particle : free) {
+    positions.push_back(in_space(particle.position));
+    cells.push_back(snapshot_.index(particle.cell));
+  }
+  for (std::size_t b = 0; b < world.bodies().size(); ++b) {
+    for (const Point<D>& x : world.bodies()[b].body().positions()) {
+      const std::size_t number = positions.size();
+      follow(number, x);
+      positions.push_back(in_space(x));
+      cells.push_back(snapshot_.index(followers_[number].cell));
+    }
+    const Body_counts now = world.body_counts(b);
+    decisions.push_back(decision(before_[b], now));
+    before_[b] = now;
+  }
+  writer_.add({positions, cells, decisions});
+}
+
+template <int D>
+std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps) {
+  if (scene.output.motion_every) return *scene.output.motion_every;
+  std::uint64_t points = world.particles().size();
+  for (const Moving_body<D>& moving : world.bodies()) points += moving.body().vertex_count();
+  return static_cast<std::uint32_t>(1 + steps * points / most_recorded_points);
+}
+
+template class Run_recording<2>;
+template class Run_recording<3>;
+template std::uint32_t motion_interval(const Scene<2>&, const World<2>&, std::uint32_t);
+template std::uint32_t motion_interval(const Scene<3>&, const World<3>&, std::uint32_t);
+
+}  // namespace cellwalk::cli

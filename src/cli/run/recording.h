@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The motion of a run (motion.gz), for `cellwalk view`.
+#ifndef CELLWALK_CLI_RUN_RECORDING_H
+#define CELLWALK_CLI_RUN_RECORDING_H
+
+#include <cellwalk/internal/io/recording_file.h>
+#include <cellwalk/simulation/world.h>
+#include <cellwalk/walk/locate.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace cellwalk::cli {
+
+/// Written along with the run. The cells of what moves are followed by particles of its own, so that nothing that the run counts
+/// depends on whether it is recorded.
+template <int D>
+class Run_recording {
+ public:
+  /// Writes the walls and the start. `every` is more than 0. Refers to the snapshot, which must outlive it.
+  Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot, const World<D>& world,
+                double time_step, std::uint32_t steps, std::uint32_t every);
+
+  /// To be called after each step.
+  void record(const World<D>& world, bool is_last);
+
+  /// Completes the file.
+  void commit() { writer_.commit(); }
+
+  std::uint32_t every() const { return every_; }
+  std::uint32_t frame_count() const { return writer_.frame_count(); }
+
+ private:
+  void add(const World<D>& world);
+  void follow(std::size_t number, const Point<D>& position);
+
+  const Snapshot<D>& snapshot_;
+  std::uint32_t every_;
+  io::Recording_writer writer_;
+  std::vector<Particle<D>> followers_;  ///< of free particles, then of the bodies' vertices
+  std::optional<Locator<D>> locator_;   ///< made when it is first needed
+  std::vector<Body_counts> before_;     ///< at the record before
+};
+
+/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0: nothing is recorded.
+template <int D>
+std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps);
+
+extern template class Run_recording<2>;
+extern template class Run_recording<3>;
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_RECORDING_H

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// All ways of a segment through cells, in the order of sides in which a walk takes them. Theory: docs/sweep.md, choices.
+#ifndef CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
+#define CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/star.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "edge/exact/rational_segment.h"
+
+namespace cellwalk::detail {
+
+/// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on, it has several
+/// sides to go on along: first comes the one on which it lies once it is displaced, then the others as the rule orders them.
+///
+/// Rule: is_wrong(chain, end) gives a beginning up, which leads to a place; limit_of(cell, facet, border) says what `end` stands for it, where
+/// the segment passes that border; is_accepted(chain) takes a whole chain; comes_before(cell, cell) orders the cells of sides that are
+/// not preferred.
+template <int D, class Rule>
+class Chain_search {
+ public:
+  Chain_search(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, const Particle<D>& q,
+               const Rule& rule, Walk_counts& counts)
+      : snapshot_(snapshot), segment_(segment), q_(q), rule_(rule), counts_(counts) {
+    const Point<D> p = segment.at(0).rounded();  // less than an ulp off
+    for (int k = 0; k < D; ++k) {
+      low_[k] = std::min(std::nextafter(p[k], -std::numeric_limits<double>::infinity()), q.position[k]);
+      high_[k] = std::max(std::nextafter(p[k], std::numeric_limits<double>::infinity()), q.position[k]);
+    }
+  }
+
+  /// True if there is one from a cell of the start to that of q, or one linked with it there.
+  /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they begin and end.
+  bool find(Cell start) { return from(start, 0, 0); }
+
+  const Chain& chain() const { return chain_; }
+
+ private:
+  /// What a cell linked with the one that the segment is in needs to be gone on in.
+  struct Place {
+    bool holds_more = true, is_displaced = true;
+    Fraction end{1};  ///< up to there the cell meets the segment in the same facets
+    std::size_t end_facet = 0;
+    int end_border = -1;  ///< of that facet, where it ends; none if it does at q
+  };
+
+  /// Goes on from a cell in which the segment is at t. Ways to the same place are as good as each other.
+  bool from(Cell c, const Fraction& t, const Fraction& limit) {
+    if (rule_.is_wrong(chain_, limit) || !seen_.emplace(c, t).second) return false;
+    Link_search<D> links(snapshot_, c);
+    const std::vector<Place> places = find_places(links, t);
+    const bool is_end = t == Fraction(1);
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (is_end ? links.cell(k) == q_.cell : places[k].holds_more) order.push_back(k);
+    if (!is_end)
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+        if (places[x].is_displaced != places[y].is_displaced) return places[x].is_displaced;
+        return !places[x].is_displaced &&
+               rule_.comes_before(snapshot_.view(links.cell(x)), snapshot_.view(links.cell(y)));
+      });
+    for (const std::size_t k : order) {
+      const std::size_t before = chain_.size();
+      links.append_way(k, chain_);
+      if (is_end ? rule_.is_accepted(chain_) : goes_on(links.cell(k), places[k])) return true;
+      chain_.resize(before);
+    }
+    return false;
+  }
+
+  bool goes_on(Cell c, const Place& place) {
+    const Fraction limit = place.end_border < 0
+                               ? Fraction(1)
+                               : rule_.limit_of(snapshot_.view(c), place.end_facet, place.end_border);
+    return from(c, place.end, limit);
+  }
+
+  /// Finds the cells linked with one where the segment is at t.
+  std::vector<Place> find_places(Link_search<D>& links, const Fraction& t) {
+    std::vector<Place> places;
+    const auto holds = [&](const Cell_view<D>& cell, std::size_t i) {
+      if (is_apart(cell, i)) return false;
+      const std::optional<Span> met = segment_.in_facet(cell, i);
+      if (!met) return false;
+      Place& place = places.back();
+      for (const auto& [end, border] :
+           {std::pair(met->low, met->low_border), {met->high, met->high_border}}) {
+        if (!(t < end && end < place.end)) continue;
+        place.end = end;
+        place.end_facet = i;
+        place.end_border = border;
+      }
+      if (t < met->low || met->high < t) return false;
+      const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
+      place.holds_more &= side_of_q <= 0;
+      place.is_displaced &= side_of_q < 0 || (side_of_q == 0 && displaced_side(cell, i) < 0);
+      return true;
+    };
+    while (links.next()) {
+      places.emplace_back();
+      links.expand_all(holds, [](const Cell_view<D>&, std::size_t, Half_facet) {});
+    }
+    return places;
+  }
+
+  /// True if all of a facet has smaller or greater coordinates than the segment.
+  bool is_apart(const Cell_view<D>& cell, std::size_t i) const {
+    const auto loop = cell.loop(i);
+    for (int k = 0; k < D; ++k) {
+      const auto is_below = [&](std::uint16_t v) { return cell.point(v)[k] < low_[k]; };
+      const auto is_above = [&](std::uint16_t v) { return cell.point(v)[k] > high_[k]; };
+      if (std::all_of(loop.begin(), loop.end(), is_below) || std::all_of(loop.begin(), loop.end(), is_above))
+        return true;
+    }
+    return false;
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Rational_segment<D>& segment_;
+  const Particle<D>& q_;
+  const Rule& rule_;
+  Walk_counts& counts_;
+  Point<D> low_{}, high_{};  ///< of a box that holds the segment
+  std::set<std::pair<Cell, Fraction>> seen_;
+  Chain chain_;
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "collinear_sweep.h"
+
+#include <algorithm>
+
+#include "edge/chain/equal_chains.h"
+#include "edge/contact/edge_contact.h"
+#include "edge/exact/exit_time.h"
+
+namespace cellwalk {
+
+template <int D>
+Sweep_result<D> detail::collinear_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                        const Particle<D>& q, const Chain& before, Walk_counts& counts,
+                                        std::optional<double> until) {
+  const Point<D>&a = path.from.position, &b = path.to.position;
+  Sweep_result<D> result{{}, before};
+  int axis = 0;
+  while (axis + 1 < D && a[axis] == b[axis]) ++axis;
+  const bool shrinks =
+      (a[axis] < b[axis] && a[axis] < q.position[axis]) || (a[axis] > b[axis] && a[axis] > q.position[axis]);
+  if (!shrinks) {
+    // Every chain passed before is passed behind the way of p.
+    prepend_crossed_facets(snapshot, result.chain, path.crossed);
+    return result;
+  }
+  // Shares of the way from a to b or to q, whichever is further: where q is, and where p ends.
+  const Ring way_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
+  const Ring way_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
+  const Ring whole = std::max<Ring>(way_of_p, way_to_q);
+  const Rational_segment<D> line(a, way_of_p < way_to_q ? q.position : b);
+  const Fraction at_q(way_to_q, whole);
+  Event_time<D> limit(until.value_or(1));
+  if (path.blocked) {
+    const auto blocked = exit_time<D>(snapshot.view(path.visited.back()), a, b, counts);
+    if (blocked < limit) limit = blocked;
+  }
+  const Fraction end = Fraction(way_of_p, whole) * limit.value();
+
+  const auto pieces = pieces_of<D>(snapshot, line, path.from.cell, {before.data(), before.size()}, at_q);
+  const auto walked = pieces_of<D>(snapshot, line, path.from.cell, path.crossed, end);
+  if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
+    result.chain.clear();
+    const Exact_time time = to_time(parting->at * Fraction(whole, way_of_p));
+    result.contact = edge_contact<D>(snapshot, time, parting->wall, line.at(parting->at));
+    return result;
+  }
+  std::size_t i = 0;
+  if (end <= at_q) {
+    // What is left of the chain, and p linked with it.
+    while (pieces[i].high < end) ++i;
+    result.chain.assign(before.begin() + static_cast<std::ptrdiff_t>(i), before.end());
+    prepend_crossed_facets<D>(snapshot, result.chain,
+                              link_at(snapshot, line, pieces[i].cell, path.to.cell, end));
+  } else {
+    // p has passed q: the way from there on.
+    while (walked[i].high < at_q) ++i;
+    const auto link = link_at(snapshot, line, walked[i].cell, q.cell, at_q);
+    result.chain.assign(link.begin(), link.end());
+    prepend_crossed_facets(snapshot, result.chain, path.crossed.subspan(i));
+  }
+  return result;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                       \
+  template Sweep_result<D> detail::collinear_sweep<D>(const Snapshot<D>&, const Vertex_path<D>&,      \
+                                                      const Particle<D>&, const Chain&, Walk_counts&, \
+                                                      std::optional<double>);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "confirm_chain.h"
+
+#include <cellwalk/internal/walk/signs.h>
+
+#include "edge/chain/chain_of_walk.h"
+
+namespace cellwalk {
+namespace {
+
+/// False proves that an edge which passes a chain all along its sweep has no choice: no wall of the cells of the chain lies in the plane
+/// of the triangle, or in all of them nothing but walls does, so that none begins.
+bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Cell start, const Chain& chain,
+                     Walk_counts& counts) {
+  bool has_wall = false, has_opening = false;
+  const auto look_at = [&](Cell c) {
+    const Cell_view<3> cell = snapshot.view(c);
+    bool has_facet = false;
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      if (detail::side<Exact>(cell, i, t.q, counts) != 0 || detail::side<Exact>(cell, i, t.b, counts) != 0 ||
+          detail::side<Exact>(cell, i, t.a, counts) != 0)
+        continue;
+      has_facet = true;
+      (snapshot.is_impassable(Snapshot<3>::half_facet(c, i)) ? has_wall : has_opening) = true;
+    }
+    has_opening |= !has_facet;
+  };
+  look_at(start);
+  for (const Half_facet f : chain) look_at(snapshot.neighbour(f));
+  return has_wall && has_opening;
+}
+
+/// In 2D walls lie in the line of an edge only while its end moves in it too: then the end has the choice.
+bool may_have_choice(const Snapshot<2>&, const Swept_triangle<2>&, Cell, const Chain&, Walk_counts&) {
+  return false;
+}
+
+}  // namespace
+
+template <int D>
+bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
+                           const Chain& before, const Edge_certificates& certificates,
+                           Chain_result<D>& result, Edge_counts& counts) {
+  ++counts.edges;
+  const Particle<D>& p = path.to;
+  Chain chain = before;
+  prepend_crossed_facets(snapshot, chain, path.crossed);
+  const auto has_no_choice = [&] {
+    const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
+    return !may_have_choice(snapshot, triangle, p.cell, chain, counts.walk);
+  };
+  // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
+  // through its inside.
+  if (certificates.same_cell && chain.empty() && (p.dimension == D || q.dimension == D || has_no_choice())) {
+    ++counts.same_cell;
+    result = {};
+    return true;
+  }
+  if (certificates.convex_pair && chain.size() == 1 &&
+      snapshot.convex_passage(snapshot.cell_of(chain.front()), snapshot.neighbour(chain.front())) !=
+          Half_facet::none &&
+      (p.dimension == D || q.dimension == D || has_no_choice())) {
+    ++counts.convex_pair;
+    result = {};
+    result.chain = chain;
+    return true;
+  }
+  counts.chain_facets += chain.size();
+  // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
+  bool on_planes = false;
+  result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);
+  if (!certificates.same_chain) return false;
+  const bool is_same = !result.contact && result.chain == chain;
+  if (!is_same && !passes(snapshot, chain, p.position, q.position, counts.walk)) return false;
+  if (!(is_same && !on_planes) && !has_no_choice()) return false;
+  ++counts.same_chain;
+  result = {};
+  result.chain = chain;
+  return true;
+}
+
+template bool detail::confirm_chain<2>(const Snapshot<2>&, const Vertex_path<2>&, const Particle<2>&,
+                                       const Chain&, const Edge_certificates&, Chain_result<2>&,
+                                       Edge_counts&);
+template bool detail::confirm_chain<3>(const Snapshot<3>&, const Vertex_path<3>&, const Particle<3>&,
+                                       const Chain&, const Edge_certificates&, Chain_result<3>&,
+                                       Edge_counts&);
+
+}  // namespace cellwalk

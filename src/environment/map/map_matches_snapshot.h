@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#ifndef CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H
+#define CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H
+
+#include <cellwalk/environment/map.h>
+#include <cellwalk/environment/snapshot.h>
+
+namespace cellwalk {
+
+/// Compares map and snapshot cell by cell: points, facets with their loops, neighbours, marks, indices.
+/// \pre check_map(storage)
+/// \throw Error(other) naming the first cell in which they differ
+template <int D>
+void check_map_matches_snapshot(const Map_storage<D>& storage, const Snapshot<D>& snapshot);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/recording_file.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "io/files/binary.h"
+#include "recording_format.h"
+
+namespace cellwalk::io {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t head_alignment = 8;  // arrays begin at a multiple of it
+constexpr double steps_of_16_bits = 65535;
+static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
+
+std::size_t corner_count(const std::vector<std::vector<std::uint32_t>>& loops) {
+  std::size_t count = 0;
+  for (const auto& loop : loops) count += loop.size();
+  return count;
+}
+
+ordered_json head_of(const Recording_scene& scene) {
+  ordered_json bodies = ordered_json::array();
+  for (const Recording_body& body : scene.bodies)
+    bodies.push_back({{"kind", body.is_catheter ? "catheter" : "body"},
+                      {"vertices", body.vertices},
+                      {"edges", body.edges},
+                      {"faces", body.faces}});
+  return {{"dimension", scene.dimension},
+          {"time_step", scene.time_step},
+          {"steps", scene.steps},
+          {"every", scene.every},
+          {"records", scene.frame_count()},
+          {"cells", scene.cells},
+          {"lower", scene.lower},
+          {"upper", scene.upper},
+          {"points", scene.points.size()},
+          {"walls", scene.walls.size()},
+          {"wall_corners", corner_count(scene.walls)},
+          {"floor", scene.floor.size()},
+          {"floor_corners", corner_count(scene.floor)},
+          {"lines", scene.lines.size()},
+          {"particles", scene.particles},
+          {"edges", scene.edges.size()},
+          {"faces", scene.faces.size()},
+          {"decisions", decision_names},
+          {"bodies", bodies}};
+}
+
+void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>& loops) {
+  std::vector<std::uint32_t> sizes, corners;
+  for (const auto& loop : loops) {
+    sizes.push_back(static_cast<std::uint32_t>(loop.size()));
+    corners.insert(corners.end(), loop.begin(), loop.end());
+  }
+  file.write(bytes_of(sizes));
+  file.write(bytes_of(corners));
+}
+
+/// Numbers of either sign that are near zero become small ones: 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
+template <class Unsigned>
+Unsigned folded(Unsigned difference) {
+  constexpr int top_bit = 8 * sizeof(Unsigned) - 1;
+  return static_cast<Unsigned>(difference << 1) ^ static_cast<Unsigned>(-(difference >> top_bit));
+}
+
+/// First the lowest bytes of all numbers, then the next ones: those of small numbers compress well.
+template <class Unsigned>
+void append_planes(std::string& out, const std::vector<Unsigned>& values) {
+  for (std::size_t byte = 0; byte < sizeof(Unsigned); ++byte)
+    for (const Unsigned value : values) out.push_back(static_cast<char>(value >> 8 * byte & 0xff));
+}
+
+}  // namespace
+
+Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene scene)
+    : file_(std::move(path)),
+      scene_(std::move(scene)),
+      last_(scene_.moving_count() * static_cast<std::size_t>(scene_.dimension)),
+      before_last_(last_),
+      last_cells_(scene_.moving_count()) {
+  std::string head = head_of(scene_).dump();
+  const std::size_t before = recording_magic.size() + sizeof(std::uint32_t);
+  while ((before + head.size()) % head_alignment != 0) head.push_back(' ');
+  const auto size = static_cast<std::uint32_t>(head.size());
+  file_.write(recording_magic);
+  file_.write({reinterpret_cast<const char*>(&size), sizeof size});
+  file_.write(head);
+  file_.write(bytes_of(scene_.points));
+  write_loops(file_, scene_.walls);
+  write_loops(file_, scene_.floor);
+  file_.write(bytes_of(scene_.lines));
+  file_.write(bytes_of(scene_.edges));
+  file_.write(bytes_of(scene_.faces));
+}
+
+void Recording_writer::add(const Recording_frame& record) {
+  const std::size_t count = record.positions.size();
+  if (count != scene_.moving_count() || record.cells.size() != count ||
+      record.decisions.size() != scene_.bodies.size())
+    throw Error(Error_code::usage, "a record of motion has other numbers of points than its scene");
+  std::vector<std::uint16_t> now, left;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene_.dimension); ++axis) {
+    const double low = scene_.lower[axis], size = scene_.upper[axis] - low;
+    for (const Point<3>& x : record.positions) {
+      const double share = std::clamp((x[axis] - low) / size, 0.0, 1.0);
+      now.push_back(static_cast<std::uint16_t>(std::lround(share * steps_of_16_bits)));
+    }
+  }
+  // What went on evenly is zero; the first record stands for itself.
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const int expected = records_ > 1 ? 2 * last_[i] - before_last_[i] : last_[i];
+    left.push_back(folded(static_cast<std::uint16_t>(now[i] - expected)));
+  }
+  std::vector<std::uint32_t> changes;
+  for (std::size_t i = 0; i < count; ++i) changes.push_back(folded(record.cells[i] - last_cells_[i]));
+  std::string bytes;
+  append_planes(bytes, left);
+  append_planes(bytes, changes);
+  for (const Decision decision : record.decisions) bytes.push_back(static_cast<char>(decision));
+  file_.write(bytes);
+  before_last_ = std::exchange(last_, std::move(now));
+  last_cells_.assign(record.cells.begin(), record.cells.end());
+  ++records_;
+}
+
+void Recording_writer::commit() {
+  if (records_ != scene_.frame_count())
+    throw Error(Error_code::usage, fmt::format("a motion of {} records was announced, and {} were written",
+                                               scene_.frame_count(), records_));
+  file_.commit();
+}
+
+}  // namespace cellwalk::io

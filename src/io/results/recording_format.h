@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Private to io: what reader and writer of motion files agree on.
+#ifndef CELLWALK_IO_RESULTS_RECORDING_FORMAT_H
+#define CELLWALK_IO_RESULTS_RECORDING_FORMAT_H
+
+#include <cellwalk/internal/records/recording.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace cellwalk::io {
+
+inline constexpr std::string_view recording_magic = "CWMOTN01";
+
+/// Bytes of one record: 16 bits a coordinate, 32 a cell, 8 a decision.
+inline std::uint64_t recording_frame_size(const Recording_scene& scene) {
+  const auto axes = static_cast<std::uint64_t>(scene.dimension);
+  return scene.moving_count() * (2 * axes + sizeof(std::uint32_t)) + scene.bodies.size();
+}
+
+/// Reads a motion out of its bytes, inflated; `name` stands for the file in errors.
+/// \throw Error(input) where they are no motion, or damaged
+Recording_scene parse_recording(const std::string& name, std::string_view bytes);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_IO_RESULTS_RECORDING_FORMAT_H

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Recordings of runs for `cellwalk view`. The format is described in docs/formats.md.
+//
+// Positions are rounded to 16 bits of the environment's bounding box: they are for display, and no decision
+// uses them.
+#ifndef CELLWALK_INTERNAL_IO_RECORDING_FILE_H
+#define CELLWALK_INTERNAL_IO_RECORDING_FILE_H
+
+#include <cellwalk/internal/io/gzip.h>
+#include <cellwalk/internal/records/recording.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cellwalk::io {
+
+/// Writes a recording frame by frame; the file appears on commit() or not at all.
+class Recording_writer {
+ public:
+  /// \pre indices of the scene are in range, and its box contains all moving points
+  /// \throw Error(other) if the file cannot be written
+  Recording_writer(std::filesystem::path path, Recording_scene scene);
+
+  /// Appends a frame.
+  /// \pre it has as many positions, cells and decisions as the scene
+  /// Cost: a few bytes a point.
+  void add(const Recording_frame& record);
+
+  /// \throw Error(usage) unless there are as many frames as the scene has; Error(other) if the file cannot be
+  ///        written
+  void commit();
+
+  std::uint32_t frame_count() const { return records_; }
+
+ private:
+  Gzip_file file_;
+  Recording_scene scene_;
+  std::uint32_t records_ = 0;
+  std::vector<std::uint16_t> last_, before_last_;  ///< positions of the previous frames, axis after axis
+  std::vector<std::uint32_t> last_cells_;
+};
+
+struct Recording {
+  Recording_scene scene;
+  std::string packed;  ///< the compressed content of the file
+};
+
+/// Reads a recording and checks its checksum, counts and indices. Frames stay compressed.
+/// \throw Error(input) `FILE: problem, and remedy`
+Recording read_recording(const std::filesystem::path& path);
+
+}  // namespace cellwalk::io
+
+#endif  // CELLWALK_INTERNAL_IO_RECORDING_FILE_H

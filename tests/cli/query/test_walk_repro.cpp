@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk query --record FILE --row N, and --replay-failure FILE.
+#include <string>
+#include <vector>
+
+#include "cli/ovm_text.h"
+#include "cli/query/query_table.h"
+
+namespace cellwalk::test {
+namespace {
+
+class Repro_walk : public Query_table {
+ protected:
+  Repro_walk()
+      : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {
+    succeed({"generate", "squares", "--cells", "3", "-o", "env.ovm"});
+    write("env.ovm", Ovm_text(text("env.ovm")).set_solid(4).text());
+  }
+
+  /// Records the only row of a table and replays it.
+  std::string replay(const std::string& motion, const std::string& kernel) {
+    query("ax,ay,bx,by\n" + motion + "\n", {"--kernel", kernel, "--record", "motion.json", "--row", "0"});
+    return succeed({"query", "--replay-failure", "motion.json"});
+  }
+};
+
+void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST_F(Repro_walk, ShowsWhereARoundedSignIsWrong) {
+  // The target lies beyond x = 1 by less than a float can tell.
+  const std::string log = replay("0.5,0.5,1.000000000001,0.5", "float");
+  expect_holds(log, {"note: row 0 of a query: free", "cells: 9", "from: 0.5 0.5  = 0x1p-1 0x1p-1",
+                     "from cell 0, kernel float:", "target +0 (exactly +1), to cell 1", "arrives in cell 0",
+                     "from cell 0, kernel exact:", "goes on in cell 1, which is behind facet",
+                     "arrives in cell 1, on a cell of dimension 2", "the walks part after step 1"});
+}
+
+TEST_F(Repro_walk, FindsNoDifferenceWhereThereIsNone) {
+  for (const char* kernel : {"exact", "lazy", "rational", "double", "double_1e-9", "double_1e-6", "float"}) {
+    const std::string log = replay("0.5,1.5,1.5,1.25", kernel);
+    expect_holds(log, {"is blocked in cell 3 at time 0.5 by a wall of cell 3: facet", ", wall;",
+                       "compared with the exact walk: no difference"});
+  }
+  EXPECT_NE(replay("0.5,0.5,1.5,1.25", "double").find("line against its ridges"), std::string::npos);
+}
+
+TEST_F(Repro_walk, FollowsAWalkRoundAVertex) {
+  expect_holds(replay("0.5,0.5,2.5,0.5", "lazy"), {"step 3: cell 2", "arrives in cell 2"});
+  expect_holds(replay("0.5,1.5,1.5,0.5", "lazy"), {"goes on in cell 1, round a ridge or vertex"});
+}
+
+TEST_F(Repro_walk, RefusesWhatItCannotReplay) {
+  replay("0.5,0.5,2.5,0.5", "exact");
+  const auto refuse = [this](int code, const std::string& part, const std::string& other,
+                             const std::vector<std::string>& texts) {
+    std::string changed = text("motion.json");
+    const std::size_t at = changed.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    write("changed.json", changed.replace(at, part.size(), other));
+    expect_failure(code, {"query", "--replay-failure", "changed.json"}, texts);
+  };
+  refuse(3, "\"kernel\": \"exact\"", "\"kernel\": \"quad\"", {"changed.json", "kernel", "quad"});
+  refuse(3, "\"kernel\": \"exact\"", "\"kernel\": \"double\"", {"changed.json", "certified"});
+  refuse(5, "\"points\"", "\"cell\": 8, \"points\"", {"changed.json", "does not start in cell 8"});
+  refuse(3, "motion 1", "motion 7", {"changed.json", "format"});
+  expect_failure(3, {"query", "--replay-failure", "absent.json"}, {"absent.json"});
+  expect_failure(2, {"query", "--replay-failure", "motion.json", "--kernel", "float"}, {"no other option"});
+  expect_failure(2, {"query", "env.ovm"}, {"queries is required"});
+}
+
+TEST_F(Repro_walk, RecordsOnlyRowsThatAreThere) {
+  const std::string motions = "ax,ay,bx,by\n0.5,0.5,1,1\nx,0,0,0\n";
+  write("motions.csv", motions);
+  for (const char* row : {"1", "2"}) {
+    const Outcome outcome =
+        run({"query", "env.ovm", "motions.csv", "-o", "out.csv", "--record", "motion.json", "--row", row});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find(std::string("--row ") + row), std::string::npos) << outcome.err;
+    EXPECT_FALSE(exists("motion.json"));
+  }
+  expect_refused(2, motions, {"--record", "--row"}, {"--row", "0"});
+  expect_refused(2, motions, {"--record", "--row"}, {"--record", "motion.json"});
+}
+
+}  // namespace
+}  // namespace cellwalk::test
