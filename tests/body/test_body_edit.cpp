@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies in an environment that is edited: none goes on as if nothing had happened.
 #include <cellwalk/body/body.h>
-#include <cellwalk/kernel/error.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>
 
