@@ -144,12 +144,12 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   if (found.contact->body == Body_feature::edge) expect_against(w, p, target, *found.contact, seen);
   const std::uint64_t walls = seen.counts.search_walls;
   answer(exhaustive);
-  const std::uint64_t below = seen.counts.search_walls - walls;
+  const std::uint64_t walls_below = seen.counts.search_walls - walls;
   exhaustive.below = false;
   const Sweep_result<D> of_all = answer(exhaustive);
   EXPECT_EQ(of_all.contact->time, found.contact->time);
   EXPECT_EQ(of_all.contact->facet, found.contact->facet);
-  EXPECT_GE(seen.counts.search_walls - walls, 2 * below);
+  EXPECT_GE(seen.counts.search_walls - walls, 2 * walls_below);
   exhaustive.below = true;
   exhaustive.cells = Search_cells::traversed;
   const std::uint64_t before = seen.counts.search_misses;
