@@ -15,7 +15,12 @@
 namespace cellwalk {
 namespace {
 
+/// Bits in the sets of a Rejected_move.
+constexpr std::size_t max_reported_edges = 64;
+
 [[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
+  if (options.edges == Edge_rule::at_target && options.policy == Contact_policy::reject)
+    throw Error(Error_code::usage, "a vertex of this body has more than 64 edges: use Edge_rule::swept");
   throw Error(Error_code::usage,
               options.edges == Edge_rule::at_target
                   ? "a step that looks at edges where their vertex goes has no contact to slide "
@@ -24,9 +29,10 @@ namespace {
                     "to have what blocks reported");
 }
 
-void check_rule(const Body_options& options) {
+void check_rule(const Body_options& options, const detail::Body_topology& topology) {
   const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject : options.reported != Reported::contacts)
+  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > max_reported_edges
+                   : options.reported != Reported::contacts)
     refuse_rule(options);
 }
 
@@ -101,8 +107,8 @@ std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
 template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
                    Body_counts& counts) {
-  check_rule(options);
   detail::Body_state<D>& body = *state_;
+  check_rule(options, body.topology);
   body.check_epoch();
   counts.moves += targets.size();
   if (options.clearance && body.region.holds_body() && body.region.holds_all(targets)) [[likely]] {

@@ -12,7 +12,10 @@ Body_topology::Body_topology(std::size_t vertices, std::vector<std::array<std::u
     ++corner_begin_[u + 1];
     ++corner_begin_[v + 1];
   }
-  for (std::size_t v = 0; v < vertices; ++v) corner_begin_[v + 1] += corner_begin_[v];
+  for (std::size_t v = 0; v < vertices; ++v) {
+    max_degree_ = std::max<std::size_t>(max_degree_, corner_begin_[v + 1]);
+    corner_begin_[v + 1] += corner_begin_[v];
+  }
   corners_.resize(2 * edges_.size());
   std::vector<std::uint32_t> next(corner_begin_.begin(), corner_begin_.end() - 1);
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {

@@ -37,6 +37,8 @@ class Body_topology {
   std::span<const Corner> corners_of(std::uint32_t vertex) const {
     return {corners_.data() + corner_begin_[vertex], corners_.data() + corner_begin_[vertex + 1]};
   }
+  /// The largest number of edges at one vertex.
+  std::size_t max_degree() const { return max_degree_; }
   std::span<const Face_corner> face_corners_of(std::uint32_t vertex) const {
     if (faces_.empty()) return {};
     return {face_corners_.data() + face_corner_begin_[vertex],
@@ -49,6 +51,7 @@ class Body_topology {
   std::vector<std::array<std::uint32_t, 2>> edges_;
   std::vector<Corner> corners_;              ///< of vertex after vertex
   std::vector<std::uint32_t> corner_begin_;  ///< corners of vertex v: [corner_begin_[v], corner_begin_[v+1])
+  std::size_t max_degree_ = 0;
   std::vector<std::array<std::uint32_t, 3>> faces_, sides_;
   std::vector<Face_corner> face_corners_;  ///< of vertex after vertex
   std::vector<std::uint32_t> face_corner_begin_;

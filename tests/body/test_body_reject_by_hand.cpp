@@ -168,5 +168,43 @@ TEST(Body_reject, FacesAreLeftAlone) {
   }
 }
 
+TEST(Body_reject, RefusesRulesThatDoNotGoTogetherOrNotWithTheBody) {
+  const Snapshot<2> snapshot = rooms<2>({8, 4});
+  const auto refuses = [&](std::uint32_t degree, const Body_options& options) {
+    Body_soup<2> star{{{1.5, 1.5}}, {}, {}};
+    for (std::uint32_t i = 1; i <= degree; ++i) {
+      star.points.push_back({1.5 + 0.001 * i, 1.75});
+      star.edges.push_back({0, i});
+    }
+    Body<2> body(snapshot, Locator<2>(snapshot), star);
+    std::vector<Point<2>> targets = star.points;
+    targets[0] = {1.5, 1.25};
+    Step_report<2> report;
+    Body_counts counts;
+    try {
+      body.step(targets, options, report, counts);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Error_code::usage);
+      EXPECT_EQ(body.positions()[0], star.points[0]);
+      return true;
+    }
+    EXPECT_EQ(body.positions()[0], targets[0]);
+    return false;
+  };
+  for (const bool clearance : {false, true}) {
+    const Body_options at_target = rejecting(Sweep::triangle, Touch::pass, clearance);
+    EXPECT_FALSE(refuses(64, at_target));
+    EXPECT_TRUE(refuses(65, at_target));
+    Body_options swept = at_target;
+    swept.edges = Edge_rule::swept;
+    EXPECT_TRUE(refuses(3, swept)) << "what blocks is not known";
+    swept.reported = Reported::contacts;
+    EXPECT_FALSE(refuses(65, swept));
+    Body_options sliding = at_target;
+    sliding.policy = Contact_policy::slide;
+    EXPECT_TRUE(refuses(3, sliding));
+  }
+}
+
 }  // namespace
 }  // namespace cellwalk::test

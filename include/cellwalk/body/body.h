@@ -61,7 +61,7 @@ class Body {
   /// its vertex does then by options.policy. Appends to the report what is asked for.
   /// \pre one finite target a vertex
   /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked or both without Edge_rule::at_target,
-  ///        and Sweep::faces after moves that left the faces alone and let a wall pierce one
+  ///        Edge_rule::at_target if a vertex has more than 64 edges, and Sweep::faces after moves that left the faces alone and let a wall pierce one
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge, and locating the
   /// contacts that are reported or slid along. The first time faces are swept after moves that left them alone, all are registered. By
   /// Edge_rule::at_target with Touch::stop rational arithmetic for walls near a move that planes alone do not prove free, and once for those
@@ -86,7 +86,7 @@ class Body {
 
   /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge has a valid chain
   /// from cell to cell, no wall pierces a face.
-  /// \pre caught up \throw Error(other) naming the first vertex, edge or face that violates them
+  /// \pre nothing is stale, see refresh() \throw Error(other) naming the first vertex, edge or face that violates them
   void validate() const;
 
  private:
