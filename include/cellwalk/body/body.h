@@ -78,9 +78,9 @@ class Body {
 
   /// Registers what was moved without tests in a region free of walls.
   void refresh(Body_counts& counts);
-  /// Catches up and gives the region up.
+  /// Registers what is stale, and gives the region up.
   void leave_region(Body_counts& counts);
-  /// The particles and chains. \pre caught up, and no edit since
+  /// The particles and chains. \pre nothing is stale, see refresh(), and no edit since
   std::span<const Particle<D>> particles() const;
   const Chain& chain(std::size_t edge) const;
 
