@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "stop_candidates.h"
 
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/crossing.h>
 
 #include <algorithm>
 #include <array>
@@ -27,15 +27,11 @@ double ulp(const Point<D>& p) {
 template <int D>
 bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,
                const std::function<bool(const Point<D>&)>& try_at) {
-  const Rational time = to_rational(contact.time);
+  const Point_bounds<D> bounds = bounds_at<D>(p, target, contact.time);
   Point<D> nearer, farther;  // as seen from p
   for (int k = 0; k < D; ++k) {
-    const Rational from(p[k]);
-    const Rational x = from + time * (Rational(target[k]) - from);
-    const double below = to_time(x).rounded();
-    const double above = Rational(below) == x ? below : std::nextafter(below, infinity);
-    nearer[k] = target[k] >= p[k] ? below : above;
-    farther[k] = target[k] >= p[k] ? above : below;
+    nearer[k] = target[k] >= p[k] ? bounds.below[k] : bounds.above[k];
+    farther[k] = target[k] >= p[k] ? bounds.above[k] : bounds.below[k];
   }
   for (unsigned mask = 0; mask < 1u << D; ++mask) {
     Point<D> x = nearer;

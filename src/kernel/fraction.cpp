@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <type_traits>
 
 namespace cellwalk {
@@ -39,13 +38,8 @@ int compare(const Fraction& x, double y) {
   return static_cast<int>(CGAL::sign(Ring(x.numerator() - x.denominator() * Ring(y))));
 }
 
-struct Rounded {
-  double value;
-  bool is_exact;
-};
-
 /// The greatest double that is not above a positive fraction.
-Rounded rounded_down(const Fraction& x) {
+Rounded positive_rounded_down(const Fraction& x) {
   double value = near(x);
   int above = compare(x, value);
   while (above < 0) {
@@ -67,17 +61,18 @@ Rational to_rational(const Fraction& fraction) {
   return exported(fraction.numerator()) / exported(fraction.denominator());
 }
 
-Exact_time to_time(const Fraction& fraction) {
-  if (fraction.sign() == 0) return Exact_time(0);
-  const Rounded rounded = rounded_down(fraction);
-  if (rounded.is_exact) return Exact_time(rounded.value);
-  return {rounded.value, std::make_shared<const Exact_fraction>(Exact_fraction{to_rational(fraction)})};
+Rounded rounded_down(const Fraction& fraction) {
+  if (fraction.sign() == 0) return {0, true};
+  if (fraction.sign() > 0) return positive_rounded_down(fraction);
+  const Rounded opposite = positive_rounded_down(Fraction(-fraction.numerator(), fraction.denominator()));
+  return {opposite.is_exact ? -opposite.value : std::nextafter(-opposite.value, -infinity),
+          opposite.is_exact};
 }
 
 double to_double(const Fraction& fraction) {
   if (fraction.sign() == 0) return 0;
-  if (fraction.sign() > 0) return rounded_down(fraction).value;
-  return -rounded_down(Fraction(-fraction.numerator(), fraction.denominator())).value;
+  if (fraction.sign() > 0) return positive_rounded_down(fraction).value;
+  return -positive_rounded_down(Fraction(-fraction.numerator(), fraction.denominator())).value;
 }
 
 }  // namespace cellwalk

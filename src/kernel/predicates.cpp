@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 namespace cellwalk {
@@ -131,36 +129,6 @@ std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
   return normalized(n);
 }
 
-/// 4 ulp of 1/2 relative: the widest interval whose midpoint is reported.
-constexpr double report_width = 4 * 0x1p-53;
-
-/// The time from values va at a and vb at b: va / (va - vb), where the interval of the divisor is off 0.
-template <class... P>
-[[gnu::noinline]] std::optional<Interval> interval_time(const Point<sizeof...(P)>& a,
-                                                        const Point<sizeof...(P)>& b, const P&... plane) {
-  const Interval::Protector protector;
-  const Interval va = value<Interval>(plane..., a), vb = value<Interval>(plane..., b);
-  const Interval difference = va - vb;
-  if (!(difference.inf() > 0 || difference.sup() < 0)) return {};
-  return va / difference;
-}
-
-/// The time from values va at a and vb at b: va / (va - vb). Intervals first, rationals where they are too
-/// wide.
-template <class... P>
-double time_of(const Point<sizeof...(P)>& a, const Point<sizeof...(P)>& b, const P&... plane) {
-  if (const auto t = interval_time(a, b, plane...))
-    if (t->inf() > 0 && t->sup() < 1 && t->sup() - t->inf() <= report_width * t->inf())
-      return t->inf() + (t->sup() - t->inf()) / 2;
-  const Rational va = value<Rational>(plane..., a), vb = value<Rational>(plane..., b);
-  if (va == vb) return 0;
-  const Rational t = va / (va - vb);
-  if (t <= 0) return 0;
-  if (t >= 1) return 1;
-  const double rounded = CGAL::to_double(t);
-  return std::clamp(rounded, std::numeric_limits<double>::denorm_min(), std::nextafter(1.0, 0.0));
-}
-
 }  // namespace
 
 int displaced_side(const Point<2>& p, const Point<2>& q) {
@@ -215,15 +183,6 @@ bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x) {
     return true;
   }
   return false;
-}
-
-double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b) {
-  return time_of(a, b, u, v);
-}
-
-double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& a,
-                     const Point<3>& b) {
-  return time_of(a, b, u, v, w);
 }
 
 Vector<2> unit_normal(const Point<2>& u, const Point<2>& v) { return Vector<2>(unit_normal_of(u, v)); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/walk_impl.h>
 
@@ -17,7 +18,11 @@ void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<
   if (contact.normal != Vector<D>{}) return;
   const auto corners = detail::spanning_corners(snapshot.view(snapshot.cell_of(contact.facet)),
                                                 snapshot.facet_of(contact.facet));
-  contact.time = std::apply([&](const auto&... corner) { return crossing_time(*corner..., a, b); }, corners);
+  contact.time = std::apply(
+      [&](const auto&... corner) {
+        return crossing_time(Crossing<D>{a, b, {*corner...}});
+      },
+      corners);
   contact.point = point_on<D>(a, b, contact.time);
   contact.normal = detail::inner_normal(corners);
 }

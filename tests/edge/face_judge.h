@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_EDGE_FACE_JUDGE_H
 
 #include <cellwalk/edge/face.h>
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/fraction.h>
 
 #include <gtest/gtest.h>
 

@@ -48,44 +48,6 @@ TEST(Predicates, FindPointsInConvexPolygonsOfEveryPlane) {
   }
 }
 
-TEST(CrossingTime, IsTheExactFractionWithinFourUlp) {
-  std::mt19937_64 random(11);
-  const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
-  int tested = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Point<3> u{unit(), unit(), 0}, v{unit(), unit(), unit()}, w{unit(), unit(), unit()};
-    const Point<3> a{unit(), unit(), unit()}, b{unit(), unit(), unit()};
-    const auto value = [&](const Point<3>& x) {
-      Rational m[3][3];
-      const Point<3>* rows[3] = {&v, &w, &x};
-      for (int r = 0; r < 3; ++r)
-        for (int k = 0; k < 3; ++k) m[r][k] = Rational((*rows[r])[k]) - Rational(u[k]);
-      return Rational(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
-    };
-    const Rational va = value(a), vb = value(b);
-    if (va.sign() * vb.sign() >= 0) continue;
-    ++tested;
-    const Rational exact = va / (va - vb);
-    const double t = crossing_time(u, v, w, a, b);
-    const Rational error = abs(Rational(t) - exact);
-    ASSERT_LE(error, exact * Rational(std::ldexp(1.0, -50))) << "case " << i;
-    ASSERT_GT(t, 0);
-    ASSERT_LT(t, 1);
-  }
-  EXPECT_GT(tested, 1000);
-}
-
-TEST(CrossingTime, IsZeroOrOneOnlyIfExactlySo) {
-  const Point<2> u{0, 0}, v{1, 0};
-  EXPECT_EQ(crossing_time(u, v, {0.5, 0}, {0.5, -1}), 0);
-  EXPECT_EQ(crossing_time(u, v, {0.5, 1}, {0.5, 0}), 1);
-  EXPECT_EQ(crossing_time(u, v, {0.5, 1}, {0.5, -1}), 0.5);
-  EXPECT_LT(crossing_time(u, v, {0.5, 1}, {0.5, -1e-300}), 1);
-  EXPECT_GT(crossing_time(u, v, {0.5, 5e-324}, {0.5, -1e300}), 0);
-}
-
 TEST(UnitNormal, HasLengthOneAtEveryScaleAndForThinTriangles) {
   std::mt19937_64 random(12);
   const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };

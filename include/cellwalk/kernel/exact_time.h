@@ -8,7 +8,7 @@
 
 namespace cellwalk {
 
-struct Exact_fraction;  // <cellwalk/internal/kernel/exact_value.h>
+struct Exact_fraction;  // <cellwalk/internal/kernel/crossing.h>
 
 /// A parameter of a motion as an exact number. A comparison needs the fractions only if both times round to
 /// the same double. Immutable and cheap to copy.

@@ -2,7 +2,7 @@
 #include "picture.h"
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/walk/walk.h>
 
 #include <fmt/format.h>

@@ -93,7 +93,7 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Vert
   };
   double low = 0, high = 1;
   if (path.blocked)
-    high = to_time(exit_time<D>(snapshot.view(path.visited.back()), a, b, counts.walk).value()).rounded();
+    high = exit_time<D>(snapshot.view(path.visited.back()), a, b, counts.walk).exact().rounded();
   else if (is_free_at(path.to)) {
     ++counts.search_misses;
     return {};

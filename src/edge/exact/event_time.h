@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EDGE_EXACT_EVENT_TIME_H
 #define CELLWALK_EDGE_EXACT_EVENT_TIME_H
 
-#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/orientation_value.h>
 
 #include <algorithm>
@@ -41,11 +41,10 @@ class Moving_orientation {
   bool has_points_of(const Moving_orientation& other) const {
     return std::is_permutation(fixed_.begin(), fixed_.end(), other.fixed_.begin());
   }
+  /// Where the root is.
+  Crossing<D> crossing() const { return {a_, b_, fixed_}; }
   /// \pre has_root()
-  Fraction root() const {
-    const Ring v_0 = exact(a_), v_1 = exact(b_);
-    return {v_0, Ring(v_0 - v_1)};
-  }
+  Fraction root() const { return fraction_of(crossing()); }
   /// The sign at a time.
   int sign_at(const Fraction& s) const {
     const Ring rest = s.denominator() - s.numerator();
@@ -98,6 +97,12 @@ class Event_time {
   const Fraction& value() const {
     if (!value_) value_ = function_ ? function_->root() : Fraction(low_);
     return *value_;
+  }
+
+  /// For reports, mostly without the value.
+  Exact_time exact() const {
+    if (function_) return to_time(function_->crossing());
+    return value_ ? to_time(*value_) : Exact_time(low_);
   }
 
   /// The sign of a function at this time.

@@ -146,7 +146,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
     if (result.contact && path.blocked) {
       const Cell last = path.visited.back();
       const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
-      if (result.contact->time >= to_time(blocked.value())) result.contact.reset();
+      if (result.contact->time >= blocked.exact()) result.contact.reset();
     }
     if (result.contact || !is_made) return result;
     result.supporting_walls = sweep.supporting_walls_at_end(candidates);

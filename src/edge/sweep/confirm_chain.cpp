@@ -43,15 +43,17 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
                            Chain_result<D>& result, Edge_counts& counts) {
   ++counts.edges;
   const Particle<D>& p = path.to;
+  const Cell end = path.blocked ? path.visited.back() : p.cell;
   Chain chain = before;
   prepend_crossed_facets(snapshot, chain, path.crossed);
   const auto has_no_choice = [&] {
     const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
-    return !may_have_choice(snapshot, triangle, p.cell, chain, counts.walk);
+    return !may_have_choice(snapshot, triangle, end, chain, counts.walk);
   };
   // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
   // through its inside.
-  if (certificates.same_cell && chain.empty() && (p.dimension == D || q.dimension == D || has_no_choice())) {
+  const bool has_inner_corner = (!path.blocked && p.dimension == D) || q.dimension == D;
+  if (certificates.same_cell && chain.empty() && (has_inner_corner || has_no_choice())) {
     ++counts.same_cell;
     result = {};
     return true;
@@ -59,13 +61,23 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   if (certificates.convex_pair && chain.size() == 1 &&
       snapshot.convex_passage(snapshot.cell_of(chain.front()), snapshot.neighbour(chain.front())) !=
           Half_facet::none &&
-      (p.dimension == D || q.dimension == D || has_no_choice())) {
+      (has_inner_corner || has_no_choice())) {
     ++counts.convex_pair;
     result = {};
     result.chain = chain;
     return true;
   }
   counts.chain_facets += chain.size();
+  if (path.blocked) {
+    // If the edge passes the chain where p does not come, beyond the wall, then also where it stops: V is convex.
+    if (!certificates.same_chain || !passes(snapshot, chain, p.position, q.position, counts.walk) ||
+        !has_no_choice())
+      return false;
+    ++counts.same_chain;
+    result = {};
+    result.chain = chain;
+    return true;
+  }
   // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
   bool on_planes = false;
   result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);

@@ -76,7 +76,7 @@ class Event_sweep {
         chain = walk.chain();
       } else {
         chain.clear();
-        result.contact = contact(to_time(time.value()), line, exact_segment(),
+        result.contact = contact(time.exact(), line, exact_segment(),
                                  walk.wall() != Half_facet::none ? walk.wall() : parting);
         return result;
       }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "confirm_chain.h"
 #include "edge/contact/contact_search.h"
 #include "edge/contact/swept_meeting.h"
 #include "edge/contact/touch.h"
@@ -56,7 +57,9 @@ Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, 
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, path, q, before, counts, options.certificates);
   if (path.blocked) {
-    ++counts.edges;
+    Chain_result<D> found;
+    if (detail::confirm_chain(snapshot, path, q, before, options.certificates, found, counts))
+      return {{}, std::move(found.chain)};
     ++counts.changed;
     if (is_free_where_blocked(snapshot, path, q, counts.walk)) {
       Sweep_result<D> result{{}, before};
@@ -123,7 +126,7 @@ template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
                           const Wall_contact<D>& met, Walk_counts& counts) {
   const detail::Event_time<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
-  return to_contact(met, to_time(time.value()), Body_feature::vertex);
+  return to_contact(met, time.exact(), Body_feature::vertex);
 }
 
 template <int D>

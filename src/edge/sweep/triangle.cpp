@@ -12,13 +12,6 @@ template <int D>
 Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates) {
-  if (path.blocked) {
-    // There is no chain at the end to confirm, and the wall that blocks p meets the triangle.
-    ++counts.edges;
-    ++counts.changed;
-    ++counts.event_sweeps;
-    return detail::follow_events(snapshot, path, q, before, counts.walk);
-  }
   if (path.from.position == path.to.position) {
     // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
     ++counts.edges;
@@ -30,7 +23,9 @@ Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>
     return {{}, std::move(found.chain)};
   ++counts.changed;
   const Swept_triangle<D> triangle{path.from.position, path.to.position, q.position};
-  if (certificates.flood && !found.contact && is_free_of_walls(snapshot, path.from.cell, triangle, counts))
+  // The wall that blocks p meets the triangle.
+  if (certificates.flood && !path.blocked && !found.contact &&
+      is_free_of_walls(snapshot, path.from.cell, triangle, counts))
     return {{}, std::move(found.chain)};
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, path, q, before, counts.walk);

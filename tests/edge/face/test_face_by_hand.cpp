@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Faces in worlds of unit cubes in which the answers are known.
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // On which side of the walls in its plane a face lies, where the answer is known: slits, the boundary, edges that pass a rim.
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -159,7 +159,7 @@ void test_worlds() {
     EXPECT_GT(seen.judged, 4'000);
     EXPECT_GT(seen.must_block, 300);
     EXPECT_GT(seen.p_blocked, 1'500);
-    EXPECT_GT(seen.counts.event_sweeps, 1'500u);
+    EXPECT_GT(seen.counts.event_sweeps, 800u);
     EXPECT_GT(misses(seen.faults_of_third_side), 5);
     if (generic) continue;
     EXPECT_GT(beside, 15);

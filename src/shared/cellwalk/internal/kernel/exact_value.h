@@ -3,7 +3,6 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_EXACT_VALUE_H
 #define CELLWALK_INTERNAL_KERNEL_EXACT_VALUE_H
 
-#include <cellwalk/kernel/exact_time.h>
 #include <cellwalk/kernel/policies.h>
 
 #include <CGAL/Exact_rational.h>
@@ -45,15 +44,6 @@ struct Ring_of<Field> {
 /// Ring numbers: they include all doubles; sums, differences and products are exact, and cheaper than those
 /// of rationals.
 using Ring = detail::Ring_of<Rational>::type;
-
-/// The fraction of an Exact_time.
-struct Exact_fraction {
-  Rational value;
-};
-
-/// \pre the fraction lies in the range of doubles
-Exact_time to_time(const Rational& fraction);
-Rational to_rational(const Exact_time& time);
 
 /// The exact value of an orientation, that is its determinant, where the sign alone does not suffice.
 struct Exact_value {

@@ -6,6 +6,7 @@
 #define CELLWALK_INTERNAL_KERNEL_FRACTION_H
 
 #include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/kernel/exact_time.h>
 
 #include <compare>
 #include <utility>
@@ -55,11 +56,23 @@ class Fraction {
 
 Rational to_rational(const Fraction& fraction);
 
-/// \pre the fraction lies in [0,1]
+/// \pre the fraction lies in the range of doubles
 Exact_time to_time(const Fraction& fraction);
+
+Fraction to_fraction(const Exact_time& time);
+Rational to_rational(const Exact_time& time);
 
 /// Rounded towards 0.
 double to_double(const Fraction& fraction);
+
+/// A double, and whether it is the number from which it was rounded.
+struct Rounded {
+  double value;
+  bool is_exact;
+};
+
+/// The greatest double that is not above a fraction.
+Rounded rounded_down(const Fraction& fraction);
 
 }  // namespace cellwalk
 

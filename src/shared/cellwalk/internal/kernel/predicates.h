@@ -28,13 +28,6 @@ bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x);
 int displaced_side(const Point<2>& p, const Point<2>& q);
 int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r);
 
-/// The parameter t at which the line a + t (b - a) meets the line uv (2D) or the plane uvw (3D).
-/// Returns the exact fraction clamped to [0,1] and rounded: within 4 ulp, 0 and 1 only if exact.
-/// \pre a and b do not lie strictly on the same side, nor both on the line or plane
-double crossing_time(const Point<2>& u, const Point<2>& v, const Point<2>& a, const Point<2>& b);
-double crossing_time(const Point<3>& u, const Point<3>& v, const Point<3>& w, const Point<3>& a,
-                     const Point<3>& b);
-
 /// Unit normal of the line uv (2D: on its left) or of the plane uvw (3D: on the side from which uvw is
 /// counterclockwise). Each component is within 1e-14 of the exact one, for any scale and shape of the
 /// triangle. The result is 0 if the points are collinear (2D: coincide).

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/crossing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace cellwalk {
+namespace {
+
+double double_below(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
+double double_above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+
+template <int D>
+using Twofold_vector = std::array<Twofold, static_cast<std::size_t>(D)>;
+
+/// The differences x - y, which are exact.
+template <int D>
+Twofold_vector<D> differences(const Point<D>& x, const Point<D>& y) {
+  Twofold_vector<D> d;
+  for (std::size_t i = 0; i < D; ++i) d[i] = detail::exact_difference(x[i], y[i]);
+  return d;
+}
+
+/// Between these, products of three differences and of their low parts neither overflow nor lose a bit to underflow
+/// that matters: the largest of them is 2^-450 at least, and what underflows 2^-900 at most.
+constexpr double least_difference = 0x1p-150, largest_difference = 0x1p150;
+
+template <int D>
+bool are_in_range(const Twofold_vector<D>& d) {
+  return std::all_of(d.begin(), d.end(), [](const Twofold& x) {
+    const double size = std::abs(x.high);
+    return size == 0 || (size > least_difference && size < largest_difference);
+  });
+}
+
+/// The normal of a line or plane, with the sums of the sizes of the terms of each component.
+template <int D>
+struct Twofold_normal {
+  Twofold_vector<D> value;
+  std::array<double, static_cast<std::size_t>(D)> size;
+  bool is_in_range;
+};
+
+Twofold_normal<2> normal_of(const std::array<Point<2>, 2>& line) {
+  const Twofold_vector<2> d = differences<2>(line[1], line[0]);
+  return {{-d[1], d[0]}, {std::abs(d[1].high), std::abs(d[0].high)}, are_in_range<2>(d)};
+}
+
+Twofold_normal<3> normal_of(const std::array<Point<3>, 3>& plane) {
+  const Twofold_vector<3> d = differences<3>(plane[1], plane[0]), e = differences<3>(plane[2], plane[0]);
+  Twofold_normal<3> normal;
+  normal.is_in_range = are_in_range<3>(d) && are_in_range<3>(e);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    normal.value[i] = d[j] * e[k] - d[k] * e[j];
+    normal.size[i] = std::abs(d[j].high * e[k].high) + std::abs(d[k].high * e[j].high);
+  }
+  return normal;
+}
+
+/// The errors of an orientation are less than this share of the sum of the sizes of its terms. In 3D a term has two
+/// products and three sums, hence at most 2 * 7 + 3 * 3 = 23 units, in 2D 7 + 3; the rest covers terms of higher order and
+/// that the sizes are computed in doubles.
+constexpr double orientation_share = 32 * detail::twofold_unit;
+
+template <int D>
+std::optional<Bounded_twofold> orientation(const Twofold_normal<D>& normal, const Point<D>& origin,
+                                           const Point<D>& x) {
+  const Twofold_vector<D> d = differences<D>(x, origin);
+  if (!are_in_range<D>(d)) return {};
+  Twofold value = normal.value[0] * d[0];
+  double size = normal.size[0] * std::abs(d[0].high);
+  for (std::size_t i = 1; i < D; ++i) {
+    value = value + normal.value[i] * d[i];
+    size += normal.size[i] * std::abs(d[i].high);
+  }
+  return Bounded_twofold{value, orientation_share * size};
+}
+
+/// Times below this are left to exact arithmetic, since their low parts might underflow.
+constexpr double least_time = 0x1p-400;
+
+/// How many times larger than its error a value has to be.
+constexpr double least_certainty = 1024;
+
+/// The greatest double that is not above a number, if its error allows one only.
+std::optional<double> certain_floor(const Bounded_twofold& x) {
+  if (x.value.low > x.error) return x.value.high;
+  if (x.value.low < -x.error) return double_below(x.value.high);
+  return {};
+}
+
+/// A coordinate of the point at a time, and the bound of its error.
+std::optional<Bounded_twofold> coordinate_at(double from, double to, const Bounded_twofold& time) {
+  const Twofold d = detail::exact_difference(to, from);
+  const double size = std::abs(d.high);
+  if (!(size > least_difference && size < largest_difference)) return {};
+  const Twofold part = time.value * d;
+  const Twofold value = Twofold{from, 0} + part;
+  return Bounded_twofold{value, 2 * time.error * size + detail::twofold_unit * (8 * std::abs(part.high) +
+                                                                                4 * std::abs(value.high))};
+}
+
+/// The orientations of both ends of a motion.
+template <int D>
+std::array<Ring, 2> exact_orientations(const Crossing<D>& crossing) {
+  const auto of = [&](const Point<D>& x) {
+    if constexpr (D == 2)
+      return Exact_value::orientation(crossing.plane[0], crossing.plane[1], x);
+    else
+      return Exact_value::orientation(crossing.plane[0], crossing.plane[1], crossing.plane[2], x);
+  };
+  return {of(crossing.a), of(crossing.b)};
+}
+
+/// A motion's place at a time.
+template <int D>
+class Place {
+ public:
+  Place(const Point<D>& p, const Point<D>& target, const Exact_time& time)
+      : p_(p), target_(target), time_(time) {
+    if (!time.fraction()) {
+      bounded_ = {{time.rounded(), 0}, 0};
+    } else if ((crossing_ = std::get_if<Crossing<D>>(&time.fraction()->source))) {
+      bounded_ = bounded_time(*crossing_);
+      is_crossing_of_p_ = crossing_->a == p && crossing_->b == target;
+    }
+  }
+
+  std::pair<double, double> bounds_of(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    if (p_[k] == target_[k]) return {p_[k], p_[k]};
+    if (is_crossing_of_p_ && is_in_coordinate_plane(k))
+      return {crossing_->plane[0][k], crossing_->plane[0][k]};
+    if (bounded_)
+      if (const auto x = coordinate_at(p_[k], target_[k], *bounded_))
+        if (const auto below = certain_floor(*x)) return {*below, double_above(*below)};
+    const Rounded below = exact_floor(k);
+    return {below.value, below.is_exact ? below.value : double_above(below.value)};
+  }
+
+ private:
+  bool is_in_coordinate_plane(std::size_t k) const {
+    return std::all_of(crossing_->plane.begin() + 1, crossing_->plane.end(),
+                       [&](const Point<D>& x) { return x[k] == crossing_->plane[0][k]; });
+  }
+
+  Rounded exact_floor(std::size_t k) const {
+    if (!fraction_) fraction_ = to_fraction(time_);
+    const Ring from(p_[k]), difference = Ring(target_[k]) - from;
+    return rounded_down(Fraction(from * fraction_->denominator() + fraction_->numerator() * difference,
+                                 fraction_->denominator()));
+  }
+
+  const Point<D>&p_, &target_;
+  const Exact_time& time_;
+  const Crossing<D>* crossing_ = nullptr;
+  bool is_crossing_of_p_ = false;
+  std::optional<Bounded_twofold> bounded_;
+  mutable std::optional<Fraction> fraction_;  ///< once it is needed
+};
+
+}  // namespace
+
+template <int D>
+std::optional<Bounded_twofold> bounded_time(const Crossing<D>& crossing) {
+  const Twofold_normal<D> normal = normal_of(crossing.plane);
+  if (!normal.is_in_range) return {};
+  const auto at_a = orientation<D>(normal, crossing.plane[0], crossing.a);
+  const auto at_b = orientation<D>(normal, crossing.plane[0], crossing.b);
+  if (!at_a || !at_b) return {};
+  if (!(std::abs(at_a->value.high) > least_certainty * at_a->error)) return {};
+  const Twofold difference = at_a->value - at_b->value;
+  const double size = std::abs(difference.high);
+  if (!(size > least_certainty * (at_a->error + at_b->error))) return {};
+  const Twofold time = at_a->value / difference;
+  if (!(time.high > least_time)) return {};
+  // The relative errors of v_a, of the difference and of the quotient; the factor covers their products.
+  const double share = at_a->error / std::abs(at_a->value.high) + (at_a->error + at_b->error) / size +
+                       32 * detail::twofold_unit;
+  return Bounded_twofold{time, (1 + 0x1p-8) * share * std::abs(time.high)};
+}
+
+template <int D>
+Fraction fraction_of(const Crossing<D>& crossing) {
+  const auto [at_a, at_b] = exact_orientations(crossing);
+  return {at_a, Ring(at_a - at_b)};
+}
+
+template <int D>
+Exact_time to_time(const Crossing<D>& crossing) {
+  const auto with_source = [&](double rounded) {
+    return Exact_time(rounded, std::make_shared<const Exact_fraction>(Exact_fraction{crossing}));
+  };
+  if (const auto time = bounded_time(crossing))
+    if (const auto rounded = certain_floor(*time)) return with_source(*rounded);
+  const Rounded rounded = rounded_down(fraction_of(crossing));
+  return rounded.is_exact ? Exact_time(rounded.value) : with_source(rounded.value);
+}
+
+template <int D>
+double crossing_time(const Crossing<D>& crossing) {
+  if (const auto time = bounded_time(crossing))
+    if (const auto rounded = certain_floor(*time)) return *rounded;
+  const auto [at_a, at_b] = exact_orientations(crossing);
+  if (at_a == at_b) return 0;
+  const Fraction time(at_a, Ring(at_a - at_b));
+  if (time.sign() <= 0) return 0;
+  if (time >= Fraction(1)) return 1;
+  return std::max(rounded_down(time).value, std::numeric_limits<double>::denorm_min());
+}
+
+template <int D>
+Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time) {
+  const Place<D> place(p, target, time);
+  Point_bounds<D> bounds;
+  for (int i = 0; i < D; ++i) std::tie(bounds.below[i], bounds.above[i]) = place.bounds_of(i);
+  return bounds;
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                \
+  template std::optional<Bounded_twofold> bounded_time<D>(const Crossing<D>&); \
+  template Fraction fraction_of<D>(const Crossing<D>&);                        \
+  template Exact_time to_time<D>(const Crossing<D>&);                          \
+  template double crossing_time<D>(const Crossing<D>&);                        \
+  template Point_bounds<D> bounds_at<D>(const Point<D>&, const Point<D>&, const Exact_time&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk

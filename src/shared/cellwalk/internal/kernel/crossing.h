@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Where a motion passes a line (2D) or plane (3D): its time in numbers of twice the precision of a double, whose
+// error bound nearly always decides how it is rounded; exactly where it does not. Includes CGAL; users link
+// CGAL::CGAL.
+#ifndef CELLWALK_INTERNAL_KERNEL_CROSSING_H
+#define CELLWALK_INTERNAL_KERNEL_CROSSING_H
+
+#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/twofold.h>
+#include <cellwalk/kernel/point.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <variant>
+
+namespace cellwalk {
+
+/// The motion from a to b, and D points that span the line or plane it passes.
+template <int D>
+struct Crossing {
+  Point<D> a, b;
+  std::array<Point<D>, static_cast<std::size_t>(D)> plane;
+};
+
+/// A number and a bound of the absolute error of its value.
+struct Bounded_twofold {
+  Twofold value;
+  double error;
+};
+
+/// The time at which the motion passes the plane: v_a / (v_a - v_b) for the orientations v_a of a and v_b of b. None
+/// if their errors leave the sign of v_a undecided, or coordinates differ by less than 2^-150 or more than 2^150.
+/// \pre a and b do not lie strictly on the same side
+template <int D>
+std::optional<Bounded_twofold> bounded_time(const Crossing<D>& crossing);
+
+/// \pre a and b do not both lie on the plane
+template <int D>
+Fraction fraction_of(const Crossing<D>& crossing);
+
+/// \pre a and b lie strictly on different sides
+/// Cost: 0.2 us, more if only exact arithmetic tells which double is the greatest that is not later.
+template <int D>
+Exact_time to_time(const Crossing<D>& crossing);
+
+/// The time rounded as that of to_time() is, in [0,1]; 0 and 1 only if exact.
+/// \pre a and b do not lie strictly on the same side
+template <int D>
+double crossing_time(const Crossing<D>& crossing);
+
+/// The fraction of an Exact_time: a number, or what it is computed from once it is needed.
+struct Exact_fraction {
+  std::variant<Fraction, Crossing<2>, Crossing<3>> source;
+};
+
+/// Coordinate by coordinate the greatest doubles that are not above, and the least that are not below, those of a
+/// point of a motion.
+template <int D>
+struct Point_bounds {
+  Point<D> below, above;
+};
+
+/// The bounds of p + time (target - p).
+/// \pre the point is finite
+template <int D>
+Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_INTERNAL_KERNEL_CROSSING_H
