@@ -111,8 +111,7 @@ struct Run {
 template <int D>
 World<D> Run<D>::make_world() const {
   try {
-    const Body_options& how = options.record.empty() ? options.body : recorded_options();
-    return World<D>(environment.snapshot(), scene, bodies.shapes, how);
+    return World<D>(environment.snapshot(), scene, bodies.shapes, options.body);
   } catch (const Error& error) {
     // What a scene asks for is input, whatever it would be in a call.
     const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
@@ -123,7 +122,7 @@ World<D> Run<D>::make_world() const {
 template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
-  const auto record = start_trace(outputs.record, options.scene, environment, world, scene);
+  const auto record = start_trace(outputs.record, options.scene, world);
   const Cell_soup<D> soup = environment.soup();
   const std::filesystem::path& folder = outputs.folder.path();
   const Interruption interruption;
@@ -136,10 +135,11 @@ void Run<D>::operator()() const {
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
+      if (record) record->before_step(world);
       world.step();
+      if (record) record->after_step(world);
       files.record(world, i == steps());
       if (motion) motion->record(world, i == steps());
-      if (record) record->record(world);
       if (picture) picture->record(world);
       progress.update(i);
       interruption.check();
@@ -167,7 +167,7 @@ void Run<D>::operator()() const {
   }
   const ordered_json said = report(world, files, motion ? &*motion : nullptr);
   io::write_json(folder / "run.json", said);
-  if (record) record->write();
+  if (record) record->write(world);
   write_json(outputs.json, said);
   interruption.check();
   outputs.all.commit(summary(world, files, motion.has_value(), picture.has_value()));
@@ -213,7 +213,6 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
   result["manifest"] = {{"cellwalk", CELLWALK_VERSION}, {"scene", scene_text()}};
   if (!world.bodies().empty())
     result["manifest"]["sweep"] = sweep_names[static_cast<std::size_t>(options.body.sweep.sweep)];
-  if (!options.record.empty()) result["manifest"]["recorded"] = true;
   return result;
 }
 
@@ -261,7 +260,7 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
   for (const auto& body : scene.bodies)
     if (const auto* file = std::get_if<std::string>(&body.source)) outputs.all.also_reads(*file);
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
-  if (!options.record.empty()) check_recordable(scene, bodies.shapes, options.scene);
+  if (!options.record.empty()) check_recordable(scene, options.scene);
   const Prepared_environment prepared = prepare(scene.environment, options.scene);
   const auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
@@ -304,7 +303,7 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--threads", options->threads, "Use at most so many threads; the results are the same")
       ->type_name("N")
       ->check(whole_number(1, 1024));
-  const CLI::Option* sweep = add_choice(
+  add_choice(
       *command, "--sweep", options->body.sweep.sweep,
       {{sweep_names[0], Sweep::three_segments},
        {sweep_names[1], Sweep::triangle},
@@ -312,24 +311,15 @@ void add_run(CLI::App& app, Action& chosen) {
       "What is checked of bodies: edges by the paper's three segments, which miss what fits between them; "
       "the triangles that edges sweep; or faces as well");
   command
-      ->add_option(
-          "--record", options->record,
-          "Record the motion with its exact answers, for cellwalk replay: of hexahedra in a grid of unit "
-          "cubes. A vertex that meets a wall stays where it is, and edges are checked by three segments")
+      ->add_option("--record", options->record,
+                   "Record the motion of all bodies, with the exact answers of walls, for cellwalk replay")
       ->type_name("TRACE");
   add_json(*command, options->json);
   command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
   add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
                           "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
-  command->callback([options, sweep, &chosen] {
-    const bool other_sweep = sweep->count() > 0 && options->body.sweep.sweep != Sweep::three_segments;
-    chosen = [options, other_sweep] {
-      if (!options->record.empty()) {
-        if (other_sweep)
-          throw Error(Error_code::usage,
-                      "bodies that are recorded move by three segments: leave --sweep out, or --record");
-        options->body.sweep.sweep = Sweep::three_segments;
-      }
+  command->callback([options, &chosen] {
+    chosen = [options] {
       std::optional<tbb::global_control> limit;
       if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);
       try {

@@ -1,115 +1,75 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "trace.h"
 
+#include <cellwalk/internal/simulation/body_replay.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <variant>
-
-#include "cli/common/environment_file.h"
 
 namespace cellwalk::cli {
-namespace {
-
-/// Number k of an option of a recipe; `otherwise` where it is not given.
-double option(const Generator_call& generator_call, const char* name, double otherwise, std::size_t k = 0) {
-  const auto found = generator_call.options.find(name);
-  if (found == generator_call.options.end() || found->second.empty()) return otherwise;
-  return found->second[std::min(k, found->second.size() - 1)];
-}
-
-std::vector<std::array<std::uint32_t, 2>> edges_of_traces() {
-  const std::array<Point<3>, trace_vertices> anywhere{};
-  return trace_body_soup(anywhere).edges;
-}
-
-/// What the header says of how the bodies were made: that of the first entry.
-double side_of(const Body_start<3>& start) {
-  const auto* shape = std::get_if<Body_shape<3>>(&start.source);
-  const auto* hexahedron = shape ? std::get_if<Hexahedron_shape>(shape) : nullptr;
-  return hexahedron ? start.placement.scale * hexahedron->side : 0;
-}
-
-/// The trace of a scene before its first step.
-Trace start_of(const Environment<3>& environment, const World<3>& world, const Scene<3>& scene) {
-  const auto& generator_call = std::get<Generator_call>(scene.environment);
-  const Snapshot<3>& snapshot = environment.snapshot();
-  Trace trace;
-  // As hex_grid() numbers them, the last point of the grid is its highest corner.
-  const Point<3>& corner = snapshot.points().back();
-  trace.nx = static_cast<std::uint32_t>(corner[0]);
-  trace.ny = static_cast<std::uint32_t>(corner[1]);
-  trace.nz = static_cast<std::uint32_t>(corner[2]);
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
-    if (snapshot.is_solid(snapshot.cell(i))) trace.obstacles.push_back(static_cast<std::uint32_t>(i));
-  trace.bodies = static_cast<std::uint32_t>(world.bodies().size());
-  for (const auto& moving : world.bodies())
-    for (const Point<3>& x : moving.body().positions()) trace.start_positions.push_back(x);
-  const Body_start<3>& first = scene.bodies.front();
-  trace.seed =
-      first.cloud ? first.cloud->seed : static_cast<std::uint64_t>(option(generator_call, "seed", 1));
-  trace.obstacle_fraction = option(generator_call, "solid", 0);
-  trace.body_side = side_of(first);
-  trace.speed = scene.time_step * (first.cloud ? first.cloud->speed : length(first.velocity));
-  return trace;
-}
-
-}  // namespace
 
 template <int D>
-void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& shapes,
-                      const std::string& scene_name) {
-  const auto refuse = [&](const std::string& key, const std::string& what) {
+void check_recordable(const Scene<D>& scene, const std::string& scene_name) {
+  const auto refuse = [&](const char* key, const char* what) {
     throw Error(Error_code::input, fmt::format("{}: {}: {}", scene_name, key, what));
   };
   if constexpr (D == 2) {
     refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
   } else {
-    const auto* generator_call = std::get_if<Generator_call>(&scene.environment);
-    if (!generator_call || generator_call->generator != "hexes")
-      refuse("environment", "a trace is of a grid of unit cubes: use {\"generate\": \"hexes\", ...}");
-    if (option(*generator_call, "scale", 1) != 1 || option(*generator_call, "rotated", 0) != 0 ||
-        option(*generator_call, "sheared", 0) != 0)
-      refuse("environment", "a trace is of a grid of unit cubes: leave scale, rotated and sheared out");
     if (!scene.particles.empty()) refuse("particles", "a trace holds bodies only: leave them out");
-    if (scene.catheter) refuse("catheter", "a trace holds bodies only: leave it out");
-    for (std::size_t i = 0; i < shapes.size(); ++i)
-      if (shapes[i].points.size() != trace_vertices || shapes[i].edges != edges_of_traces())
-        refuse(fmt::format("bodies[{}]", i),
-               "a trace holds bodies of 8 vertices and 12 edges, vertex v joined to v^1, v^2 and v^4: use "
-               "the shape "
-               "hexahedron, without faces");
+    if (scene.bodies.empty() && !scene.catheter)
+      refuse("bodies", "there is none to record: add one, or a catheter");
   }
 }
 
-Body_options recorded_options() {
-  Body_options options = trace_options(Sweep::triangle);
-  options.reported = Reported::both;
-  return options;
-}
-
-Run_trace::Run_trace(io::Atomic_file& file, const std::string& scene_name, const Environment<3>& environment,
-                     const World<3>& world, const Scene<3>& scene)
-    : file_(file), trace_(start_of(environment, world, scene)) {
-  naming(scene_name, [&] {
-    for (std::size_t b = 0; b < world.bodies().size(); ++b)
-      check_trace_start(environment.snapshot(), world.bodies()[b].body(), b);
-  });
-}
-
-void Run_trace::record(const World<3>& world) {
+Run_trace::Run_trace(io::Atomic_file& file, const std::string& scene_name, const World<3>& world)
+    : file_(file) {
+  constexpr std::uint32_t most_edges = 64;
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
+    const Body<3>& body = world.bodies()[b].body();
+    trace_.bodies.push_back({static_cast<std::uint32_t>(body.vertex_count()),
+                             {body.edges().begin(), body.edges().end()},
+                             {body.faces().begin(), body.faces().end()}});
+    degrees_.push_back(degrees(trace_.bodies.back()));
+    const auto& of_body = degrees_.back();
+    const auto bad = std::ranges::find_if(of_body, [](std::uint32_t degree) { return degree > most_edges; });
+    if (bad != of_body.end())
+      throw Error(
+          Error_code::input,
+          fmt::format("{}: body {}: vertex {} has {} edges, and a trace holds answers to {}: leave it out",
+                      scene_name, b, bad - of_body.begin(), *bad, most_edges));
+  }
+}
+
+void Run_trace::before_step(const World<3>& world) {
+  copies_.clear();
+  for (const Moving_body<3>& moving : world.bodies()) {
+    copies_.push_back(moving.body());
+    const auto positions = moving.body().positions();
+    trace_.before.insert(trace_.before.end(), positions.begin(), positions.end());
+  }
+}
+
+void Run_trace::after_step(const World<3>& world) {
+  const Body_options options = body_trace_options(Sweep::triangle);
+  for (std::size_t b = 0; b < copies_.size(); ++b) {
     const auto targets = world.bodies()[b].targets();
     trace_.targets.insert(trace_.targets.end(), targets.begin(), targets.end());
-    append_answers(world.report(b).blocked, Sweep::triangle, trace_.answers);
+    report_.clear();
+    copies_[b].step(targets, options, report_, counts_);
+    append_body_answers(degrees_[b], report_.blocked, options.sweep.sweep, trace_.answers);
   }
   ++trace_.steps;
 }
 
-template void check_recordable(const Scene<2>&, const std::vector<Body_soup<2>>&, const std::string&);
-template void check_recordable(const Scene<3>&, const std::vector<Body_soup<3>>&, const std::string&);
+void Run_trace::write(const World<3>& world) {
+  before_step(world);  // a trace ends with where the bodies are after the last step
+  io::write_body_trace(file_, trace_);
+}
+
+template void check_recordable(const Scene<2>&, const std::string&);
+template void check_recordable(const Scene<3>&, const std::string&);
 
 }  // namespace cellwalk::cli

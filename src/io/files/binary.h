@@ -35,6 +35,13 @@ class Binary_reader {
     return value;
   }
 
+  /// The next bytes, as they are. \pre so many are left
+  std::string_view take_bytes(std::size_t count) {
+    const std::string_view bytes = rest_.substr(0, count);
+    rest_.remove_prefix(count);
+    return bytes;
+  }
+
   std::size_t left() const { return rest_.size(); }
   void skip(std::size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
   [[noreturn]] void fail(const std::string& what) const { io::fail(file_, what); }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk replay TRACE: answers and times a recorded motion.
-#include <cellwalk/internal/io/trace_file.h>
+// cellwalk replay of a trace in a grid of unit cubes, which holds its environment.
 #include <cellwalk/internal/simulation/replay.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
 
@@ -10,53 +9,27 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "cli/common/command.h"
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/machine.h"
-#include "cli/common/outputs.h"
 #include "cli/common/progress.h"
 #include "cli/run/bodies.h"
+#include "replay.h"
 
 namespace cellwalk::cli {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int default_rounds = 7, default_warmup = 1, most_rounds = 100000;
-
-struct Replay_options {
-  std::string trace, json;
-  Sweep sweep = Sweep::triangle;
-  int rounds = default_rounds, warmup = default_warmup;
-  bool sheared = false;
-};
-
 /// What all rounds found: they differ in time only.
 struct Replayed {
   std::vector<double> ns_per_move;  ///< of each round
   std::uint64_t mismatches = 0;
   Replay_counts counts;  ///< of one round
-
-  double median() const {
-    std::vector<double> sorted = ns_per_move;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-  }
 };
-
-Trace load(const Replay_options& options) {
-  Trace trace = io::read_trace(options.trace);
-  if (trace.moves() == 0)
-    throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
-                                               options.trace, trace.bodies, trace.steps));
-  return options.sheared ? mapped(std::move(trace), sheared<3>()) : trace;
-}
 
 Environment<3> build(const Trace& trace, const Replay_options& options) {
   const Progress progress("generating and certifying the grid");
@@ -140,7 +113,7 @@ std::string summary(const Trace& trace, const Replay_options& options, const Rep
                      trace.bodies, trace.steps);
   line("time", fmt::format("{:.1f} ns per vertex move with its three edges, by {} (median of {} rounds, from "
                            "{:.1f} to {:.1f})",
-                           replayed.median(), sweep_names[static_cast<std::size_t>(options.sweep)],
+                           median(replayed.ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)],
                            options.rounds, *least, *most));
   line("mismatches", fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
   line("moves", describe_moves(c.body));
@@ -150,51 +123,24 @@ std::string summary(const Trace& trace, const Replay_options& options, const Rep
   return text;
 }
 
-void replay(const Replay_options& options) {
-  Outputs outputs({options.trace});
-  io::Atomic_file* const json = outputs.file(options.json);
-  const Trace trace = load(options);
-  const Environment<3> environment = build(trace, options);
-  const Replayed replayed = replay_rounds(trace, environment, options);
-  write_json(json, {{"ns_per_vertex_move", replayed.median()},
-                    {"ns_per_vertex_move_rounds", replayed.ns_per_move},
-                    {"mismatches", replayed.mismatches},
-                    {"counts", counts_json(replayed)},
-                    {"manifest", manifest(trace, options)}});
-  outputs.commit(summary(trace, options, replayed));
-}
-
 }  // namespace
 
-void add_replay(CLI::App& app, Action& chosen) {
-  const auto options = std::make_shared<Replay_options>();
-  CLI::App* command = app.add_subcommand(
-      "replay", "Answer and time a recorded motion of bodies, and compare with the recorded exact answers");
-  command->add_option("trace", options->trace, "A trace, see docs/formats.md")
-      ->required()
-      ->type_name("TRACE");
-  add_choice(
-      *command, "--sweep", options->sweep,
-      {{sweep_names[0], Sweep::three_segments}, {sweep_names[1], Sweep::triangle}},
-      "What is checked of edges. three_segments: the way of the vertex, then the edge, as in the paper; "
-      "answers bits 0 to 3. triangle: also all that the edge sweeps; answers bits 4 to 6, too");
-  command
-      ->add_option("--repeat", options->rounds,
-                   "Rounds that are timed, each from the start; the median counts")
-      ->type_name("N")
-      ->check(whole_number(1, most_rounds))
-      ->capture_default_str();
-  command->add_option("--warmup", options->warmup, "Rounds before them that are not timed")
-      ->type_name("N")
-      ->check(whole_number(0, most_rounds))
-      ->capture_default_str();
-  command->add_flag("--shear", options->sheared,
-                    "Shear the grid and all motion: cells are no cubes then, and cost the same");
-  add_json(*command, options->json);
-  add_examples(*command,
-               {"cellwalk replay motion.trace",
-                "cellwalk replay motion.trace --sweep three_segments --repeat 21 --json times.json"});
-  command->callback([options, &chosen] { chosen = [options] { replay(*options); }; });
+Replay_report replay_grid(Trace trace, const Replay_options& options) {
+  if (trace.moves() == 0)
+    throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
+                                               options.trace, trace.bodies, trace.steps));
+  if (!options.environment.empty())
+    throw Error(Error_code::usage,
+                fmt::format("--environment: {} holds its grid: leave the option out", options.trace));
+  if (options.sheared) trace = mapped(std::move(trace), sheared<3>());
+  const Environment<3> environment = build(trace, options);
+  const Replayed replayed = replay_rounds(trace, environment, options);
+  return {{{"ns_per_vertex_move", median(replayed.ns_per_move)},
+           {"ns_per_vertex_move_rounds", replayed.ns_per_move},
+           {"mismatches", replayed.mismatches},
+           {"counts", counts_json(replayed)},
+           {"manifest", manifest(trace, options)}},
+          summary(trace, options, replayed)};
 }
 
 }  // namespace cellwalk::cli

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk replay of a trace of any bodies, in the environment of a file.
+#include "cli/run/bodies.h"
+
+#include <cellwalk/internal/simulation/body_replay.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <variant>
+
+#include "cli/common/contact_kind_names.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/machine.h"
+#include "cli/common/progress.h"
+#include "replay.h"
+
+namespace cellwalk::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What all rounds of bodies found: they differ in time only.
+struct Replayed_bodies {
+  std::vector<double> ns_per_move;  ///< of each round
+  std::vector<double>
+      step_us;  ///< of each step, the least of all rounds: what the steps cost, not the machine
+  std::uint64_t mismatches = 0, registered_anew = 0, blocked = 0;
+  Body_counts counts;  ///< of one round
+};
+
+Environment<3> load_solid(const Replay_options& options) {
+  if (options.environment.empty())
+    throw Error(
+        Error_code::usage,
+        fmt::format("--environment is required: {} holds bodies, not the walls around them", options.trace));
+  if (options.sheared)
+    throw Error(Error_code::usage, "--shear is for traces in a grid of unit cubes: leave it out");
+  Build_options build;
+  build.keep_map = false;
+  Loaded_environment loaded = load_with_progress(options.environment, build);
+  auto* environment = std::get_if<Environment<3>>(&loaded.environment);
+  if (!environment)
+    throw Error(Error_code::input, fmt::format("{}: is of dimension 2, the bodies of {} of dimension 3",
+                                               options.environment, options.trace));
+  return std::move(*environment);
+}
+
+std::uint64_t count_blocked(const Body_trace& trace, std::span<const std::uint8_t> answers) {
+  std::uint64_t count = 0;
+  std::size_t at = 0;
+  while (at < answers.size())
+    for (const Traced_body& body : trace.bodies)
+      for (const std::uint32_t degree : degrees(body)) {
+        const auto of_vertex = answers.subspan(at, 1 + degree);
+        count += std::ranges::any_of(of_vertex,
+                                     [](std::uint8_t bits) { return (bits & body_trace_blocked) != 0; });
+        at += of_vertex.size();
+      }
+  return count;
+}
+
+/// Replays the trace again and again. Only the moves are timed.
+Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environment<3>& environment,
+                                        const Replay_options& options) {
+  using Clock = std::chrono::steady_clock;
+  const Locator<3> locator(environment.snapshot());
+  const int rounds = options.warmup + options.rounds;
+  Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
+  Replayed_bodies result;
+  result.step_us.assign(trace.steps, std::numeric_limits<double>::infinity());
+  for (int round = 0; round < rounds; ++round) {
+    Body_replay replay = naming(options.trace, [&] {
+      return Body_replay(environment.snapshot(), locator, trace, body_trace_options(options.sweep));
+    });
+    double ns = 0;
+    for (std::uint32_t s = 0; s < trace.steps; ++s) {
+      naming(options.trace, [&] { replay.prepare(); });
+      const Clock::time_point begin = Clock::now();
+      replay.step();
+      const std::chrono::duration<double, std::nano> passed = Clock::now() - begin;
+      replay.note_answers();
+      ns += passed.count();
+      if (round >= options.warmup) result.step_us[s] = std::min(result.step_us[s], passed.count() / 1000);
+    }
+    progress.update(static_cast<std::uint64_t>(round) + 1);
+    if (!trace.answers.empty())
+      result.mismatches =
+          std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
+    result.blocked = count_blocked(trace, replay.answers());
+    result.registered_anew = replay.registered_anew();
+    result.counts = replay.counts();
+    if (round >= options.warmup) result.ns_per_move.push_back(ns / static_cast<double>(trace.moves()));
+  }
+  return result;
+}
+
+/// A quantile of sorted values, the least that so many of them do not exceed.
+double quantile(const std::vector<double>& sorted, double share) {
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
+  return sorted[std::min(at, sorted.size() - 1)];
+}
+
+ordered_json step_times(std::vector<double> step_us) {
+  std::sort(step_us.begin(), step_us.end());
+  return {{"median", median(step_us)},
+          {"p99", quantile(step_us, 0.99)},
+          {"p999", quantile(step_us, 0.999)},
+          {"max", step_us.back()}};
+}
+
+ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& environment,
+                                const Replay_options& options) {
+  ordered_json result = machine_json();
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  result["trace"] = {{"file", name(options.trace)},
+                     {"bodies", trace.bodies.size()},
+                     {"vertices", trace.vertices()},
+                     {"steps", trace.steps}};
+  result["environment"] = {{"file", name(options.environment)},
+                           {"cells", environment.snapshot().cell_count()}};
+  result["sweep"] = sweep_names[static_cast<std::size_t>(options.sweep)];
+  result["rounds"] = options.rounds;
+  result["warmup"] = options.warmup;
+  result["threads"] = 1;
+  return result;
+}
+
+std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& environment,
+                              const Replay_options& options, const Replayed_bodies& replayed,
+                              const ordered_json& us) {
+  std::string text =
+      fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells\n", options.trace,
+                  trace.bodies.size(), trace.vertices(), trace.steps, environment.snapshot().cell_count());
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
+  line("time",
+       fmt::format(
+           "{:.1f} ns per vertex move with its edges, by {} (median of {} rounds, from {:.1f} to {:.1f})",
+           median(replayed.ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)], options.rounds,
+           *least, *most));
+  line("steps", fmt::format("{:.1f} us in the median, 99 % within {:.1f}, 99.9 % within {:.1f}",
+                            us["median"].get<double>(), us["p99"].get<double>(), us["p999"].get<double>()));
+  line("mismatches", trace.answers.empty()
+                         ? "not known: the trace holds no answers"
+                         : fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
+  line("blocked", fmt::format("{} of {} moves", replayed.blocked, trace.moves()));
+  line("moves", describe_moves(replayed.counts));
+  line("edges", describe_edges(replayed.counts.edges));
+  return text;
+}
+
+}  // namespace
+
+Replay_report replay_bodies(const Body_trace& trace, const Replay_options& options) {
+  if (trace.moves() == 0)
+    throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
+                                               options.trace, trace.bodies.size(), trace.steps));
+  const Environment<3> environment = load_solid(options);
+  const Replayed_bodies replayed = replay_rounds_of_bodies(trace, environment, options);
+  const ordered_json us = step_times(replayed.step_us);
+  ordered_json json{{"ns_per_vertex_move", median(replayed.ns_per_move)},
+                    {"ns_per_vertex_move_rounds", replayed.ns_per_move},
+                    {"moves", trace.moves()},
+                    {"blocked", replayed.blocked},
+                    {"step_us", us}};
+  json["mismatches"] = trace.answers.empty() ? ordered_json() : ordered_json(replayed.mismatches);
+  json["registered_anew"] = replayed.registered_anew;
+  json["counts"] = to_json(replayed.counts);
+  json["manifest"] = manifest_of_bodies(trace, environment, options);
+  return {json, summary_of_bodies(trace, environment, options, replayed, us)};
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// cellwalk replay TRACE: answers and times a recorded motion.
+#include "replay.h"
+
+#include <cellwalk/internal/io/body_trace_file.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "cli/common/command.h"
+#include "cli/common/contact_kind_names.h"
+#include "cli/common/environment_file.h"
+#include "cli/common/outputs.h"
+
+namespace cellwalk::cli {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+namespace {
+
+constexpr int most_rounds = 100000;
+
+void replay(const Replay_options& options) {
+  Outputs outputs({options.trace, options.environment});
+  io::Atomic_file* const json = outputs.file(options.json);
+  auto read = io::read_any_trace(options.trace);
+  const Replay_report report = std::holds_alternative<Trace>(read)
+                                   ? replay_grid(std::get<Trace>(std::move(read)), options)
+                                   : replay_bodies(std::get<Body_trace>(read), options);
+  write_json(json, report.json);
+  outputs.commit(report.summary);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<Replay_options>();
+  CLI::App* command = app.add_subcommand(
+      "replay", "Answer and time a recorded motion of bodies, and compare with the recorded exact answers");
+  command->add_option("trace", options->trace, "A trace, see docs/formats.md")
+      ->required()
+      ->type_name("TRACE");
+  command
+      ->add_option(
+          "--environment", options->environment,
+          "The environment of the bodies, as check takes it; a trace in a grid of unit cubes holds its own")
+      ->type_name("ENV");
+  add_choice(*command, "--sweep", options->sweep,
+             {{sweep_names[0], Sweep::three_segments}, {sweep_names[1], Sweep::triangle}},
+             "What is checked of edges. three_segments: the path of the vertex, then the edge, as in the "
+             "paper. triangle: "
+             "also all that the edge sweeps; compares those answers, too");
+  command
+      ->add_option("--repeat", options->rounds,
+                   "Rounds that are timed, each from the start; the median counts")
+      ->type_name("N")
+      ->check(whole_number(1, most_rounds))
+      ->capture_default_str();
+  command->add_option("--warmup", options->warmup, "Rounds before them that are not timed")
+      ->type_name("N")
+      ->check(whole_number(0, most_rounds))
+      ->capture_default_str();
+  command->add_flag("--shear", options->sheared,
+                    "Shear the grid and all motion: cells are no cubes then, and cost the same");
+  add_json(*command, options->json);
+  add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
+                          "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});
+  command->callback([options, &chosen] { chosen = [options] { replay(*options); }; });
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Replays of both kinds of traces.
+#ifndef CELLWALK_CLI_REPLAY_REPLAY_H
+#define CELLWALK_CLI_REPLAY_REPLAY_H
+
+#include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/records/body_trace.h>
+#include <cellwalk/internal/records/trace.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace cellwalk::cli {
+
+struct Replay_options {
+  std::string trace, environment, json;
+  Sweep sweep = Sweep::triangle;
+  int rounds = 7, warmup = 1;
+  bool sheared = false;
+};
+
+struct Replay_report {
+  nlohmann::ordered_json json;
+  std::string summary;
+};
+
+/// Replays a trace in a grid of unit cubes, which holds its environment.
+/// \throw Error naming the trace, or the option that does not apply to it
+Replay_report replay_grid(Trace trace, const Replay_options& options);
+
+/// Replays a trace of any bodies in the environment of a file.
+/// \throw Error naming the trace, the environment, or the option that does not apply
+Replay_report replay_bodies(const Body_trace& trace, const Replay_options& options);
+
+/// The middle value, or the mean of the two in the middle. \pre there is one
+double median(std::vector<double> values);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_REPLAY_REPLAY_H

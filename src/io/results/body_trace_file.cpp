@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/body_trace_file.h>
+#include <cellwalk/internal/io/trace_file.h>
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "io/files/binary.h"
+
+namespace cellwalk::io {
+namespace {
+
+constexpr std::string_view body_trace_magic = "ECCDTRC2";
+static_assert(std::endian::native == std::endian::little,
+              "arrays are read and written as they lie in memory");
+
+constexpr std::uint64_t bytes_of_point = 24;
+
+/// The next `count` values, if so many bytes are left.
+template <class T>
+std::vector<T> take_values(Binary_reader& in, std::uint64_t count, const char* what) {
+  if (count > in.left() / sizeof(T))
+    in.fail(fmt::format("the file ends within {}: it is cut short, get it whole", what));
+  std::vector<T> values(static_cast<std::size_t>(count));
+  const std::string_view bytes = in.take_bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+/// What is wrong with the connections of a body; empty if nothing.
+std::string flaw_of(const Traced_body& body) {
+  for (std::size_t e = 0; e < body.edges.size(); ++e) {
+    const auto& [u, v] = body.edges[e];
+    if (u >= v || v >= body.vertices)
+      return fmt::format("edge {} joins vertices {} and {}, of {}: the lower one comes first", e, u, v,
+                         body.vertices);
+    if (e > 0 && !(body.edges[e - 1] < body.edges[e]))
+      return fmt::format("edge {} is not above the one before", e);
+  }
+  for (std::size_t f = 0; f < body.faces.size(); ++f)
+    for (const std::uint32_t v : body.faces[f])
+      if (v >= body.vertices) return fmt::format("face {} has vertex {}, of {}", f, v, body.vertices);
+  return {};
+}
+
+/// What is wrong with the values of a trace whose arrays have their lengths; empty if nothing.
+std::string flaw_of(const Body_trace& trace) {
+  for (std::size_t b = 0; b < trace.bodies.size(); ++b)
+    if (const std::string what = flaw_of(trace.bodies[b]); !what.empty())
+      return fmt::format("body {}: {}", b, what);
+  const std::size_t vertices = trace.vertices();
+  const auto not_finite = [vertices](const std::vector<Point<3>>& points, const char* what) -> std::string {
+    const auto bad = std::find_if_not(points.begin(), points.end(), is_finite<3>);
+    if (bad == points.end()) return {};
+    const auto i = static_cast<std::size_t>(bad - points.begin());
+    return fmt::format("{} of vertex {} in step {} has a coordinate that is not finite", what, i % vertices,
+                       i / vertices);
+  };
+  if (const std::string what = not_finite(trace.before, "the position"); !what.empty()) return what;
+  if (const std::string what = not_finite(trace.targets, "the target"); !what.empty()) return what;
+  for (std::size_t i = 0; i < trace.answers.size(); ++i)
+    if ((trace.answers[i] & ~body_trace_bits) != 0)
+      return fmt::format("answer {} has an unknown bit: it is {}", i, trace.answers[i]);
+  return {};
+}
+
+}  // namespace
+
+Body_trace parse_body_trace(const std::string& name, std::string_view bytes) {
+  if (!bytes.starts_with(body_trace_magic))
+    fail(name, fmt::format("is no trace of bodies: it does not begin with {}; name a file of recorded motion",
+                           body_trace_magic));
+  Binary_reader in(name, bytes.substr(body_trace_magic.size()), false);
+  Body_trace trace;
+  const auto bodies = in.take<std::uint32_t>("the number of bodies");
+  trace.steps = in.take<std::uint32_t>("the number of steps");
+  for (std::uint32_t b = 0; b < bodies; ++b) {
+    Traced_body body;
+    body.vertices = in.take<std::uint32_t>("the vertices of a body");
+    const auto edges = in.take<std::uint32_t>("the edges of a body");
+    const auto faces = in.take<std::uint32_t>("the faces of a body");
+    body.edges = take_values<std::array<std::uint32_t, 2>>(in, edges, "the edges of a body");
+    body.faces = take_values<std::array<std::uint32_t, 3>>(in, faces, "the faces of a body");
+    trace.bodies.push_back(std::move(body));
+  }
+  const std::uint64_t vertices = trace.vertices();
+  // Neither product leaves 64 bits: the vertices of all bodies are fewer than 2^56, since each body took 12 bytes.
+  if (vertices > 0 && trace.steps > in.left() / (2 * bytes_of_point * vertices))
+    fail(name,
+         fmt::format(
+             "announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, get "
+             "it whole",
+             trace.steps, vertices, in.left()));
+  trace.before = take_values<Point<3>>(in, (std::uint64_t{trace.steps} + 1) * vertices, "the positions");
+  trace.targets = take_values<Point<3>>(in, trace.steps * vertices, "the targets");
+  const auto has_answers = in.take<std::uint8_t>("the byte that announces answers");
+  if (has_answers > 1)
+    fail(name, fmt::format("the byte that announces answers is {}: 0 or 1 is expected", has_answers));
+  if (has_answers == 1)
+    trace.answers =
+        take_values<std::uint8_t>(in, trace.steps * std::uint64_t{trace.answers_of_step()}, "the answers");
+  if (in.left() > 0)
+    fail(name,
+         fmt::format("goes on for {} bytes after what it announces: it is damaged, get it anew", in.left()));
+  if (const std::string what = flaw_of(trace); !what.empty()) fail(name, what);
+  return trace;
+}
+
+Body_trace read_body_trace(const std::filesystem::path& path) {
+  return parse_body_trace(path.string(), load(path));
+}
+
+std::variant<Trace, Body_trace> read_any_trace(const std::filesystem::path& path) {
+  const std::string bytes = load(path);
+  if (bytes.starts_with(body_trace_magic)) return parse_body_trace(path.string(), bytes);
+  return parse_trace(path.string(), bytes);
+}
+
+void write_body_trace(Atomic_file& file, const Body_trace& trace) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Error_code::usage, fmt::format("{}: is not written: {}", file.destination().string(), what));
+  };
+  if (trace.bodies.size() > std::numeric_limits<std::uint32_t>::max() ||
+      trace.before.size() != (trace.steps + std::size_t{1}) * trace.vertices() ||
+      trace.targets.size() != trace.moves() ||
+      (!trace.answers.empty() && trace.answers.size() != trace.steps * trace.answers_of_step()))
+    refuse("the trace holds other numbers of positions, targets and answers than its counts say");
+  if (const std::string what = flaw_of(trace); !what.empty()) refuse(what);
+  const auto write = [&file](std::size_t count) {
+    const auto number = static_cast<std::uint32_t>(count);
+    file.write(bytes_of(&number, 1));
+  };
+  file.write(body_trace_magic);
+  write(trace.bodies.size());
+  write(trace.steps);
+  for (const Traced_body& body : trace.bodies) {
+    write(body.vertices);
+    write(body.edges.size());
+    write(body.faces.size());
+    file.write(bytes_of(body.edges));
+    file.write(bytes_of(body.faces));
+  }
+  file.write(bytes_of(trace.before));
+  file.write(bytes_of(trace.targets));
+  const std::uint8_t has_answers = !trace.answers.empty();
+  file.write(bytes_of(&has_answers, 1));
+  file.write(bytes_of(trace.answers));
+}
+
+}  // namespace cellwalk::io
