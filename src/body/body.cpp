@@ -123,8 +123,8 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
 }
 
 template <int D>
-std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
-                                                    const Body_options& options, Body_counts& counts) {
+std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                               const Body_options& options, Body_counts& counts) {
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }

@@ -58,7 +58,7 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
 }
 
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
-                 const Vertex_path<3>& path, std::optional<Body_contact<3>>& first, Face_counts& counts) {
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
@@ -74,7 +74,9 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
     if (swept.contact) {
       Contact<3> contact = *swept.contact;
       contact.body = Body_feature::face;
-      if (!first || is_before(contact, first->contact)) first = {contact, vertex, f};
+      contact.vertex = vertex;
+      contact.feature = f;
+      if (!first || is_before(contact, *first)) first = contact;
     } else if (!first && (!swept.supporting_walls.empty() || !body.supporting_walls[f].empty())) {
       scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }

@@ -7,17 +7,6 @@
 #include "vertex_move.h"
 
 namespace cellwalk::detail {
-namespace {
-
-/// The wall that is touched, as walks report walls.
-template <int D>
-std::optional<Wall_contact<D>> touched_wall(const std::optional<Contact<D>>& touch) {
-  if (!touch) return {};
-  return Wall_contact<D>{touch->rounded_time(), touch->point,  touch->normal, touch->kind,
-                         touch->facet,          touch->corner, touch->cell};
-}
-
-}  // namespace
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
@@ -30,15 +19,16 @@ template <int D>
     if (body_.try_move_in_region(v, targets[v], counts_) ||
         (may_be_certified && try_certified_move(v, targets[v])))
       continue;
-    Rejected_move<D> answer = try_to_move(v, targets[v]);
+    Tried_move<D> tried = try_to_move(v, targets[v]);
+    const Rejected_move<D>& answer = tried.answer;
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
     if (reported != Reported::blocked && answer.stays())
       report.contacts.push_back(first_contact(answer, targets[v]));
     if (reported == Reported::contacts) continue;
-    locate_wall(answer, targets[v]);
-    report.blocked.push_back(answer);
+    locate_wall(tried, targets[v]);
+    report.blocked.push_back(std::move(tried.answer));
   }
 }
 
@@ -48,18 +38,28 @@ const Corner& Target_step<D>::first_blocked(const Rejected_move<D>& blocked) con
   return body_.topology.corners_of(blocked.vertex)[static_cast<std::size_t>(std::countr_zero(blocked.edges))];
 }
 
-/// Where the wall is that keeps a vertex from moving, which walks and searches of chains left out.
+/// Completes the contact of a vertex that stays: walks and searches of chains left out where the wall is.
 template <int D>
-void Target_step<D>::locate_wall(Rejected_move<D>& blocked, const Point<D>& target) const {
-  if (blocked.is_vertex_blocked)
-    locate_contact(snapshot(), body_.positions[blocked.vertex], target, *blocked.contact);
-  else if (blocked.contact)
-    locate_contact(snapshot(), target, body_.positions[first_blocked(blocked).other], *blocked.contact);
+void Target_step<D>::locate_wall(Tried_move<D>& tried, const Point<D>& target) const {
+  Rejected_move<D>& answer = tried.answer;
+  if (!answer.stays()) return;
+  const std::uint32_t v = answer.vertex;
+  const Corner* edge = answer.is_vertex_blocked ? nullptr : &first_blocked(answer);
+  const Body_feature body = edge ? Body_feature::edge : Body_feature::vertex;
+  if (tried.met) {
+    const Point<D>&from = edge ? target : body_.positions[v],
+          &to = edge ? body_.positions[edge->other] : target;
+    locate_contact(snapshot(), from, to, *tried.met);
+    answer.contact = to_contact(*tried.met, Exact_time(tried.met->time), body);
+  }
+  answer.contact->body = body;
+  answer.contact->vertex = v;
+  answer.contact->feature = edge ? edge->edge : v;
 }
 
 /// The contact of a vertex that stays.
 template <int D>
-Body_contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
+Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
   const std::uint32_t vertex = blocked.vertex;
   Sweep_options segments = sweep_;
   segments.sweep = Sweep::three_segments;
@@ -71,11 +71,13 @@ Body_contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, c
   }
   // It touched a wall where it started.
   const Particle<D>& from = body_.particles[vertex];
-  const auto meeting = [&](const Point<D>& q, std::uint32_t edge) -> Body_contact<D> {
+  const auto meeting = [&](const Point<D>& q, std::uint32_t edge) {
     Contact<D> contact =
         closed_meeting<D>(snapshot(), from.cell, {from.position, target, q}, counts_.edges).value();
     if (blocked.is_vertex_blocked) contact.body = Body_feature::vertex;
-    return {contact, vertex, contact.body == Body_feature::vertex ? vertex : edge};
+    contact.vertex = vertex;
+    contact.feature = contact.body == Body_feature::vertex ? vertex : edge;
+    return contact;
   };
   if (blocked.is_vertex_blocked) return meeting(from.position, 0);
   const Corner& corner = first_blocked(blocked);
@@ -212,8 +214,9 @@ bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Part
 
 /// Moves a vertex, or leaves it where it is.
 template <int D>
-Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
-  Rejected_move<D> answer;
+Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
+  Tried_move<D> tried;
+  Rejected_move<D>& answer = tried.answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = body_.region.holds_way(vertex, target);
@@ -233,18 +236,16 @@ Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D
   }
   if (const Walk_result<D> walked = cellwalk::move(snapshot(), to, target, counts_.edges.walk, recorded);
       walked.contact) {
-    answer.is_vertex_blocked = true;
-    answer.contact = walked.contact;
-    return answer;
+    answer.is_vertex_blocked = tried.keep(walked.contact);
+    return tried;
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
   const bool is_apart = body_.is_apart && signs() == signs_before;
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =
             closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
-      answer.is_vertex_blocked = true;
-      answer.contact = touched_wall(touch);
-      return answer;
+      answer.is_vertex_blocked = tried.keep(touch);
+      return tried;
     }
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
   const auto corners = body_.topology.corners_of(vertex);
@@ -254,20 +255,19 @@ Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D
     const bool is_in_region = is_inside && !body_.region.is_outside(corners[i].other);
     moved.is_stale = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, answer)
-                                  : meets_at_end(path, corners[i], answer);
+    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, tried)
+                                  : meets_at_end(path, corners[i], tried);
     if (is_met) answer.edges |= std::uint64_t{1} << i;
   }
-  if (answer.stays()) return answer;
+  if (answer.stays()) return tried;
   body_.are_faces_swept = false;
   body_.commit(vertex, to, scratch.chains);
-  return answer;
+  return tried;
 }
 
 /// True if the edge of a corner meets a wall where its vertex goes.
 template <int D>
-bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner,
-                                  Rejected_move<D>& answer) {
+bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
   Edge_counts& edges = counts_.edges;
@@ -285,22 +285,16 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corn
   const bool is_plain = body_.is_apart && signs() == signs_before;
   if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
-  std::optional<Wall_contact<D>> contact = walked.contact;
-  if (!contact || contact->kind != Contact_kind::facet) {
-    if (stops)
-      contact = touched_wall(closed_meeting<D>(snapshot(), path.to.cell,
-                                               {path.to.position, q.position, path.to.position}, edges));
-    else
-      contact = find_any_chain(snapshot(), path.to, q, edges.walk).contact;
-  }
-  if (contact && !answer.contact) answer.contact = contact;
-  return contact.has_value();
+  if (walked.contact && walked.contact->kind == Contact_kind::facet) return tried.keep(walked.contact);
+  if (!stops) return tried.keep(find_any_chain(snapshot(), path.to, q, edges.walk).contact);
+  return tried.keep(
+      closed_meeting<D>(snapshot(), path.to.cell, {path.to.position, q.position, path.to.position}, edges));
 }
 
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
 bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                                        Moved_chain& moved, Rejected_move<D>& answer) {
+                                        Moved_chain& moved, Tried_move<D>& tried) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
   if (is_certified_free(path.from, path.to, q)) {
@@ -321,7 +315,7 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
     moved.chain = std::move(free->chain);
     return false;
   }
-  answer.swept_edges |= std::uint64_t{1} << number;
+  tried.answer.swept_edges |= std::uint64_t{1} << number;
   const std::uint64_t signs_before = signs();
   Chain_result<D> anew = find_chain(snapshot(), path.to, q, edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
@@ -330,16 +324,13 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
   if (stops && !is_crossed) {
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      anew.contact = touched_wall(meeting(path.to.cell, {path.to.position, q.position, path.to.position}));
-      if (!anew.contact) anew = find_any_chain(snapshot(), path.to, q, edges.walk);
+      if (tried.keep(meeting(path.to.cell, {path.to.position, q.position, path.to.position}))) return true;
+      anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {
     anew = find_any_chain(snapshot(), path.to, q, edges.walk);
   }
-  if (anew.contact) {
-    if (!answer.contact) answer.contact = anew.contact;
-    return true;
-  }
+  if (tried.keep(anew.contact)) return true;
   moved.chain = std::move(anew.chain);
   return false;
 }

@@ -30,12 +30,12 @@ struct Answer {
 /// \pre contacts are of this body, velocities are finite
 /// Cost: some us, and 50 ns a contact and pass.
 template <int D>
-void answer_contacts(const Body<D>& body, std::span<const Body_contact<D>> contacts, const Answer& answer,
+void answer_contacts(const Body<D>& body, std::span<const Contact<D>> contacts, const Answer& answer,
                      std::span<const Vector<D>> reached, std::span<Vector<D>> velocities);
 
-extern template void answer_contacts<2>(const Body<2>&, std::span<const Body_contact<2>>, const Answer&,
+extern template void answer_contacts<2>(const Body<2>&, std::span<const Contact<2>>, const Answer&,
                                         std::span<const Vector<2>>, std::span<Vector<2>>);
-extern template void answer_contacts<3>(const Body<3>&, std::span<const Body_contact<3>>, const Answer&,
+extern template void answer_contacts<3>(const Body<3>&, std::span<const Contact<3>>, const Answer&,
                                         std::span<const Vector<3>>, std::span<Vector<3>>);
 
 }  // namespace cellwalk::detail

@@ -123,7 +123,7 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     stored_ = 0;
     return;
   }
-  const std::vector<Body_contact<D>>& contacts = report.contacts;
+  const std::vector<Contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   std::ranges::copy(body_.positions(), moved_.begin());
   body_.step(targets_, conditions.body, report, counts);

@@ -56,11 +56,9 @@ void World<D>::step_bodies() {
                       }
                     });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-    for (const Body_contact<D>& met : body_steps_[i].report.contacts) {
-      Contact<D> contact = met.contact;
-      contact.normal = contact.normal + Vector<D>{};
-      contacts_.push_back(
-          {steps_done_, 0, contact, snapshot_.index(contact.cell), Body_hit{i, met.vertex, met.feature}});
+    for (Contact<D> met : body_steps_[i].report.contacts) {
+      met.normal = met.normal + Vector<D>{};
+      contacts_.push_back({steps_done_, 0, met, snapshot_.index(met.cell), i});
     }
 }
 

@@ -42,11 +42,10 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
   const auto &of_a = a.report.contacts, &of_b = b.report.contacts;
   if (of_a.size() != of_b.size()) return "the number of contacts";
   for (std::size_t i = 0; i < of_a.size(); ++i) {
-    const Contact<D>&x = of_a[i].contact, &y = of_b[i].contact;
-    if (of_a[i].vertex != of_b[i].vertex) return "the vertex of a contact";
+    const Contact<D>&x = of_a[i], &y = of_b[i];
+    if (x.vertex != y.vertex) return "the vertex of a contact";
     if (x.time != y.time) return "the time of a contact";
-    if (x.body != y.body || x.kind != y.kind || of_a[i].feature != of_b[i].feature)
-      return "the feature of a contact";
+    if (x.body != y.body || x.kind != y.kind || x.feature != y.feature) return "the feature of a contact";
   }
   const auto equal = [](const Rejected_move<D>& x, const Rejected_move<D>& y) {
     return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked && x.edges == y.edges &&

@@ -159,20 +159,18 @@ class Rejection {
   }
 
   /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that time.
-  bool is_contact(const Body_contact<D>& met, const std::vector<Point<D>>& positions,
-                  const Point<D>& target) const {
-    const Contact<D>& c = met.contact;
-    const Point<D>& from = positions[met.vertex];
+  bool is_contact(const Contact<D>& c, const std::vector<Point<D>>& positions, const Point<D>& target) const {
+    const Point<D>& from = positions[c.vertex];
     const Point<D> there = from + c.rounded_time() * (target - from);
     bool is_there = false;
     if (c.body == Body_feature::vertex) {
       is_there = length(c.point - there) < 1e-6;
     } else if (c.body == Body_feature::edge) {
-      const auto& [u, v] = edges_[met.feature];
-      const Vector<D> along = positions[u == met.vertex ? v : u] - there;
+      const auto& [u, v] = edges_[c.feature];
+      const Vector<D> along = positions[u == c.vertex ? v : u] - there;
       const double share =
           std::clamp(dot(c.point - there, along) / std::max(1e-300, dot(along, along)), 0.0, 1.0);
-      is_there = (u == met.vertex || v == met.vertex) && length(there + share * along - c.point) < 1e-6;
+      is_there = (u == c.vertex || v == c.vertex) && length(there + share * along - c.point) < 1e-6;
     }
     return is_there && snapshot_.is_impassable(c.facet) && std::abs(length(c.normal) - 1) < 1e-9;
   }

@@ -39,7 +39,7 @@ void expect_three_segments_go_on(const Snapshot<D>& snapshot, const Body_soup<D>
         continue;
       }
       ASSERT_FALSE(report.contacts.empty());
-      EXPECT_EQ(report.contacts[0].contact.body, Body_feature::edge);
+      EXPECT_EQ(report.contacts[0].body, Body_feature::edge);
       EXPECT_GT(body.positions()[0][axis], soup.points[0][axis] + 0.5) << "it stays";
     }
     EXPECT_EQ(ends[0], ends[1]) << target;

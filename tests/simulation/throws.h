@@ -78,8 +78,8 @@ Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, in
       rigid_bodies[i].step(conditions, report, flown.counts);
       flown.contacts += report.contacts.size();
       for (const auto& c : report.contacts) {
-        flown.edge_contacts += c.contact.body == Body_feature::edge;
-        flown.face_contacts += c.contact.body == Body_feature::face;
+        flown.edge_contacts += c.body == Body_feature::edge;
+        flown.face_contacts += c.body == Body_feature::face;
       }
       if (compare) {
         others.clear();

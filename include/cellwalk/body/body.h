@@ -73,8 +73,8 @@ class Body {
   /// Edge_rule::swept, of the options but the sweep nothing counts. Gives a region free of walls up.
   /// \pre the target is finite
   /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
-  std::optional<Body_contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
-                                             const Body_options& options, Body_counts& counts);
+  std::optional<Contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                        const Body_options& options, Body_counts& counts);
 
   /// Registers what was moved without tests in a region free of walls.
   void refresh(Body_counts& counts);

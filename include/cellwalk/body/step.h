@@ -15,14 +15,6 @@
 
 namespace cellwalk {
 
-/// A contact of a body: which vertex was moving, and the number of the vertex, edge or face that met the wall.
-template <int D>
-struct Body_contact {
-  Contact<D> contact;
-  std::uint32_t vertex = 0;
-  std::uint32_t feature = 0;
-};
-
 /// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
 template <int D>
 struct Rejected_move {
@@ -31,9 +23,10 @@ struct Rejected_move {
   std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
   std::uint64_t swept_edges =
       0;  ///< of these while they sweep their triangles; none for Sweep::three_segments
-  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
-  /// (time and point are along the edge then).
-  std::optional<Wall_contact<D>> contact;
+  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be.
+  /// Then time and point are along the edge, from that vertex on. The time is exact where a closed wall is touched, else that of a walk,
+  /// see Wall_contact.
+  std::optional<Contact<D>> contact;
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
@@ -78,7 +71,7 @@ template <int D>
 struct Step_report {
   /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments finds it, or the first touch
   /// if there is none.
-  std::vector<Body_contact<D>> contacts;
+  std::vector<Contact<D>> contacts;
   /// Vertex by vertex; one without an entry moved, and nothing was met.
   std::vector<Rejected_move<D>> blocked;
 
