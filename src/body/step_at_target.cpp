@@ -27,8 +27,8 @@ template <int D>
     if (reported != Reported::blocked && answer.stays())
       report.contacts.push_back(first_contact(answer, targets[v]));
     if (reported == Reported::contacts) continue;
-    locate_wall(tried, targets[v]);
     report.blocked.push_back(std::move(tried.answer));
+    locate_wall(report.blocked.back(), tried.met, targets[v]);
   }
 }
 
@@ -40,17 +40,17 @@ const Corner& Target_step<D>::first_blocked(const Rejected_move<D>& blocked) con
 
 /// Completes the contact of a vertex that stays: walks and searches of chains left out where the wall is.
 template <int D>
-void Target_step<D>::locate_wall(Tried_move<D>& tried, const Point<D>& target) const {
-  Rejected_move<D>& answer = tried.answer;
+void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
+                                 const Point<D>& target) const {
   if (!answer.stays()) return;
   const std::uint32_t v = answer.vertex;
   const Corner* edge = answer.is_vertex_blocked ? nullptr : &first_blocked(answer);
   const Body_feature body = edge ? Body_feature::edge : Body_feature::vertex;
-  if (tried.met) {
+  if (met) {
     const Point<D>&from = edge ? target : body_.positions[v],
           &to = edge ? body_.positions[edge->other] : target;
-    locate_contact(snapshot(), from, to, *tried.met);
-    answer.contact = to_contact(*tried.met, Exact_time(tried.met->time), body);
+    locate_contact(snapshot(), from, to, *met);
+    answer.contact.emplace(to_contact(*met, Exact_time(met->time), body));
   }
   answer.contact->body = body;
   answer.contact->vertex = v;
@@ -119,18 +119,7 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
   const Particle<D> to{target, from.cell, D, from.aimed};
   const bool is_inside = body_.region.holds_way(vertex, target);
   const auto corners = body_.topology.corners_of(vertex);
-  // What is given up here is counted where it is decided.
-  Edge_counts& edges = counts_.edges;
-  const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell,
-                        convex_pair = edges.convex_pair, same_chain = edges.same_chain,
-                        chain_facets = edges.chain_facets] {
-    edges.edges = all;
-    edges.same_cell = same_cell;
-    edges.convex_pair = convex_pair;
-    edges.same_chain = same_chain;
-    edges.chain_facets = chain_facets;
-    return false;
-  };
+  Edge_proofs proofs;       // the edges of a move that is not made here are counted where it is decided
   std::uint64_t stale = 0;  // edges whose chain is left to be found when it is asked for
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
@@ -138,9 +127,9 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
       body_.refresh_vertex(corner.other, counts_);
       const Particle<D>& q = body_.particles[corner.other];
       if (sweep_.sweep == Sweep::three_segments) {
-        if (!is_certified_free(to, q)) return give_up();
-      } else if (!is_certified_free(from, to, q)) {
-        if (!refresh_certified_chain(from, to, corner)) return give_up();
+        if (!is_certified_free(to, q, proofs)) return false;
+      } else if (!is_certified_free(from, to, q, proofs)) {
+        if (!refresh_certified_chain(from, to, corner, proofs)) return false;
         continue;
       }
     }
@@ -148,6 +137,7 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
   }
   for (std::size_t i = 0; i < corners.size(); ++i)
     if (stale >> i & 1) body_.region.mark_edge(corners[i].edge, true);
+  proofs.add_to(counts_.edges);
   body_.are_faces_swept = false;
   body_.particles[vertex] = to;
   body_.place(vertex, target);
@@ -156,46 +146,45 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
 
 /// True if an edge certainly meets no wall where it is.
 template <int D>
-inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q) {
-  Edge_counts& edges = counts_.edges;
+template <class Counts>
+inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs) {
   if (sweep_.certificates.same_cell && q.cell == p.cell)
-    ++edges.same_cell;
+    ++proofs.same_cell;
   else if (sweep_.certificates.convex_pair && snapshot().convex_passage(p.cell, q.cell) != Half_facet::none)
-    ++edges.convex_pair;
-  else if (certain_end(snapshot(), p, q.position, edges.walk) != q.cell)
+    ++proofs.convex_pair;
+  else if (certain_end(snapshot(), p, q.position, counts_.edges.walk) != q.cell)
     return false;
-  ++edges.edges;
+  ++proofs.edges;
   return true;
 }
 
 /// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
 /// ends inside of them, so that there is but one chain from one to the other.
 template <int D>
+template <class Counts>
 inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
-                                              const Particle<D>& q) {
+                                              const Particle<D>& q, Counts& proofs) {
   if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
-  Edge_counts& edges = counts_.edges;
   if (sweep_.certificates.same_cell && q.cell == to.cell)
-    ++edges.same_cell;
+    ++proofs.same_cell;
   else if (sweep_.certificates.convex_pair && q.cell != to.cell &&
            snapshot().convex_passage(to.cell, q.cell) != Half_facet::none)
-    ++edges.convex_pair;
+    ++proofs.convex_pair;
   else
     return false;
-  ++edges.edges;
+  ++proofs.edges;
   return true;
 }
 
 /// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then, and not stale.
 template <int D>
 bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Particle<D>& to,
-                                             const Corner& corner) {
+                                             const Corner& corner, Edge_proofs& proofs) {
   if (!sweep_.certificates.same_chain) return false;
-  Edge_counts& edges = counts_.edges;
   const Particle<D>& q = body_.particles[corner.other];
   const auto finds = [&](const Particle<D>& p, Chain& chain) {
     const Particle<D>&start = corner.is_reversed ? q : p, &end = corner.is_reversed ? p : q;
-    return certain_end(snapshot(), start, end.position, edges.walk, &chain) == end.cell;
+    return certain_end(snapshot(), start, end.position, counts_.edges.walk, &chain) == end.cell;
   };
   Chain chain;
   if (!finds(to, chain)) return false;
@@ -206,9 +195,9 @@ bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Part
     body_.region.mark_edge(corner.edge, false);
   }
   if (chain != kept) return false;
-  ++edges.edges;
-  ++edges.same_chain;
-  edges.chain_facets += chain.size();
+  ++proofs.edges;
+  ++proofs.same_chain;
+  proofs.chain_facets += chain.size();
   return true;
 }
 
@@ -273,7 +262,7 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corn
   Edge_counts& edges = counts_.edges;
   // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
   const bool stops = sweep_.touch == Touch::stop;
-  if (is_certified_free(path.to, q)) {
+  if (is_certified_free(path.to, q, edges)) {
     if (!stops || (body_.is_apart && path.to.dimension == D)) return false;
   } else {
     ++edges.edges;
@@ -297,7 +286,7 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
                                         Moved_chain& moved, Tried_move<D>& tried) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
-  if (is_certified_free(path.from, path.to, q)) {
+  if (is_certified_free(path.from, path.to, q, counts_.edges)) {
     moved.is_stale = true;
     return false;
   }

@@ -31,6 +31,19 @@ struct Tried_move {
   }
 };
 
+/// How edges were proved free: the counts of an attempt, which are added once it succeeds.
+struct Edge_proofs {
+  std::uint64_t edges = 0, same_cell = 0, convex_pair = 0, same_chain = 0, chain_facets = 0;
+
+  void add_to(Edge_counts& counts) const {
+    counts.edges += edges;
+    counts.same_cell += same_cell;
+    counts.convex_pair += convex_pair;
+    counts.same_chain += same_chain;
+    counts.chain_facets += chain_facets;
+  }
+};
+
 template <int D>
 class Target_step {
  public:
@@ -47,14 +60,20 @@ class Target_step {
   bool touches_wall();
   bool try_certified_move(std::uint32_t vertex, const Point<D>& target);
   Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
-  bool is_certified_free(const Particle<D>& p, const Particle<D>& q);
-  bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q);
-  bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner);
+  // They count in Edge_counts, or in the Edge_proofs of an attempt; walks always count in the former.
+  template <class Counts>
+  bool is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs);
+  template <class Counts>
+  bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
+                         Counts& proofs);
+  bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
+                               Edge_proofs& proofs);
   bool meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried);
   bool sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
                           Moved_chain& moved, Tried_move<D>& tried);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
-  void locate_wall(Tried_move<D>& tried, const Point<D>& target) const;
+  void locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
+                   const Point<D>& target) const;
   Contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
 
   Body_state<D>& body_;
