@@ -98,6 +98,15 @@ const Chain& Body<D>::chain(std::size_t edge) const {
 }
 
 template <int D>
+Cell Body<D>::cell_of(std::uint32_t vertex) const {
+  Particle<D> particle = state_->particles[vertex];
+  Walk_counts uncounted;
+  if (const Point<D>& position = state_->positions[vertex]; particle.position != position)
+    state_->follow(particle, position, uncounted);
+  return particle.cell;
+}
+
+template <int D>
 std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
   std::vector<std::uint32_t> result;
   for (const detail::Corner& corner : state_->topology.corners_of(vertex)) result.push_back(corner.other);

@@ -91,16 +91,8 @@ void Body_state<D>::spread_marks() {
 }
 
 template <int D>
-void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
-  if (!region.is_vertex_stale(vertex)) return;
-  region.pass_mark_on(vertex, topology);
-  Particle<D>& particle = particles[vertex];
-  const Point<D>& position = positions[vertex];
-  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
-  if (particle.position == position) return;
-  ++counts.catch_ups;
+inline void Body_state<D>::follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const {
   // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the region is no wall.
-  Walk_counts& walks = counts.edges.walk;
   Cell cell = particle.cell;
   if (!certainly_inside(*snapshot, cell, position, walks))
     cell = certain_end(*snapshot, region.anchor(), position, walks);
@@ -110,6 +102,18 @@ void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
   }
   particle = region.anchor();
   cellwalk::move(*snapshot, particle, position, walks);
+}
+
+template <int D>
+void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
+  if (!region.is_vertex_stale(vertex)) return;
+  region.pass_mark_on(vertex, topology);
+  Particle<D>& particle = particles[vertex];
+  const Point<D>& position = positions[vertex];
+  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
+  if (particle.position == position) return;
+  ++counts.catch_ups;
+  follow(particle, position, counts.edges.walk);
 }
 
 template <int D>

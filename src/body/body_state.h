@@ -62,6 +62,8 @@ struct Body_state {
   /// Gives the region up. \pre nothing is stale
   void give_region_up();
 
+  /// Moves the particle of a stale vertex to a position of the vertex in the region.
+  void follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const;
   /// Registers what is stale.
   void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
   void refresh_edge(std::uint32_t edge, Body_counts& counts);

@@ -84,6 +84,11 @@ class Body {
   std::span<const Particle<D>> particles() const;
   const Chain& chain(std::size_t edge) const;
 
+  /// The cell of a vertex, which may be stale: then it is found by a walk in the region, which is not counted, and the body stays stale.
+  /// \pre no edit since the body was registered
+  /// Cost: nothing unless it is stale; else that of a walk.
+  Cell cell_of(std::uint32_t vertex) const;
+
   /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge has a valid chain
   /// from cell to cell, no wall pierces a face.
   /// \pre nothing is stale, see refresh() \throw Error(other) naming the first vertex, edge or face that violates them
