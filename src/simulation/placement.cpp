@@ -26,6 +26,15 @@ Particle<D> place(const Locator<D>& locator, const Point<D>& position, const std
   return {position, location.cell, location.dimension, 0};
 }
 
+/// A particle in a cell, at a point that may lie on its boundary: a walk to where it is finds the dimension of its place.
+template <int D>
+Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Point<D>& position,
+                        Walk_counts& counts) {
+  Particle<D> particle{position, cell, static_cast<std::uint16_t>(D), 0};
+  move<Exact>(snapshot, particle, position, counts);
+  return particle;
+}
+
 }  // namespace
 
 template <int D>
@@ -54,9 +63,7 @@ void World<D>::place_cloud(const Particle_cloud& cloud, const std::string& key) 
   Random random(cloud.seed);
   for (std::uint32_t placed = 0; placed < cloud.count; ++placed) {
     const auto [p, cell] = space.draw(random);
-    Particle<D> particle{p, cell, static_cast<std::uint16_t>(D), 0};
-    particle.dimension = walk<Exact>(*snapshot_, particle, p, counts_).dimension;  // less than D on a facet
-    particles_.push_back(particle);
+    particles_.push_back(particle_in(*snapshot_, cell, p, counts_));
     velocities_.push_back(cloud.speed * detail::random_direction<D>(random));
   }
 }

@@ -5,9 +5,9 @@
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/star.h>
 
+#include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 #include "edge/exact/exit_time.h"
@@ -68,7 +68,8 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Vertex_path<D>& 
     if (sweep.contact) last = sweep.contact;
     return !sweep.contact;
   };
-  if (is_free_until({})) throw std::logic_error("a search for a contact that does not exist");
+  [[maybe_unused]] const bool is_free = is_free_until({});
+  assert(!is_free && "the caller has found a contact by the same sweep");
   double low = 0, high = 1;
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;
