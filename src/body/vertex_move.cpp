@@ -45,7 +45,7 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratc
   scratch.clear_walk();
   const Walk_result<D> walked =
       cellwalk::move(snapshot, to, target, counts.edges.walk,
-                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed});
+                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed, !any});
   to.position = target;
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
   std::optional<Contact<D>> first;

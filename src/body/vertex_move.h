@@ -12,7 +12,8 @@
 
 namespace cellwalk::detail {
 
-/// Moves a vertex to a target, or leaves everything as it is and returns the first contact, with `any` set some contact.
+/// Moves a vertex to a target, or leaves everything as it is and returns the first contact; with `any` set some contact, which need
+/// not have a place.
 template <int D>
 std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
                                    const Point<D>& target, const Sweep_options& options, Body_counts& counts,

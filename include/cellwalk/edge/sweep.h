@@ -101,7 +101,7 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
                                      Edge_counts& counts);
 
 /// The contact of a vertex whose walk from one point to another is blocked.
-/// \param met the contact of that walk, with its place
+/// \param met the contact of that walk, whose place and normal are taken over
 /// \pre the signs of the walk were exact: the target lies outside the cell met.cell
 /// Cost: some signs for each facet of the last cell, and a rational number.
 template <int D>
