@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk completion SHELL: a script that completes command lines, made of the commands and options that there are.
+// cellwalk completion SHELL: a script that completes command lines, made of the commands and options that
+// there are.
 #include <fmt/format.h>
 
 #include <memory>

@@ -38,7 +38,8 @@ std::string shortened(std::string_view word, std::size_t longest = 100) {
   return fmt::format("{}...", word.substr(0, shown));
 }
 
-/// What is wrong with a command line can quote it: long words are quoted shortened. Names of files can be longer.
+/// What is wrong with a command line can quote it: long words are quoted shortened. Names of files can be
+/// longer.
 std::string with_short_words(std::string message, std::span<char* const> words, Error_code code) {
   const auto shorten = [&](std::string_view word) {
     const std::string brief = code == Error_code::usage ? shortened(word) : shortened(word, longest_name);
@@ -59,7 +60,8 @@ int fail(Error_code code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-/// What is wrong with a command line. A word that no command knows explains more than what is missing because of it.
+/// What is wrong with a command line. A word that no command knows explains more than what is missing because
+/// of it.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = app.remaining(true);
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
@@ -101,7 +103,8 @@ int run(const cellwalk::cli::Action& action, std::span<char* const> words) {
 int main(int argc, char** argv) {
   using namespace cellwalk::cli;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, discard_and_stop);
-  // A reader that goes away and a limit of file sizes are errors of writing, after which nothing is left behind.
+  // A reader that goes away and a limit of file sizes are errors of writing, after which nothing is left
+  // behind.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   if (const std::string problem = empty_word(words); !problem.empty())

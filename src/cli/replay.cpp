@@ -69,7 +69,8 @@ Environment<3> build(const Trace& trace, const Replay_options& options) {
   }
 }
 
-/// Replays the trace again and again. Only the moves are timed: answers are compared, and bodies registered, in between.
+/// Replays the trace again and again. Only the moves are timed: answers are compared, and bodies registered,
+/// in between.
 Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The renderer: bands of rows, each with a depth buffer for opaque triangles and a list of fragments per sample for
-// translucent ones, which are sorted by depth before they are blended.
+// The renderer: bands of rows, each with a depth buffer for opaque triangles and a list of fragments per
+// sample for translucent ones, which are sorted by depth before they are blended.
 #include <cellwalk/internal/drawing/picture.h>
 #include <cellwalk/kernel/error.h>
 

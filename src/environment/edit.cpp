@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edits of an environment. Each first finds out whether the result would be certified, then changes map and snapshot.
+// Edits of an environment. Each first finds out whether the result would be certified, then changes map and
+// snapshot.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/flatten.h>
@@ -38,7 +39,8 @@ bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>&
   return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), p) < 0;
 }
 
-/// Keeps an index of the boundary true. Where memory runs out there is none, and it is made anew when it is needed.
+/// Keeps an index of the boundary true. Where memory runs out there is none, and it is made anew when it is
+/// needed.
 template <int D>
 void follow(std::unique_ptr<detail::Boundary_index<D>>& index,
             std::span<const typename detail::Boundary_index<D>::Entry> old,
@@ -101,8 +103,8 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
                                                  std::to_string(snapshot_.index(c)) + " would be wrong, " +
                                                  describe(check));
   }
-  // Every sign is affine in the position of the point, so that the cells stay sound all along the way from where it
-  // was, and the angles round inner ridges with them. Only the boundary may run into other cells.
+  // Every sign is affine in the position of the point, so that the cells stay sound all along the way from
+  // where it was, and the angles round inner ridges with them. Only the boundary may run into other cells.
   if (on_boundary) check_moved_boundary(point, star);
 }
 
@@ -168,8 +170,8 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
                                                  std::to_string(i) + " is in the way");
     facets.push_back(storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))]);
   }
-  // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive: nothing is left
-  // to check.
+  // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive:
+  // nothing is left to check.
   const std::uint32_t point = snapshot_.add_point(position);
   insert_vertex_in_cell<D>(storage, facets, point, position);
   const Flat_cells<D> flat = flatten_cells<D>(storage, facets);

@@ -22,7 +22,8 @@ std::string place(const Point<D>& p) {
   return text + ")";
 }
 
-/// Points that some cell uses, in order. \throw Error(input) if one of them is not finite
+/// Points that some cell uses, in order.
+/// \throw Error(input) if one of them is not finite
 template <int D>
 std::vector<std::uint32_t> used_points(const Cell_soup<D>& soup) {
   std::vector<std::uint8_t> is_used(soup.points.size(), 0);

@@ -15,9 +15,9 @@ int turn(std::span<const Point<2>> points, std::uint32_t a, std::uint32_t b, std
   return Exact::orientation(counts, points[a], points[b], points[c]);
 }
 
-/// True if the triangle a, b, c of consecutive vertices can be cut off: it turns left, and no other vertex touches it.
-/// Copies of its own corners, at the ends of a bridge, do not count: an edge from one into the triangle would have to
-/// end in it or cross the edge across.
+/// True if the triangle a, b, c of consecutive vertices can be cut off: it turns left, and no other vertex
+/// touches it. Copies of its own corners, at the ends of a bridge, do not count: an edge from one into the
+/// triangle would have to end in it or cross the edge across.
 bool is_ear(std::span<const Point<2>> points, const Polygon_indices& polygon, std::uint32_t a,
             std::uint32_t b, std::uint32_t c) {
   if (turn(points, a, b, c) <= 0) return false;

@@ -14,7 +14,8 @@ namespace cellwalk::detail {
 
 using Polygon_indices = std::vector<std::uint32_t>;  ///< points in order round a polygon
 
-/// Cuts a polygon into triangles without adding points; every vertex on its rim, collinear ones too, is one of theirs.
+/// Cuts a polygon into triangles without adding points; every vertex on its rim, collinear ones too, is one
+/// of theirs.
 /// \pre a simple polygon, counterclockwise, which may touch itself along a bridge
 /// Cost: cubic.
 std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point<2>> points,

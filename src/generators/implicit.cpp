@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The lattice is the body-centred cubic one: the points of integer coordinates that are all even (corners) or all odd
-// (centres). Each tetrahedron has two centres that are neighbours along an axis and two corners that are neighbours
-// along another: the twelve round a centre for its three higher neighbours.
+// The lattice is the body-centred cubic one: the points of integer coordinates that are all even (corners) or
+// all odd (centres). Each tetrahedron has two centres that are neighbours along an axis and two corners that
+// are neighbours along another: the twelve round a centre for its three higher neighbours.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -19,8 +19,8 @@ namespace {
 
 using Node = std::array<int, 3>;  // lattice coordinates
 
-/// Fractions of an edge within which a cut moves the lattice point onto the surface: those for which Labelle and
-/// Shewchuk prove dihedral angles above 10.7 degrees. Long edges join points of the same kind.
+/// Fractions of an edge within which a cut moves the lattice point onto the surface: those for which Labelle
+/// and Shewchuk prove dihedral angles above 10.7 degrees. Long edges join points of the same kind.
 constexpr double snap_long = 0.24999, snap_short = 0.41189;
 
 /// Secant steps towards a cut. What is left of the error only makes the surface less smooth.
@@ -122,7 +122,8 @@ class Stuffing {
       });
   }
 
-  /// Where the surface cuts the edge from a to b, as a fraction: the Illinois method, which keeps the root between.
+  /// Where the surface cuts the edge from a to b, as a fraction: the Illinois method, which keeps the root
+  /// between.
   double cut(const Node& na, const Node& nb, double da, double db) const {
     const Point<3> a = lattice_position(na), b = lattice_position(nb);
     double ta = 0, tb = 1, t = 0.5;
@@ -209,8 +210,8 @@ class Stuffing {
     }
   }
 
-  /// The part of a lattice tetrahedron that lies inside. Where the surface leaves a quadrangle of a facet, it is cut from
-  /// its inner point of lower index: both neighbours do the same.
+  /// The part of a lattice tetrahedron that lies inside. Where the surface leaves a quadrangle of a facet, it
+  /// is cut from its inner point of lower index: both neighbours do the same.
   void add_inside(std::array<Node, 4> nodes) {
     // Inner points by index, then those on the surface, then outer ones.
     const auto rank = [this](const Node& n) {

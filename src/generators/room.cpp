@@ -101,7 +101,8 @@ class Rooms {
     return true;
   }
 
-  /// A polygon that is star-shaped about the middle of the block, and the triangles between it and the block's rim.
+  /// A polygon that is star-shaped about the middle of the block, and the triangles between it and the
+  /// block's rim.
   void add_obstacle(std::uint32_t x, std::uint32_t y) {
     const Point<2> middle{x + block_size / 2.0, y + block_size / 2.0};
     detail::Polygon_indices inner;
@@ -122,7 +123,8 @@ class Rooms {
       for (const auto& t : detail::clip_ears(points_, inner)) add_cell(t, true);
   }
 
-  /// 3 to 9 directions, ascending, no two neighbours half a turn or more apart, so that the middle lies inside.
+  /// 3 to 9 directions, ascending, no two neighbours half a turn or more apart, so that the middle lies
+  /// inside.
   std::vector<int> choose_directions() {
     const int turn = static_cast<int>(directions.size());
     for (;;) {

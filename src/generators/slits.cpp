@@ -51,8 +51,8 @@ std::vector<std::uint32_t> pair_up(const Cell_soup<D>& soup) {
   return opposite;
 }
 
-/// Joins the corners of cells at each vertex across the facets for which `passes` holds. A corner is a place of soup.vertices; those of one cell at
-/// one vertex are joined from the start.
+/// Joins the corners of cells at each vertex across the facets for which `passes` holds. A corner is a place
+/// of soup.vertices; those of one cell at one vertex are joined from the start.
 template <int D, class Passes>
 Disjoint_sets join_corners(const Cell_soup<D>& soup, const std::vector<std::uint32_t>& opposite,
                            const Passes& passes) {

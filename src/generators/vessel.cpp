@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Only + - * / and sqrt are used here: they are rounded alike everywhere, other functions of the library are not.
+// Only + - * / and sqrt are used here: they are rounded alike everywhere, other functions of the library are
+// not.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
@@ -134,8 +135,8 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
     const int index = static_cast<int>(tubes.size());
     tubes.push_back(make_tube(bud.start, middle, end, bud.radius, 0.9 * bud.radius, bud.parent));
     if (bud.generation == options.generations) continue;
-    // Forks lie in planes about square to each other, as they do in lungs and brains. Two branches of radius 0.8 have
-    // about the cross-section that Murray's law asks for.
+    // Forks lie in planes about square to each other, as they do in lungs and brains. Two branches of radius
+    // 0.8 have about the cross-section that Murray's law asks for.
     const Vector<3> new_side = unit(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
     const Vector<3> side = unit(new_side - dot(new_side, end_direction) * end_direction);
     for (double sign : {-1.0, 1.0}) {

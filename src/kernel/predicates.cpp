@@ -77,8 +77,8 @@ std::array<double, D> normalized(std::array<double, D> n) {
   return n;
 }
 
-/// A normal in doubles, and by how much, as a share of the largest component, its components may be wrong: products of
-/// differences are off by less than four roundings of each term.
+/// A normal in doubles, and by how much, as a share of the largest component, its components may be wrong:
+/// products of differences are off by less than four roundings of each term.
 inline std::pair<Vector<2>, double> plain_normal(const Point<2>& u, const Point<2>& v) {
   const Vector<2> n = normal<double>(u, v);
   const double largest = std::max(std::abs(n[0]), std::abs(n[1]));
@@ -100,7 +100,8 @@ inline std::pair<Vector<3>, double> plain_normal(const Point<3>& u, const Point<
 
 using Interval = CGAL::Interval_nt<false>;
 
-/// The rounding mode is set once for all operations. Not to be inlined: nothing else may be computed in that mode.
+/// The rounding mode is set once for all operations. Not to be inlined: nothing else may be computed in that
+/// mode.
 template <class... P>
 [[gnu::noinline]] std::array<Interval, sizeof...(P)> interval_normal(const P&... points) {
   const Interval::Protector protector;

@@ -110,7 +110,8 @@ void check_degenerate_facets(const Traced_surface& surface, const std::string& n
                      ": its vertices lie on one line; collapse its shortest edge or flip its longest");
 }
 
-/// Turns facets so that every edge runs in opposite directions in its two facets; of each component the fewer.
+/// Turns facets so that every edge runs in opposite directions in its two facets; of each component the
+/// fewer.
 void orient(Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name,
             Surface_report& report) {
   const std::size_t facets = surface.soup.facets.size();
@@ -191,7 +192,8 @@ void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& 
                      "; pull the sheets apart there");
 }
 
-/// New number of each point: points of equal coordinates get the same one. Numbers follow the first of each place.
+/// New number of each point: points of equal coordinates get the same one. Numbers follow the first of each
+/// place.
 std::vector<std::uint32_t> merged_numbers(const std::vector<Point<3>>& points) {
   std::vector<std::uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0u);

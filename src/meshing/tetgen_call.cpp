@@ -89,7 +89,8 @@ std::string switches(const Tetrahedralize_options& options) {
   return text;
 }
 
-/// Gmsh's library has classes of TetGen's names but another layout. If it is found first, memory is overwritten.
+/// Gmsh's library has classes of TetGen's names but another layout. If it is found first, memory is
+/// overwritten.
 void expect_one_tetgen() {
   void* const entry = dlsym(RTLD_DEFAULT, "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_");
   void* const inside = dlsym(RTLD_DEFAULT, "_ZN10tetgenmesh10inittablesEv");

@@ -107,7 +107,8 @@ void find_sides(const Snapshot<D>& s, std::vector<Found<D>>& found, const Point<
   }
 }
 
-/// What the order of sides goes by: whether the point lies there once it is displaced, then the corners of the first cell.
+/// What the order of sides goes by: whether the point lies there once it is displaced, then the corners of
+/// the first cell.
 template <int D>
 struct Side_rank {
   std::size_t side;

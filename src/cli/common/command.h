@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a command of the program is: a function that adds its options, and leaves an action to run after parsing.
+// What a command of the program is: a function that adds its options, and leaves an action to run after
+// parsing.
 #ifndef CELLWALK_CLI_COMMON_COMMAND_H
 #define CELLWALK_CLI_COMMON_COMMAND_H
 
@@ -47,7 +48,8 @@ inline auto whole_number(std::int64_t least, std::int64_t most) {
   };
 }
 
-/// Adds --version, which prints the version and which optional parts this build has, and --json, which makes JSON of that.
+/// Adds --version, which prints the version and which optional parts this build has, and --json, which makes
+/// JSON of that.
 void add_version(CLI::App& app);
 
 /// An option that takes one of a few words: `value` becomes what stands behind the word.

@@ -7,7 +7,8 @@
 
 namespace cellwalk::cli {
 
-/// Version of the program, compiler, its flags, and model of the CPU ("unknown" where the system does not tell).
+/// Version of the program, compiler, its flags, and model of the CPU ("unknown" where the system does not
+/// tell).
 nlohmann::ordered_json machine_json();
 
 }  // namespace cellwalk::cli

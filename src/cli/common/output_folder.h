@@ -12,8 +12,8 @@ namespace cellwalk::cli {
 /// A folder written beside its destination. Destroyed before put() it leaves nothing behind.
 class Output_folder final : public io::Output {
  public:
-  /// \throw Error(usage) if the destination exists, unless `replace` is set and it holds a run.json (so that nothing but
-  ///        an earlier run is ever replaced); Error(other) if the folder cannot be made
+  /// \throw Error(usage) if the destination exists, unless `replace` is set and it holds a run.json (so that
+  ///        nothing but an earlier run is ever replaced); Error(other) if the folder cannot be made
   Output_folder(const std::filesystem::path& destination, bool replace);
   ~Output_folder() override;
 

@@ -17,7 +17,8 @@
 
 namespace cellwalk::cli {
 
-/// A name on the command line, and what it stands for whatever it is called: two names of one file, by links or otherwise, are equal.
+/// A name on the command line, and what it stands for whatever it is called: two names of one file, by links
+/// or otherwise, are equal.
 class Named_file {
  public:
   explicit Named_file(std::string name);
@@ -44,14 +45,16 @@ class Outputs {
   explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
   explicit Outputs(const std::vector<std::string>& inputs);
 
-  /// Files that turn out to be read as well. \throw Error(usage) if one is an output
+  /// Files that turn out to be read as well.
+  /// \throw Error(usage) if one is an output
   void also_reads(const std::string& input);
 
   /// An output, or nullptr where the name is empty.
   /// \throw Error(usage) if it is an input or another output; Error(other) if it cannot be written
   io::Atomic_file* file(const std::string& name);
 
-  /// A folder of results. \throw Error as file() and Output_folder
+  /// A folder of results.
+  /// \throw Error as file() and Output_folder
   Output_folder& folder(const std::string& name, bool replace);
 
   /// Puts all outputs in their places and prints the summary; if any of that fails, there is neither.

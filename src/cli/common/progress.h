@@ -9,8 +9,9 @@
 
 namespace cellwalk::cli {
 
-/// A stage of long work. Without a total it shows only the label; with one, a bar, the share done and the time left.
-/// The line appears at once, is redrawn at most ten times a second, and is erased when the stage ends.
+/// A stage of long work. Without a total it shows only the label; with one, a bar, the share done and the
+/// time left. The line appears at once, is redrawn at most ten times a second, and is erased when the stage
+/// ends.
 class Progress {
  public:
   explicit Progress(std::string label, std::uint64_t total = 0);

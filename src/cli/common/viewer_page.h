@@ -7,8 +7,8 @@
 
 namespace cellwalk::cli {
 
-/// HTML with its styles and scripts; empty in a build without Node. Data takes the place of the first /*RUN*/ (JSON), /*CONTACTS*/ and
-/// /*MOTION*/ (base64).
+/// HTML with its styles and scripts; empty in a build without Node. Data takes the place of the first /*RUN*/
+/// (JSON), /*CONTACTS*/ and /*MOTION*/ (base64).
 extern const std::string_view viewer_page;
 
 }  // namespace cellwalk::cli

@@ -19,8 +19,8 @@
 
 namespace cellwalk::cli {
 
-/// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on the number of
-/// threads.
+/// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on
+/// the number of threads.
 template <class Counts, int D, std::size_t N, class Answer_row>
 std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Counts& total,
                                    Answer_row answer) {
@@ -40,9 +40,9 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
   return answers;
 }
 
-/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three points, with
-/// `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not apply is empty. A free motion
-/// ends at the second point of its row.
+/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three
+/// points, with `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not
+/// apply is empty. A free motion ends at the second point of its row.
 /// \throw Error(other) where it cannot be written
 template <int D, std::size_t N>
 void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,

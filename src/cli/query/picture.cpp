@@ -59,7 +59,8 @@ std::set<std::uint32_t> passed_vertices(const Snapshot<2>& snapshot, const Shown
   return result;
 }
 
-/// Whether b lies strictly in the cone of a facet over a: not where the walk ended by the rule, on a facet or vertex.
+/// Whether b lies strictly in the cone of a facet over a: not where the walk ended by the rule, on a facet or
+/// vertex.
 bool is_aimed_at(const Snapshot<2>& snapshot, Half_facet f, const Point<2>& a, const Point<2>& b) {
   const auto loop = snapshot.loop(f);
   const auto turn = [](const Point<2>& x, const Point<2>& y, const Point<2>& z) {

@@ -26,7 +26,8 @@ Point<2> middle_of(const Cell_view<2>& view) {
   return (1.0 / static_cast<double>(view.facet_count())) * sum;
 }
 
-/// Where the number of a cell is written: towards the corner that is furthest from a line, so that lines through the cell stay free.
+/// Where the number of a cell is written: towards the corner that is furthest from a line, so that lines
+/// through the cell stay free.
 Point<2> place_of_number(const Cell_view<2>& view, const Point<2>& from, const Point<2>& to) {
   constexpr double share = 0.4;
   const Point<2> middle = middle_of(view);

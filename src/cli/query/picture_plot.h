@@ -35,7 +35,8 @@ enum class Layer { ground, cells, patches, grid, walls, facets, kept_facets, lin
 /// Widths are in units of the picture: 1 is a line that is easily seen.
 class Query_plot {
  public:
-  /// Shows the cells near the given points and all that are tinted, with the number of each of the latter. Later tints are over earlier ones.
+  /// Shows the cells near the given points and all that are tinted, with the number of each of the latter.
+  /// Later tints are over earlier ones.
   Query_plot(const Snapshot<2>& snapshot, std::span<const Point<2>> points, std::span<const Tint> tints);
 
   void line(const Point<2>& from, const Point<2>& to, double width, Layer layer,

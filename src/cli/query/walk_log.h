@@ -54,8 +54,8 @@ std::string end_of(const Snapshot<D>& snapshot, const Walk_result<D>& result) {
   return fmt::format("is lost in cell {} after {} cells", cell, result.cells);
 }
 
-/// One cell of a walk: all its facets with the sign of the target, the ridges of those that the target lies beyond, and where
-/// the walk went.
+/// One cell of a walk: all its facets with the sign of the target, the ridges of those that the target lies
+/// beyond, and where the walk went.
 template <class Kernel, int D>
 std::string step_text(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& to, Cell cell,
                       Cell next) {

@@ -12,10 +12,10 @@
 
 namespace cellwalk::cli {
 
-/// Certifies the environment of a record, walks its motion by its kernel and exactly, and prints the cells, signs and choices of
-/// both, and where they part.
-/// \throw Error(input) if the record is unreadable or names unknown kernels or strategies; Error(not_certified);
-/// Error(outside) if the motion does not start in its cell, or in no free one
+/// Certifies the environment of a record, walks its motion by its kernel and exactly, and prints the cells,
+/// signs and choices of both, and where they part.
+/// \throw Error(input) if the record is unreadable or names unknown kernels or strategies;
+///        Error(not_certified); Error(outside) if the motion does not start in its cell, or in no free one
 void walk_repro(const std::string& path);
 
 /// Writes the record of a motion in an environment.

@@ -7,8 +7,9 @@
 
 namespace cellwalk::detail {
 
-/// As cellwalk::find_chain(), with a contact left to locate_contact(), unless the segment arrives at q on another side: its time is 1
-/// then. Also whether q lies on the plane of a facet of a cell that the segment was walked through.
+/// As cellwalk::find_chain(), with a contact left to locate_contact(), unless the segment arrives at q on
+/// another side: its time is 1 then. Also whether q lies on the plane of a facet of a cell that the segment
+/// was walked through.
 template <int D>
 Chain_result<D> chain_of_walk(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
                               Walk_counts& counts, bool& on_planes);

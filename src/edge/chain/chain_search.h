@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All ways of a segment through cells, in the order of sides in which a walk takes them. Theory: docs/sweep.md, choices.
+// All ways of a segment through cells, in the order of sides in which a walk takes them. Theory:
+// docs/sweep.md, choices.
 #ifndef CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
 #define CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
 
@@ -17,12 +18,13 @@
 
 namespace cellwalk::detail {
 
-/// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on, it has several
-/// sides to go on along: first comes the one on which it lies once it is displaced, then the others as the rule orders them.
+/// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on,
+/// it has several sides to go on along: first comes the one on which it lies once it is displaced, then the
+/// others as the rule orders them.
 ///
-/// Rule: is_wrong(chain, end) gives a beginning up, which leads to a place; limit_of(cell, facet, border) says what `end` stands for it, where
-/// the segment passes that border; is_accepted(chain) takes a whole chain; comes_before(cell, cell) orders the cells of sides that are
-/// not preferred.
+/// Rule: is_wrong(chain, end) gives a beginning up, which leads to a place; limit_of(cell, facet, border)
+/// says what `end` stands for it, where the segment passes that border; is_accepted(chain) takes a whole
+/// chain; comes_before(cell, cell) orders the cells of sides that are not preferred.
 template <int D, class Rule>
 class Chain_search {
  public:
@@ -37,7 +39,8 @@ class Chain_search {
   }
 
   /// True if there is one from a cell of the start to that of q, or one linked with it there.
-  /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they begin and end.
+  /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they
+  /// begin and end.
   bool find(Cell start) { return from(start, 0, 0); }
 
   const Chain& chain() const { return chain_; }

@@ -18,7 +18,8 @@ class Exact_edge {
   Exact_edge(const Snapshot<3>& snapshot, const Point<3>& from, const Point<3>& to)
       : snapshot_(snapshot), from_(from), to_(to), segment_(from, to) {}
 
-  /// Its part in a closed facet. Cost: some comparisons and two signs where they show that there is none.
+  /// Its part in a closed facet.
+  /// Cost: some comparisons and two signs where they show that there is none.
   std::optional<Span> in_facet(Half_facet f) const;
   std::optional<Span> in_facet(const Cell_view<3>& cell, std::size_t i) const;
   const Snapshot<3>& snapshot() const { return snapshot_; }

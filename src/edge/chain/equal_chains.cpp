@@ -45,7 +45,8 @@ class Link_path {
   /// True if the other cell is linked there.
   explicit operator bool() const { return reached_; }
 
-  /// The facets on the way to it. \pre it is linked
+  /// The facets on the way to it.
+  /// \pre it is linked
   std::vector<Half_facet> path() const {
     std::vector<Half_facet> facets;
     links_.append_way(links_.place(), facets);
@@ -61,9 +62,9 @@ class Link_path {
   bool reached_ = false;
 };
 
-/// Where between low and high two cells that hold this piece are first not linked. They are compared at its middle; then on
-/// both sides of the part of which the same can be said. A single point needs no test: the facets that a chain passes in it
-/// link the cells before and after, which are compared themselves.
+/// Where between low and high two cells that hold this piece are first not linked. They are compared at its
+/// middle; then on both sides of the part of which the same can be said. A single point needs no test: the
+/// facets that a chain passes in it link the cells before and after, which are compared themselves.
 template <int D>
 std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
                                      Cell cell, Cell other, const Fraction& low, const Fraction& high) {

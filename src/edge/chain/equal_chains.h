@@ -15,13 +15,15 @@ struct Piece {
   Fraction low, high;
 };
 
-/// The pieces of a chain that starts in a cell at parameter 0 and ends at another; one more than it has facets.
+/// The pieces of a chain that starts in a cell at parameter 0 and ends at another; one more than it has
+/// facets.
 /// \pre the segment passes the chain there
 template <int D>
 std::vector<Piece> pieces_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
                              std::span<const Half_facet> chain, const Fraction& end);
 
-/// Where two chains of a segment part: they are linked up to a parameter, but not after it, for there is a wall.
+/// Where two chains of a segment part: they are linked up to a parameter, but not after it, for there is a
+/// wall.
 struct Parting {
   Fraction at;
   Half_facet wall;
@@ -38,8 +40,8 @@ template <int D>
 std::vector<Half_facet> link_at(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from,
                                 Cell to, const Fraction& t);
 
-/// Compares two chains that start in the cell `start`, both passed by the segment. If they are not equal, `wall` is set to a
-/// wall that parts them.
+/// Compares two chains that start in the cell `start`, both passed by the segment. If they are not equal,
+/// `wall` is set to a wall that parts them.
 template <int D>
 bool are_equal(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell start,
                const Chain& chain, const Chain& other, Half_facet& wall);

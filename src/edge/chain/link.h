@@ -16,9 +16,9 @@ bool lies_in(const Cell_view<D>& cell, std::size_t i, const Point<D>& x, Walk_co
   return side<Exact>(cell, i, x, counts) == 0 && in_facet(cell, i, x);
 }
 
-/// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. If there is no way,
-/// the two are not linked at x: returns a wall at x that the search met, the same however cells are numbered. Else
-/// Half_facet::none.
+/// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. If
+/// there is no way, the two are not linked at x: returns a wall at x that the search met, the same however
+/// cells are numbered. Else Half_facet::none.
 template <int D>
 Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
                        Walk_counts& counts) {

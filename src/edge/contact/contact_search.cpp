@@ -32,7 +32,8 @@ Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t ver
   return size > 0 ? (1 / size) * sum : sum;
 }
 
-/// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the motion.
+/// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the
+/// motion.
 template <int D>
 Contact<D> bisected(const Snapshot<D>& snapshot, const Vertex_path<D>& path, Contact<D> contact, double time,
                     std::size_t corner) {

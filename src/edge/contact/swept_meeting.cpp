@@ -15,18 +15,19 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A point of the triangle by its weights at a, b and q, up to a positive factor; or a function on the triangle by its values
-/// there. Unlike coordinates these serve where the triangle is a segment.
+/// A point of the triangle by its weights at a, b and q, up to a positive factor; or a function on the
+/// triangle by its values there. Unlike coordinates these serve where the triangle is a segment.
 using Weights = Ring_vector<3>;
 
-/// A corner of a polygon in the triangle, and a function that is 0 on the side from there to the next corner. New corners are
-/// made of the functions of two sides, not of other corners: so their weights stay short.
+/// A corner of a polygon in the triangle, and a function that is 0 on the side from there to the next corner.
+/// New corners are made of the functions of two sides, not of other corners: so their weights stay short.
 struct Corner {
   Weights at, side;
 };
 using Polygon = boost::container::small_vector<Corner, 6>;
 
-/// Where two functions are 0. \pre they are in one point of the triangle
+/// Where two functions are 0.
+/// \pre they are in one point of the triangle
 Weights common_root(const Weights& f, const Weights& g) {
   Weights root = exact_cross(f, g);
   const auto is_negative = [](const Ring& x) { return CGAL::sign(x) == CGAL::NEGATIVE; };
@@ -137,8 +138,8 @@ Vector<D> across(const Vector<D>& v, const Vector<D>& along) {
   return v - dot(v, along) * along;
 }
 
-/// A direction at right angles to the edge and the feature that it meets, as long as the sine of the angle between the two. All
-/// directions given are unit vectors, so that nothing depends on the scale.
+/// A direction at right angles to the edge and the feature that it meets, as long as the sine of the angle
+/// between the two. All directions given are unit vectors, so that nothing depends on the scale.
 Vector<2> perpendicular(const Snapshot<2>&, const Contact<2>&, const Vector<2>& edge, const Vector<2>&) {
   return {-edge[1], edge[0]};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Times of events: roots of orientations of a moving point. Bounds in doubles first, fractions where these do not tell.
+// Times of events: roots of orientations of a moving point. Bounds in doubles first, fractions where these do
+// not tell.
 // Theory: docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_EXACT_EVENT_TIME_H
 #define CELLWALK_EDGE_EXACT_EVENT_TIME_H
@@ -14,8 +15,8 @@
 
 namespace cellwalk::detail {
 
-/// The orientation of p(s) = a + s (b - a) and fixed points, which is affine in s: its signs at 0 and 1, and bounds of its root
-/// where they differ.
+/// The orientation of p(s) = a + s (b - a) and fixed points, which is affine in s: its signs at 0 and 1, and
+/// bounds of its root where they differ.
 template <int D>
 class Moving_orientation {
  public:
@@ -37,7 +38,8 @@ class Moving_orientation {
   double low() const { return root_.low; }             ///< \pre has_root()
   double high() const { return root_.high; }           ///< \pre has_root()
 
-  /// True if the roots are the same because the functions are, but for the sign: they have the same fixed points.
+  /// True if the roots are the same because the functions are, but for the sign: they have the same fixed
+  /// points.
   bool has_points_of(const Moving_orientation& other) const {
     return std::is_permutation(fixed_.begin(), fixed_.end(), other.fixed_.begin());
   }
@@ -53,9 +55,10 @@ class Moving_orientation {
   }
 
  private:
-  // The moving point comes last, so that it is in one difference only: a target may be so far away that one of it and a point
-  // of the environment forgets the point. In space that turns the sign. All begins at a point of the environment, since lines
-  // that are parallel to an axis, as the motion may be, stay that in differences of their own points.
+  // The moving point comes last, so that it is in one difference only: a target may be so far away that one
+  // of it and a point of the environment forgets the point. In space that turns the sign. All begins at a
+  // point of the environment, since lines that are parallel to an axis, as the motion may be, stay that in
+  // differences of their own points.
   Orientation_value value(const Point<D>& x, Predicate_counts& counts) const {
     if constexpr (D == 2) {
       return orientation_value(counts, fixed_[0], fixed_[1], x);

@@ -9,7 +9,8 @@
 
 namespace cellwalk::detail {
 
-/// The share of the way from a to b at which it leaves a cell: where it passes the plane of the first facet that has b outside.
+/// The share of the way from a to b at which it leaves a cell: where it passes the plane of the first facet
+/// that has b outside.
 /// \pre the way passes the closed cell, and b lies outside
 template <int D>
 Event_time<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {

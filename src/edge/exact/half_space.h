@@ -85,7 +85,8 @@ using Half_spaces = boost::container::small_vector<Half_space<D>, 6>;
 Half_space<2> plane_of(const Cell_view<2>& cell, std::size_t i);
 Half_space<3> plane_of(const Cell_view<3>& cell, std::size_t i);
 
-/// The half-space that ends at side k of facet i, whose plane is given: in that plane they bound the closed facet.
+/// The half-space that ends at side k of facet i, whose plane is given: in that plane they bound the closed
+/// facet.
 Half_space<2> side_space(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Half_space<2>& plane);
 Half_space<3> side_space(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Half_space<3>& plane);
 

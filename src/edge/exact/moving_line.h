@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The segment from a moving point p(s) = a + s (b - a) to a fixed one, just after a time. Theory: docs/sweep.md, events.
+// The segment from a moving point p(s) = a + s (b - a) to a fixed one, just after a time. Theory:
+// docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_EXACT_MOVING_LINE_H
 #define CELLWALK_EDGE_EXACT_MOVING_LINE_H
 
@@ -62,7 +63,8 @@ class Moving_line {
     return moving_side<D>(cell, i, triangle_.a, triangle_.b, counts_);
   }
 
-  /// The times after this one at which a sign changes that decides how the segment passes facet i, or whether it does.
+  /// The times after this one at which a sign changes that decides how the segment passes facet i, or whether
+  /// it does.
   template <class Note>
   void for_all_roots(const Cell_view<D>& cell, std::size_t i, Note note) const {
     const auto note_root = [&](const Moving_orientation<D>& f) {
@@ -99,8 +101,8 @@ class Moving_line {
     return {triangle_.a, triangle_.b, fixed, sense, counts_.predicates};
   }
 
-  /// In a plane that holds the whole triangle: p(s) and two points of it, seen along an axis along which the triangle has an
-  /// area.
+  /// In a plane that holds the whole triangle: p(s) and two points of it, seen along an axis along which the
+  /// triangle has an area.
   template <class Note>
   void note_root_in_plane(const Point<D>& x, const Point<D>& y, Note note) const {
     int axis = 0;

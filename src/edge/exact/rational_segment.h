@@ -16,8 +16,8 @@ namespace cellwalk::detail {
 /// Closed interval of parameters.
 struct Span {
   Fraction low, high;
-  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders it begins and ends; none where it does at
-  /// an end of the segment.
+  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders it begins and
+  /// ends; none where it does at an end of the segment.
   int low_border = -1, high_border = -1;
 };
 
@@ -35,7 +35,8 @@ class Rational_segment {
   std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
   /// Where it passes the border of a half-space of facet i, see Span; 1 if all of it, or its end, lies there.
   Fraction at_border(const Cell_view<D>& cell, std::size_t i, int border) const;
-  /// The parameter of the point in the plane of facet i. \pre there is one
+  /// The parameter of the point in the plane of facet i.
+  /// \pre there is one
   Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
 
  private:

@@ -54,8 +54,8 @@ class Border {
         const Half_facet f = Snapshot<3>::half_facet(c, i);
         const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
-        // The point lies in the plane of f: the side of the opposite corner is that of the face. If the face lies in a wall,
-        // its rests say where, and agree with the chain.
+        // The point lies in the plane of f: the side of the opposite corner is that of the face. If the face
+        // lies in a wall, its rests say where, and agree with the chain.
         holds_face = side(f, opposite_) <= 0;
       }
       if (holds_face) return true;

@@ -7,9 +7,9 @@
 
 namespace cellwalk::detail {
 
-/// A wall that lies between a face and one of its edges: it holds a piece of the edge, not the face, and the chain of the edge is
-/// not linked there with the cells in which the face begins. Seen from the side of the face if it has that side; none if there is no
-/// such wall.
+/// A wall that lies between a face and one of its edges: it holds a piece of the edge, not the face, and the
+/// chain of the edge is not linked there with the cells in which the face begins. Seen from the side of the
+/// face if it has that side; none if there is no such wall.
 /// \pre the face has an inside that no wall pierces, and rests on the sides on which its edges pass
 /// Cost: six signs a wall; some hundred us where an edge lies in one.
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,

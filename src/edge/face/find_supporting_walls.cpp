@@ -15,8 +15,8 @@ struct Patch {
   int side;  ///< of the face on which its cell lies
   std::size_t group;
   bool is_second;  ///< of the same wall as the one before it
-  /// Patches on the other side of the plane that overlap it inside the face: the second side of the wall; where the wall is
-  /// one-sided, those that coincide with it, or none.
+  /// Patches on the other side of the plane that overlap it inside the face: the second side of the wall;
+  /// where the wall is one-sided, those that coincide with it, or none.
   boost::container::small_vector<std::size_t, 2> behind{};
 };
 
@@ -28,7 +28,8 @@ struct Ridge {
   std::vector<std::size_t> patches;
 };
 
-/// Patches that have the face on one side of the plane: those behind each other, and those that share a ridge.
+/// Patches that have the face on one side of the plane: those behind each other, and those that share a
+/// ridge.
 struct Group {
   bool may_be_above = true, may_be_below = true;  ///< as far as walls say
   int side = 0;                                   ///< taken: above > 0

@@ -27,9 +27,9 @@ enum class Known {
   preferred  ///< they are kept where the edges allow it
 };
 
-/// Rests of a face, all walls near it given: known ones, those that its edges say, and where nothing says which, one by the direction
-/// of its plane. piercing is set where walls at one ridge, or an edge, leave no side for the face: to a wall seen from the side
-/// on which the face lies, if it lies on one.
+/// Rests of a face, all walls near it given: known ones, those that its edges say, and where nothing says
+/// which, one by the direction of its plane. piercing is set where walls at one ridge, or an edge, leave no
+/// side for the face: to a wall seen from the side on which the face lies, if it lies on one.
 Face_registration find_supporting_walls(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                                         const std::array<Face_side, 3>& sides,
                                         const Candidate_walls& candidates, const Supporting_walls& known,

@@ -11,7 +11,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Signs of which none is negative, or none is positive: a line passes the closed polygon whose sides they are of.
+/// Signs of which none is negative, or none is positive: a line passes the closed polygon whose sides they
+/// are of.
 class One_sided {
  public:
   void add(int sign) {

@@ -11,8 +11,9 @@
 
 namespace cellwalk::detail {
 
-/// sweep_triangle() where a, b and q lie on one line. The edge gets longer and is free; or shorter, and then p must stay on
-/// the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
+/// sweep_triangle() where a, b and q lie on one line. The edge gets longer and is free; or shorter, and then
+/// p must stay on the side of each wall in that line on which the edge lies. Contacts from `until` on do not
+/// count.
 template <int D>
 Sweep_result<D> collinear_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                 const Chain& before, Walk_counts& counts, std::optional<double> until);

@@ -8,8 +8,9 @@
 namespace cellwalk {
 namespace {
 
-/// False proves that an edge which passes a chain all along its sweep has no choice: no wall of the cells of the chain lies in the plane
-/// of the triangle, or in all of them nothing but walls does, so that none begins.
+/// False proves that an edge which passes a chain all along its sweep has no choice: no wall of the cells of
+/// the chain lies in the plane of the triangle, or in all of them nothing but walls does, so that none
+/// begins.
 bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Cell start, const Chain& chain,
                      Walk_counts& counts) {
   bool has_wall = false, has_opening = false;
@@ -49,8 +50,8 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
     return !may_have_choice(snapshot, triangle, p.cell, chain, counts.walk);
   };
-  // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
-  // through its inside.
+  // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no
+  // facet in a plane through its inside.
   if (certificates.same_cell && chain.empty() && (p.dimension == D || q.dimension == D || has_no_choice())) {
     ++counts.same_cell;
     result = {};

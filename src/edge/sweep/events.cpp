@@ -65,7 +65,8 @@ class Event_sweep {
       Moving_line_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
       std::optional<Event_time<D>> next;
       const bool is_found = walk.from(start_);
-      // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell which one it goes.
+      // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell
+      // which one it goes.
       const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
       const auto relinked =
           is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
@@ -146,7 +147,8 @@ class Event_sweep {
     return edge_contact<D>(snapshot_, time, wall, segment.at(at ? *at : Fraction(1)));
   }
 
-  /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time of a line.
+  /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time
+  /// of a line.
   bool leaves_through(const Cell_view<D>& cell, std::size_t i, const Moving_line<D>& line) const {
     if (side<Exact>(cell, i, triangle_.q, counts_) <= 0) return false;
     const Event_time<D>& now = line.time();

@@ -57,8 +57,9 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
   Chain_result<D> result;
   const std::uint64_t signs = counts.walk.predicates.orientations;
   if (detail::confirm_chain(snapshot, path, q, before, options.certificates, result, counts)) {
-    // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside, or its ends lie
-    // strictly inside of cells. With the way of p, so does the edge at all times before, but perhaps where it started.
+    // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside,
+    // or its ends lie strictly inside of cells. With the way of p, so does the edge at all times before, but
+    // perhaps where it started.
     return Free_chain{result.chain, path.is_apart && counts.walk.predicates.orientations == signs};
   }
   ++counts.changed;

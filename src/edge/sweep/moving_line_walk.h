@@ -8,9 +8,9 @@
 
 namespace cellwalk::detail {
 
-/// Walks from p(s+) to q, by ways that the rule of the walk allows (more than one only in planes of facets), until one leads to
-/// the side of q and is accepted. There may be as many ways as there are sides of all walls in such a plane; after some dead
-/// ends it gives up, and relink() decides.
+/// Walks from p(s+) to q, by ways that the rule of the walk allows (more than one only in planes of facets),
+/// until one leads to the side of q and is accepted. There may be as many ways as there are sides of all
+/// walls in such a plane; after some dead ends it gives up, and relink() decides.
 template <int D, class Accept>
 class Moving_line_walk {
  public:

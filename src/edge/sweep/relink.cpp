@@ -93,7 +93,8 @@ class Relink_search {
   const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
 };
 
-/// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the triangle.
+/// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the
+/// triangle.
 template <int D>
 bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, bool of_walls) {
   Flooded cells{start};

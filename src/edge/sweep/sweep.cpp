@@ -26,14 +26,14 @@ void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>
   if (other && (!first || is_before(*other, *first))) first = other;
 }
 
-/// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
-/// be a double. Where p moves in the line of the edge, the events say the same.
+/// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just
+/// before, which need not be a double. Where p moves in the line of the edge, the events say the same.
 template <int D>
 bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                            Walk_counts& counts) {
   if (are_collinear(path.from.position, path.to.position, q.position)) return false;
-  // The motion seen backwards: p enters its last cell at the last of the times at which it passes planes of the facets beyond
-  // which it comes from, and what is just after that then is just before it now.
+  // The motion seen backwards: p enters its last cell at the last of the times at which it passes planes of
+  // the facets beyond which it comes from, and what is just after that then is just before it now.
   const Swept_triangle<D> backwards{path.to.position, path.from.position, q.position};
   const Cell last = path.visited.back();
   const Cell_view<D> cell = snapshot.view(last);
@@ -67,8 +67,8 @@ Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, 
     Chain_result<D> found = check_third_segment(snapshot, path, q, before, counts, options.certificates);
     if (!found.contact && !found.has_choice) return {{}, std::move(found.chain)};
   }
-  // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
-  // goes on, is for the events to say.
+  // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which
+  // it lies the edge goes on, is for the events to say.
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, path, q, before, counts.walk);
 }

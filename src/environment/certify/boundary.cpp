@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that separates two
-// convex polytopes can be moved until it holds D of their vertices.
+// Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that
+// separates two convex polytopes can be moved until it holds D of their vertices.
 #include <algorithm>
 #include <iterator>
 #include <vector>

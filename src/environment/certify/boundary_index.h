@@ -24,7 +24,8 @@ using Box = boost::geometry::model::box<Box_corner<D>>;
 template <int D>
 Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices);
 
-/// The box of some cells. \pre at least one
+/// The box of some cells.
+/// \pre at least one
 template <int D>
 Box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells);
 

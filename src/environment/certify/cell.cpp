@@ -32,7 +32,8 @@ Cell_defect check_facet(Predicate_counts& counts, const Polygon<3>& polygon, Cor
                                                               : Cell_defect::none;
 }
 
-/// The side of every vertex of the cell: +1 strictly outside the facet, 0 on its plane. Vertices of the facet are 0.
+/// The side of every vertex of the cell: +1 strictly outside the facet, 0 on its plane. Vertices of the facet
+/// are 0.
 void sides_of_facet(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet,
                     const Corners& corners, Sides& sides) {
   const auto loop = cell.loop(facet);
@@ -58,7 +59,8 @@ boost::container::small_vector<std::size_t, 8> coplanar_facets(const Cell_view<3
   return found;
 }
 
-/// True if a facet overlaps one of the facets in its plane. \pre all of them are convex and face the same way
+/// True if a facet overlaps one of the facets in its plane.
+/// \pre all of them are convex and face the same way
 bool overlaps(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet, const Corners& corners,
               std::span<const std::size_t> others) {
   const Polygon<2> own = drop(polygon_of(cell, facet), corners.axis);

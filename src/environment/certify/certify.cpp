@@ -23,7 +23,8 @@ std::string place(const Point<D>& p) {
   return text + ")";
 }
 
-/// The first facet by whose first vertices no side can be told: all signs against it would be 0. facet_count() if none.
+/// The first facet by whose first vertices no side can be told: all signs against it would be 0.
+/// facet_count() if none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
   std::size_t i = 0;
   for (; i < cell.facet_count(); ++i) {

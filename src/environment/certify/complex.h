@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What the passes of certification share. Internal.
 //
-// Each pass runs over all cells in parallel. It fails with the failure of lowest input index, whatever the number of
-// threads: a pass looks for the lowest cell that fails, and only then says why.
+// Each pass runs over all cells in parallel. It fails with the failure of lowest input index, whatever the
+// number of threads: a pass looks for the lowest cell that fails, and only then says why.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 
@@ -74,7 +74,8 @@ class Complex {
 template <int D>
 using Plane_points = std::array<std::uint32_t, D>;
 
-/// Points of a facet that are not in one (D-2)-space. \pre the facet is sound (check_cell)
+/// Points of a facet that are not in one (D-2)-space.
+/// \pre the facet is sound (check_cell)
 template <int D>
 Plane_points<D> plane_of_facet(Predicate_counts& counts, const Cell_view<D>& cell, std::size_t facet);
 template <>
@@ -120,8 +121,8 @@ void certify_links(const Complex<D>& complex);
 template <int D>
 void certify_distinct_vertices(const Complex<D>& complex);
 
-/// Cells turn once round each inner ridge and at most once round each boundary ridge. Returns the number of fans: the
-/// ridges as the combinatorial map counts them.
+/// Cells turn once round each inner ridge and at most once round each boundary ridge. Returns the number of
+/// fans: the ridges as the combinatorial map counts them.
 template <int D>
 std::size_t certify_turns(const Complex<D>& complex);
 
@@ -129,9 +130,9 @@ std::size_t certify_turns(const Complex<D>& complex);
 template <int D>
 void certify_boundary(const Complex<D>& complex);
 
-/// The same for a certified snapshot in which a vertex of the boundary has moved since: `star` are the cells that have it, each
-/// still sound, and `near` at least those boundary facets of other cells whose boxes meet the box of the star. Only cells of the
-/// star are tried: docs/certification.md says why that suffices.
+/// The same for a certified snapshot in which a vertex of the boundary has moved since: `star` are the cells
+/// that have it, each still sound, and `near` at least those boundary facets of other cells whose boxes meet
+/// the box of the star. Only cells of the star are tried: docs/certification.md says why that suffices.
 /// Cost: a test of boxes a cell and facet, and an exact test where they meet.
 template <int D>
 void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star,

@@ -10,8 +10,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Classes of joined numbers, joined from many threads. The least of a class is its root, so that the result does not
-/// depend on the order.
+/// Classes of joined numbers, joined from many threads. The least of a class is its root, so that the result
+/// does not depend on the order.
 class Classes {
  public:
   explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Signs of polygons, in the plane and in planes of space. Internal to certification and splitting.
 //
-// A polygon in a plane of space is decided in 2D: a coordinate is dropped along which its plane projects one to one,
-// so that every sign in the plane is the projected one up to a common factor.
+// A polygon in a plane of space is decided in 2D: a coordinate is dropped along which its plane projects one
+// to one, so that every sign in the plane is the projected one up to a common factor.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_POLYGON_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_POLYGON_H
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // How often cells turn round a ridge, by signs only.
 //
-// A fan is a ridge with the cells round it that are joined through facets holding it, walls included. Its facets are
-// rays of a half-turn scale: each lies in one of four classes relative to the first, in the same direction, to the left
-// of it, opposite, or to the right. From one facet to the next a convex cell turns by more than nothing and at most half
-// a turn, so that the classes tell when a full turn is completed: on leaving {opposite, right} for {same, left}.
+// A fan is a ridge with the cells round it that are joined through facets holding it, walls included. Its
+// facets are rays of a half-turn scale: each lies in one of four classes relative to the first, in the same
+// direction, to the left of it, opposite, or to the right. From one facet to the next a convex cell turns by
+// more than nothing and at most half a turn, so that the classes tell when a full turn is completed: on
+// leaving {opposite, right} for {same, left}.
 #include <algorithm>
 #include <atomic>
 #include <vector>
@@ -15,7 +16,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A vertex of the plane, or the two ends of an edge in space, in the direction in which the first cell's facet has it.
+/// A vertex of the plane, or the two ends of an edge in space, in the direction in which the first cell's
+/// facet has it.
 template <int D>
 using Ridge = std::array<std::uint32_t, D - 1>;
 
@@ -32,8 +34,8 @@ class Fans {
  public:
   explicit Fans(const Complex<D>& complex) : complex_(complex), snapshot_(complex.snapshot()) {}
 
-  /// Gathers the fan of a ridge of cell c, turning from its facet f. If asked for own fans only, returns false where
-  /// the fan has a cell that stands before c in the snapshot: each fan is one cell's own.
+  /// Gathers the fan of a ridge of cell c, turning from its facet f. If asked for own fans only, returns
+  /// false where the fan has a cell that stands before c in the snapshot: each fan is one cell's own.
   bool gather(Cell c, std::size_t f, const Ridge<D>& ridge, bool only_own, Fan<D>& fan) {
     fan.rays.clear();
     fan.is_closed = false;
@@ -137,8 +139,9 @@ class Fans {
     return ridge[0];  // not reached: facets do not lie on one line
   }
 
-  /// +1 if b is less than half a turn on from a. The first cell's facet has its inside to the left of the ridge, seen
-  /// from outside; so turning into the cell is turning right about the ridge, left about the ridge reversed.
+  /// +1 if b is less than half a turn on from a. The first cell's facet has its inside to the left of the
+  /// ridge, seen from outside; so turning into the cell is turning right about the ridge, left about the
+  /// ridge reversed.
   int side_of_ray(const Ridge<D>& ridge, std::uint32_t a, std::uint32_t b) {
     if constexpr (D == 2) return Exact::orientation(counts_, point(ridge[0]), point(a), point(b));
     if constexpr (D == 3)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The map's own exact check, cheap enough to run after every build: CGAL's is_valid() walks every orbit with marks.
+// The map's own exact check, cheap enough to run after every build: CGAL's is_valid() walks every orbit with
+// marks.
 #include <cellwalk/environment/map.h>
 #include <cellwalk/kernel/error.h>
 

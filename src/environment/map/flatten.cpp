@@ -83,8 +83,8 @@ void write_facets(const Map_storage<D>& storage, Flat_cells<D>& flat) {
   });
 }
 
-/// The half-facets of the cell of d, breadth first from that of d (3D) or round the cell (2D); `facet_of` receives the
-/// number of the half-facet of each dart, by its address.
+/// The half-facets of the cell of d, breadth first from that of d (3D) or round the cell (2D); `facet_of`
+/// receives the number of the half-facet of each dart, by its address.
 template <int D>
 void append_cell(Map<D>& map, Dart<D> start, Flat_cells<D>& flat,
                  std::unordered_map<const void*, std::uint32_t>& facet_of) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Darts are created in the order of the soup, those of a half-facet one after the other; then cells and facets are
-// linked in parallel: every link writes only into the darts it joins.
+// Darts are created in the order of the soup, those of a half-facet one after the other; then cells and
+// facets are linked in parallel: every link writes only into the darts it joins.
 #include <cellwalk/environment/map.h>
 #include <cellwalk/kernel/error.h>
 
@@ -118,7 +118,8 @@ std::vector<std::uint32_t> cells_of_facets(const Cell_soup<D>& soup) {
   return cell_of;
 }
 
-/// The marks of each half-facet: impassable if either side says so, on the boundary, and where solid meets free.
+/// The marks of each half-facet: impassable if either side says so, on the boundary, and where solid meets
+/// free.
 template <int D>
 std::vector<Dart_info> make_infos(const Cell_soup<D>& soup, const Gluing& gluing) {
   const std::vector<std::uint32_t> cell_of = cells_of_facets(soup);
@@ -175,7 +176,8 @@ class Vertices {
   std::vector<std::pair<std::uint32_t, Map_vertex<D>>> pinched_orbits_;  // sorted by orbit
 };
 
-/// Creates the darts of all cells, linked round their facets (2D: round their cells), with marks and vertices.
+/// Creates the darts of all cells, linked round their facets (2D: round their cells), with marks and
+/// vertices.
 template <int D>
 void create_darts(Map_storage<D>& storage, const Cell_soup<D>& soup, const Gluing& gluing) {
   Map<D>& map = storage.map;

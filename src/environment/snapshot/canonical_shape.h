@@ -27,8 +27,8 @@ template <int D>
 void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
                   Canonical_cell& out);
 
-/// Turns a loop until its first three vertices do not lie on one line, if three in a row do not. `vertices` are the points of
-/// the cell's local vertices.
+/// Turns a loop until its first three vertices do not lie on one line, if three in a row do not. `vertices`
+/// are the points of the cell's local vertices.
 void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
                    std::span<std::uint16_t> loop);
 

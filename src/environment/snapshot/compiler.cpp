@@ -43,7 +43,8 @@ std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint3
   return cell.facet_count();
 }
 
-/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its plane.
+/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its
+/// plane.
 template <int D>
 bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::uint32_t u, std::uint32_t v) {
   const auto loop = cell.loop(j);
@@ -188,7 +189,8 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
           if (s > 0) return false;
           in_one_plane &= s == 0;
         }
-        // Where that plane is the one of the shared facet, both cells go on in it without being glued: a slit.
+        // Where that plane is the one of the shared facet, both cells go on in it without being glued: a
+        // slit.
         if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
       }
     }

@@ -21,13 +21,16 @@ class Snapshot_compiler {
   /// Writes a canonical cell into the blocks from `block` on and the vertices from `vertex` on.
   void write_cell(const Canonical_cell& cell, std::uint32_t block, std::uint32_t vertex, std::uint32_t index,
                   bool solid);
-  /// Marks a cell as removed: everything is outside of it, and walls are all round. What it holds stays in bounds.
+  /// Marks a cell as removed: everything is outside of it, and walls are all round. What it holds stays in
+  /// bounds.
   void remove_cell(Cell c);
-  /// Where the first three vertices of a facet's loop lie on one line, turns it so that they do not, if it has three that do not.
+  /// Where the first three vertices of a facet's loop lie on one line, turns it so that they do not, if it
+  /// has three that do not.
   void turn_loops(Cell c);
   /// Recomputes the planes of a cell. Returns how many could not be certified.
   std::size_t write_planes(Cell c);
-  /// How many of the planes of a cell, as they are, certify nothing. None of a cell that was just written has a plane yet: 0.
+  /// How many of the planes of a cell, as they are, certify nothing. None of a cell that was just written has
+  /// a plane yet: 0.
   std::size_t count_uncertified(Cell c) const;
   /// Recomputes the convex-pair bit of a facet on both sides. One thread per facet.
   void write_convex_pair(Half_facet f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Union-find over darts without locks: a root is only ever linked to a lower one, so the root of a finished orbit is its
-// lowest dart, whatever the order of the unions.
+// Union-find over darts without locks: a root is only ever linked to a lower one, so the root of a finished
+// orbit is its lowest dart, whatever the order of the unions.
 #include "corner_orbits.h"
 
 #include <algorithm>

@@ -184,7 +184,8 @@ bool Split_plan::try_cuts(std::uint32_t slot, const std::vector<std::uint32_t>& 
     former.push_back(cuts_[cuts[i]].triangles);
     cuts_[cuts[i]].triangles = *triangles[i];
   }
-  // Neighbours that had a star must keep one. Those that are not split stay convex however their facets are cut.
+  // Neighbours that had a star must keep one. Those that are not split stay convex however their facets are
+  // cut.
   std::vector<std::pair<std::uint32_t, Star>> found{{slot, find_star_of(slot)}};
   bool holds = found.front().second.found;
   for (std::size_t i = 0; holds && i < cuts.size(); ++i)

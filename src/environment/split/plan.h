@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which facets of a soup are cut into which triangles, and from which points its cells are cut into tetrahedra.
-// Internal to splitting.
+// Which facets of a soup are cut into which triangles, and from which points its cells are cut into
+// tetrahedra. Internal to splitting.
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_PLAN_H
 #define CELLWALK_ENVIRONMENT_SPLIT_PLAN_H
 
@@ -23,8 +23,8 @@ struct Facet_cut {
   Triangulation triangles;             ///< they run the way the canonical loop does
 };
 
-/// A decision about every facet with more than three vertices of every cell that is to be split, and about every such
-/// cell.
+/// A decision about every facet with more than three vertices of every cell that is to be split, and about
+/// every such cell.
 class Split_plan {
  public:
   /// Cuts facets in the preferred way, looks for stars, and tries other cuts where there is none.

@@ -50,9 +50,9 @@ Triangulation fan(Predicate_counts& counts, std::span<const Point<2>> p, int sig
   return triangles;
 }
 
-/// Cuts the first ear in the given order of vertices until one triangle is left. An ear's closed triangle holds no
-/// other vertex, so that what is left is a simple polygon without spikes. In a triangulation of the polygon (one
-/// exists) a triangle with two sides on the boundary is such an ear.
+/// Cuts the first ear in the given order of vertices until one triangle is left. An ear's closed triangle
+/// holds no other vertex, so that what is left is a simple polygon without spikes. In a triangulation of the
+/// polygon (one exists) a triangle with two sides on the boundary is such an ear.
 Triangulation cut_ears(Predicate_counts& counts, std::span<const Point<2>> p, int sign,
                        std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> ring(p.size());

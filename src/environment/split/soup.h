@@ -16,7 +16,8 @@ namespace cellwalk::detail {
 inline std::string cell_name(std::size_t c) { return "cell " + std::to_string(c); }
 
 /// The result of check_cell for every cell of a soup. Parallel.
-/// \throw Error(input) where a vertex index is out of range or a cell has more vertices than its shape can number
+/// \throw Error(input) where a vertex index is out of range or a cell has more vertices than its shape can
+///        number
 template <int D>
 std::vector<Cell_check> check_soup(const Cell_soup<D>& soup);
 

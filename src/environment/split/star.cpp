@@ -28,8 +28,8 @@ class Viewpoint {
     return Exact::orientation(counts_, points_[t[0]], points_[t[1]], points_[t[2]], eye_) < 0;
   }
 
-  /// True if the open cones over two triangles are disjoint. A plane through the eye separates them, and can be turned
-  /// until it holds two of their vertices.
+  /// True if the open cones over two triangles are disjoint. A plane through the eye separates them, and can
+  /// be turned until it holds two of their vertices.
   bool are_apart(const Triangle& s, const Triangle& t) const {
     // Over a common edge they lie on either side, as both are seen from inside.
     if (share_edge(s, t)) return true;
@@ -61,8 +61,8 @@ class Viewpoint {
   const Point<3>& eye_;
 };
 
-/// True if the tetrahedra from `eye` (the vertex `apex`, unless it is no_vertex) over all triangles without apex are
-/// positive and do not overlap.
+/// True if the tetrahedra from `eye` (the vertex `apex`, unless it is no_vertex) over all triangles without
+/// apex are positive and do not overlap.
 bool is_star(Predicate_counts& counts, std::span<const Point<3>> points, const Triangulation& surface,
              const Point<3>& eye, std::uint32_t apex) {
   const Viewpoint view(counts, points, eye);
@@ -103,7 +103,8 @@ struct Half_space {
 }  // namespace
 
 bool middle_of_kernel(std::span<const Point<3>> points, const Triangulation& surface, Point<3>& middle) {
-  // All corners of the kernel are intersections of three planes; work grows with the fourth power of their number.
+  // All corners of the kernel are intersections of three planes; work grows with the fourth power of their
+  // number.
   constexpr std::size_t most_triangles = 96;
   // Slack for rounding, in units of the cell's size: candidates only, the signs decide.
   constexpr double slack = 1e-12;

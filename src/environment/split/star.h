@@ -17,14 +17,14 @@ struct Star {
   Point<3> point{};          ///< otherwise: a point inside
 };
 
-/// Finds the lowest vertex, else an interior point, from which the tetrahedra over the triangles are all exactly
-/// positive and do not overlap. Interior points tried: the mean of the vertices, the mean of the triangles, and the
-/// middle of the kernel, where there are at most 96 triangles to search it by.
+/// Finds the lowest vertex, else an interior point, from which the tetrahedra over the triangles are all
+/// exactly positive and do not overlap. Interior points tried: the mean of the vertices, the mean of the
+/// triangles, and the middle of the kernel, where there are at most 96 triangles to search it by.
 /// \pre the triangles form a closed surface, counterclockwise seen from outside
 Star find_star(Predicate_counts& counts, std::span<const Point<3>> points, const Triangulation& surface);
 
-/// The middle of the set of points that see all triangles from inside, as far as rounded arithmetic can tell: a
-/// candidate, to be checked. False if none was found.
+/// The middle of the set of points that see all triangles from inside, as far as rounded arithmetic can tell:
+/// a candidate, to be checked. False if none was found.
 bool middle_of_kernel(std::span<const Point<3>> points, const Triangulation& surface, Point<3>& middle);
 
 /// The enclosed volume, rounded; negative if the triangles face inwards.

@@ -23,8 +23,9 @@ constexpr std::size_t repeated_length = 200;
 /// Links from one name to the next, as many as Linux follows.
 constexpr int most_links = 40;
 
-/// The descriptor of this process that a path such as /dev/stdout or /proc/self/fd/3 stands for. Opened by its path, a file that it
-/// leads to would be written from its beginning, and replaced it would not be the file any more that the shell gave.
+/// The descriptor of this process that a path such as /dev/stdout or /proc/self/fd/3 stands for. Opened by
+/// its path, a file that it leads to would be written from its beginning, and replaced it would not be the
+/// file any more that the shell gave.
 std::optional<int> own_descriptor(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(

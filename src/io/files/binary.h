@@ -21,7 +21,8 @@ class Binary_reader {
         rest_(bytes),
         swap_(big_endian == (std::endian::native == std::endian::little)) {}
 
-  /// The next number. \throw Error(input) naming `what` where the bytes end
+  /// The next number.
+  /// \throw Error(input) naming `what` where the bytes end
   template <class T>
   T take(const char* what) {
     if (rest_.size() < sizeof(T))

@@ -28,7 +28,8 @@ std::array<Slot, slot_count> slots;
 
 std::atomic<bool> names_change = false;
 
-/// While it lives, signals that end the program wait: on this thread they are blocked, on others the handler waits.
+/// While it lives, signals that end the program wait: on this thread they are blocked, on others the handler
+/// waits.
 class Hold_signals {
  public:
   Hold_signals() {

@@ -30,7 +30,8 @@ class Temporary_folder {
   Temporary_folder(const Temporary_folder&) = delete;
   Temporary_folder& operator=(const Temporary_folder&) = delete;
 
-  /// Writes the file into the folder; returns its path. \throw Error(other) where the device is full
+  /// Writes the file into the folder; returns its path.
+  /// \throw Error(other) where the device is full
   std::string write(const std::string& name, std::string_view bytes) {
     const std::string path = path_ + "/" + name;
     unfinished_file_.hold(path);

@@ -15,9 +15,11 @@ namespace cellwalk::io {
 /// \throw Error(input) if it cannot be read, or its gzip stream is damaged
 std::string load(const std::filesystem::path& path);
 
-/// The bytes of a file as they are. \throw Error(input) if it cannot be read
+/// The bytes of a file as they are.
+/// \throw Error(input) if it cannot be read
 std::string load_packed(const std::filesystem::path& path);
-/// What a gzip stream holds; `file` stands for it in errors. \throw Error(input) if it is damaged
+/// What a gzip stream holds; `file` stands for it in errors.
+/// \throw Error(input) if it is damaged
 std::string unpack(const std::string& file, const std::string& packed);
 
 /// True if the bytes begin like a gzip stream.
@@ -52,13 +54,17 @@ class Line_reader {
   bool at_line_end();
   std::string_view rest() const { return rest_; }  ///< what is left of the current line
 
-  /// The next word as a finite number. \throw Error(input) naming `what`
+  /// The next word as a finite number.
+  /// \throw Error(input) naming `what`
   double number(std::string_view what);
-  /// The next word as an integer >= 0. \throw Error(input) naming `what`
+  /// The next word as an integer >= 0.
+  /// \throw Error(input) naming `what`
   std::uint64_t count(std::string_view what);
-  /// The next word as an index below `size`, `base` taken off. \throw Error(input) naming `what`
+  /// The next word as an index below `size`, `base` taken off.
+  /// \throw Error(input) naming `what`
   std::uint32_t index(std::string_view what, std::size_t size, std::uint32_t base = 0);
-  /// Refuses a line that has further words. \throw Error(input)
+  /// Refuses a line that has further words.
+  /// \throw Error(input)
   void expect_line_end(std::string_view after);
 
   /// A bound for how many lines of at least `bytes` bytes are left: what may be reserved in advance.

@@ -130,7 +130,8 @@ Content content_of(const std::string& name, const Recognized_file& file, Read_re
   }
 }
 
-/// The same parts in D dimensions. \throw Error(input) where a point does not lie in the plane
+/// The same parts in D dimensions.
+/// \throw Error(input) where a point does not lie in the plane
 template <int D>
 Body_parts<D> in_dimension(const std::string& name, Body_parts<3> parts) {
   if constexpr (D == 3) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what the readers of Gmsh and VTK have in common. Volumes and polygons as elements over one list of
-// points become the record that fits.
+// Private to io: what the readers of Gmsh and VTK have in common. Volumes and polygons as elements over one
+// list of points become the record that fits.
 #ifndef CELLWALK_IO_MESH_ELEMENT_SOUP_H
 #define CELLWALK_IO_MESH_ELEMENT_SOUP_H
 
@@ -13,7 +13,8 @@
 
 namespace cellwalk::io {
 
-/// What a file of elements holds: volume cells, polygons that are facets of them or a surface of their own, and lines.
+/// What a file of elements holds: volume cells, polygons that are facets of them or a surface of their own,
+/// and lines.
 struct Element_soup {
   Cell_soup<3> volumes;  ///< its points are those of the polygons, too
   std::vector<std::vector<std::uint32_t>> polygons;

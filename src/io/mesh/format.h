@@ -20,7 +20,8 @@ Format format_by_extension(const std::filesystem::path& path);
 /// Such as "Gmsh".
 std::string_view format_name(Format format);
 
-/// The bytes of a file, inflated, and the format they are in: by the content where that tells, else by the extension.
+/// The bytes of a file, inflated, and the format they are in: by the content where that tells, else by the
+/// extension.
 struct Recognized_file {
   std::string bytes;
   Format format;

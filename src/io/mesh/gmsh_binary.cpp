@@ -220,7 +220,8 @@ class Binary_msh {
 }  // namespace
 
 int nodes_of_msh_type(std::int64_t type) {
-  // As in Gmsh's GmshDefines.h: lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids, up to high orders.
+  // As in Gmsh's GmshDefines.h: lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids, up
+  // to high orders.
   constexpr std::array<int, 32> first{0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                       8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
   constexpr std::array<std::pair<int, int>, 18> others{{{36, 16},

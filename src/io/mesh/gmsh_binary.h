@@ -11,8 +11,8 @@
 namespace cellwalk::io {
 
 /// \pre the header is that of a binary file of version 2 or 4.1
-/// \throw Error(input) where an element names a node that is not there before it, or is of a type that is not known, a node's number is
-///        not one, blocks hold more than was announced, or a section occurs twice
+/// \throw Error(input) where an element names a node that is not there before it, or is of a type that is not
+///        known, a node's number is not one, blocks hold more than was announced, or a section occurs twice
 void check_binary_msh_nodes(const std::string& name, std::string_view bytes, const Msh_header& header);
 
 }  // namespace cellwalk::io

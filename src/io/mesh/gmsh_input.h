@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what Gmsh is given of a file. Whatever would crash it, be run by it as a script, or lose cells, is found before.
+// Private to io: what Gmsh is given of a file. Whatever would crash it, be run by it as a script, or lose
+// cells, is found before.
 #ifndef CELLWALK_IO_MESH_GMSH_INPUT_H
 #define CELLWALK_IO_MESH_GMSH_INPUT_H
 
@@ -20,7 +21,8 @@ struct Gmsh_input {
 };
 
 /// Fills in the report's format and notes.
-/// \throw Error(input) with file and line where the bytes are no mesh of that format, or name nodes that are not there
+/// \throw Error(input) with file and line where the bytes are no mesh of that format, or name nodes that are
+///        not there
 Gmsh_input prepare_for_gmsh(const std::string& name, std::string_view bytes, Format format,
                             Read_report& report);
 

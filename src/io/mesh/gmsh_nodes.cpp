@@ -132,7 +132,8 @@ class Msh_nodes {
     return {blocks, total};
   }
 
-  /// The head of a block: how its members are written (their type, or whether they have parameters), and how many there are.
+  /// The head of a block: how its members are written (their type, or whether they have parameters), and how
+  /// many there are.
   struct Block {
     Number dimension, kind, size;
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The module that reads .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, from its own session.
+// The module that reads .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, from
+// its own session.
 #include <fmt/format.h>
 #include <gmsh.h>
 

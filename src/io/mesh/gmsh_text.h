@@ -15,8 +15,8 @@ struct Msh_header {
   bool binary = false;
 };
 
-/// \throw Error(input) with file and line where this is no .msh file. Gmsh takes what it does not recognise for a script
-///        that could do anything: nothing but meshes may reach it.
+/// \throw Error(input) with file and line where this is no .msh file. Gmsh takes what it does not recognise
+///        for a script that could do anything: nothing but meshes may reach it.
 Msh_header read_msh_header(const std::string& name, std::string_view bytes);
 
 struct Msh_counts {
@@ -28,8 +28,8 @@ Msh_counts announced_counts(std::string_view bytes, const Msh_header& header);
 /// \throw Error(input) with file and line where that would lose cells, or this is no ASCII MEDIT file
 Msh_counts check_medit(const std::string& name, std::string_view text);
 
-/// Gmsh keeps only one of several elements that have the same number. If numbers repeat in a text of version 1 or 2,
-/// returns the text with all elements numbered in order; else nothing.
+/// Gmsh keeps only one of several elements that have the same number. If numbers repeat in a text of version
+/// 1 or 2, returns the text with all elements numbered in order; else nothing.
 std::optional<std::string> renumbered_elements(std::string_view text, const Msh_header& header);
 
 }  // namespace cellwalk::io

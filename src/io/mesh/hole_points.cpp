@@ -9,7 +9,8 @@
 namespace cellwalk::io {
 namespace {
 
-/// How often a candidate is drawn nearer to its corner when rounding has put it on the wrong side of something.
+/// How often a candidate is drawn nearer to its corner when rounding has put it on the wrong side of
+/// something.
 constexpr int most_halvings = 40;
 
 class Search {
@@ -53,8 +54,9 @@ class Search {
     return false;
   }
 
-  /// In the triangle a, b, c of a convex corner b, the corner of any ring that is farthest from ac is seen from b, so
-  /// the line between them lies in the hole; without one, the middle of ac is seen. Take a point on it.
+  /// In the triangle a, b, c of a convex corner b, the corner of any ring that is farthest from ac is seen
+  /// from b, so the line between them lies in the hole; without one, the middle of ac is seen. Take a point
+  /// on it.
   std::optional<Point<2>> beside_corner(std::size_t i, int side) {
     const Point<2>&a = at(before(i)), &b = at(i), &c = at(after(i));
     Point<2> seen{a[0] / 2 + c[0] / 2, a[1] / 2 + c[1] / 2};

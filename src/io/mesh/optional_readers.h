@@ -17,7 +17,8 @@ namespace cellwalk::io {
 Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
                            Read_report& report);
 
-/// Legacy VTK and VTK XML, unstructured grids and polygonal data. \throw Error(input) as above
+/// Legacy VTK and VTK XML, unstructured grids and polygonal data.
+/// \throw Error(input) as above
 Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format format);
 
 /// Whether this build was made with them.

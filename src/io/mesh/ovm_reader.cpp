@@ -14,7 +14,8 @@
 namespace cellwalk::io {
 namespace {
 
-/// The file as it stands: rows of halfedges and halffaces, 2i in the direction of edge or face i, 2i+1 against it.
+/// The file as it stands: rows of halfedges and halffaces, 2i in the direction of edge or face i, 2i+1
+/// against it.
 struct Raw {
   std::vector<Point<3>> points;
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -182,7 +183,8 @@ class Ovm_reader {
     return !values.empty() && values[i];
   }
 
-  /// A face that many cells name would be written out as often: a short file could ask for any amount of memory.
+  /// A face that many cells name would be written out as often: a short file could ask for any amount of
+  /// memory.
   void check_sides() const {
     std::uint64_t corners = 0;
     for (const std::uint32_t halfface : raw_.cell_halffaces)

@@ -96,8 +96,8 @@ class Faces {
   const std::vector<std::uint8_t>& impassable() const { return impassable_; }
 
  private:
-  /// The lowest vertex of a loop and its two neighbours, the lower one first: alike on both sides of a face, and hardly
-  /// ever alike otherwise.
+  /// The lowest vertex of a loop and its two neighbours, the lower one first: alike on both sides of a face,
+  /// and hardly ever alike otherwise.
   struct Corner {
     std::array<std::uint32_t, 3> key;
     std::uint32_t facet;

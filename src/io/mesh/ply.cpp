@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// PLY, as text and binary. CGAL's reader trusts header and list lengths: a damaged byte makes it read for minutes, or
-// behave in undefined ways.
+// PLY, as text and binary. CGAL's reader trusts header and list lengths: a damaged byte makes it read for
+// minutes, or behave in undefined ways.
 #include <cellwalk/internal/io/numbers.h>
 
 #include <fmt/format.h>

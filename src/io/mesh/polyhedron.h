@@ -11,9 +11,9 @@
 
 namespace cellwalk::io {
 
-/// Turns loops so that every edge is run through once in each direction, and the volume (rounded) is positive. Loops
-/// that already agree with each other, or cannot be made to, are left as they are: certification judges them.
-/// Returns true if a loop was turned.
+/// Turns loops so that every edge is run through once in each direction, and the volume (rounded) is
+/// positive. Loops that already agree with each other, or cannot be made to, are left as they are:
+/// certification judges them. Returns true if a loop was turned.
 bool turn_alike(std::vector<std::vector<std::uint32_t>>& loops, const std::vector<Point<3>>& points);
 
 }  // namespace cellwalk::io

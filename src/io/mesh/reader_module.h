@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: readers of large libraries are modules of their own, loaded when the first file needs them. A program that reads no
-// such file starts without the libraries, and links without them.
+// Private to io: readers of large libraries are modules of their own, loaded when the first file needs them.
+// A program that reads no such file starts without the libraries, and links without them.
 #ifndef CELLWALK_IO_MESH_READER_MODULE_H
 #define CELLWALK_IO_MESH_READER_MODULE_H
 
@@ -36,9 +36,10 @@ struct Reader_module {
 inline constexpr const char* reader_module_entry = "cellwalk_reader_module";
 using Reader_module_entry = const Reader_module* (*)();
 
-/// A module, found and loaded at the first call. It is sought in the folder that CELLWALK_READERS names; beside the program or Python
-/// module in the build or prefix that it stands in; where the program was linked to look, and the system looks; where it was installed.
-/// Null, and why, where it cannot be loaded, or belongs to another version. For several threads.
+/// A module, found and loaded at the first call. It is sought in the folder that CELLWALK_READERS names;
+/// beside the program or Python module in the build or prefix that it stands in; where the program was linked
+/// to look, and the system looks; where it was installed. Null, and why, where it cannot be loaded, or
+/// belongs to another version. For several threads.
 struct Loaded_module {
   const Reader_module* module = nullptr;
   std::string problem;

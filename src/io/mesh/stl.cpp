@@ -37,7 +37,8 @@ class Merged_points {
   std::unordered_map<Point<3>, std::uint32_t, Hash> index_;
 };
 
-// Binary: 80 bytes of anything, a 32-bit count, then 50 bytes a triangle: normal, corners, two bytes of anything.
+// Binary: 80 bytes of anything, a 32-bit count, then 50 bytes a triangle: normal, corners, two bytes of
+// anything.
 constexpr std::size_t header_size = 84, triangle_size = 50, count_offset = 80, corner_offset = 12;
 
 std::uint32_t triangle_count(std::string_view bytes) {

@@ -13,7 +13,8 @@
 
 namespace cellwalk::io {
 
-/// What a body may have beside polygons. A parser that is given none leaves lines out: surfaces have no use for them.
+/// What a body may have beside polygons. A parser that is given none leaves lines out: surfaces have no use
+/// for them.
 struct Body_elements {
   bool planar = false;  ///< asked: a body of the plane, points whose z is not zero are refused
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< answered: lines, cut into edges

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The module that reads legacy VTK and VTK XML by VTK's readers, from memory. What VTK prints is caught and becomes the error.
+// The module that reads legacy VTK and VTK XML by VTK's readers, from memory. What VTK prints is caught and
+// becomes the error.
 #include <fmt/format.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkLogger.h>

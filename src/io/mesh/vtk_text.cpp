@@ -13,8 +13,8 @@
 namespace cellwalk::io {
 namespace {
 
-/// Numbers that one byte can stand for: as text, a digit and a blank each; compressed, at most 1032 bytes of data (the bound of deflate),
-/// twelve of which a point has at least, and a cell about as many.
+/// Numbers that one byte can stand for: as text, a digit and a blank each; compressed, at most 1032 bytes of
+/// data (the bound of deflate), twelve of which a point has at least, and a cell about as many.
 constexpr double per_byte_plain = 0.5, per_byte_compressed = 1032.0 / 12;
 
 /// The digits at the beginning of a text as a number; as large as there is where they are too many.

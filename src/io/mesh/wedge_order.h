@@ -11,9 +11,10 @@
 
 namespace cellwalk::io {
 
-/// VTK documents one order of the corners of wedges, and many programs write the other. In a file with other cells, too,
-/// these tell: if all of them are oriented one way and all wedges the other way, the wedges are meant the other way
-/// round. (A file of nothing but wedges is flipped as a whole when the environment is built.)
+/// VTK documents one order of the corners of wedges, and many programs write the other. In a file with other
+/// cells, too, these tell: if all of them are oriented one way and all wedges the other way, the wedges are
+/// meant the other way round. (A file of nothing but wedges is flipped as a whole when the environment is
+/// built.)
 class Wedge_order {
  public:
   explicit Wedge_order(Cell_soup<3>& soup) : soup_(soup) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Well-known text: POLYGON and MULTIPOLYGON. Parsed here, so that errors name the line; Boost.Geometry's reader cannot.
+// Well-known text: POLYGON and MULTIPOLYGON. Parsed here, so that errors name the line; Boost.Geometry's
+// reader cannot.
 #include <cellwalk/internal/io/numbers.h>
 #include <cellwalk/io/planar_file.h>
 

@@ -45,8 +45,8 @@ Trace take_header(Binary_reader& in, std::uint32_t& obstacles) {
   return trace;
 }
 
-/// Compares what the header announces with the bytes there are. The counts have 32 bits: no sum or product here has more
-/// than 64, since the steps are compared by division.
+/// Compares what the header announces with the bytes there are. The counts have 32 bits: no sum or product
+/// here has more than 64, since the steps are compared by division.
 void check_size(const std::string& name, const Trace& trace, std::uint64_t obstacles, std::uint64_t bytes) {
   const std::uint64_t vertices = std::uint64_t{trace.bodies} * trace_vertices;
   const std::uint64_t before_steps = index_size * obstacles + padding(obstacles) + vertices * point_size;
@@ -93,7 +93,8 @@ std::string flaw(const Trace& trace) {
   return {};
 }
 
-/// The next `count` values. \pre so many bytes are left
+/// The next `count` values.
+/// \pre so many bytes are left
 template <class T>
 std::vector<T> take_array(std::string_view& bytes, std::size_t count) {
   std::vector<T> values(count);

@@ -24,7 +24,8 @@ bool all_of_size(const std::vector<Loop>& loops, std::size_t n) {
   return std::all_of(loops.begin(), loops.end(), [n](const Loop& loop) { return loop.size() == n; });
 }
 
-/// The only vertex of the cell that is joined to v by an edge and not on the first facet, if there is just one.
+/// The only vertex of the cell that is joined to v by an edge and not on the first facet, if there is just
+/// one.
 std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t v) {
   const Loop& base = loops[0];
   std::optional<std::uint32_t> found;

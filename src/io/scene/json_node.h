@@ -18,7 +18,8 @@
 
 namespace cellwalk::io::detail {
 
-/// Lists and objects within each other: far more than anything that is read has. What writes JSON calls itself as often.
+/// Lists and objects within each other: far more than anything that is read has. What writes JSON calls
+/// itself as often.
 inline constexpr int deepest_nesting = 64;
 
 /// Parses JSON; comments (// and /* */) are allowed.
@@ -44,7 +45,8 @@ class Json_node {
   }
   std::vector<std::string> keys() const;
   bool has(std::string_view key) const;
-  /// The value of a key. \throw Error(input) if it is missing
+  /// The value of a key.
+  /// \throw Error(input) if it is missing
   Json_node at(std::string_view key) const;
   std::optional<Json_node> find(std::string_view key) const;
   /// The elements of an array.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces, docs/formats.md, for bodies of the library: how they are moved, and the answers to that.
+// The rule of traces, docs/formats.md, for bodies of the library: how they are moved, and the answers to
+// that.
 #ifndef CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 #define CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 
@@ -20,7 +21,8 @@ Body_options trace_options(Sweep sweep);
 /// The answer to a move of which this is reported.
 std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep);
 
-/// Appends the answers to the moves of one body in one step. \pre what blocks was reported, vertex by vertex
+/// Appends the answers to the moves of one body in one step.
+/// \pre what blocks was reported, vertex by vertex
 void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers);
 
