@@ -45,8 +45,8 @@ void add_functions(const std::vector<Vec<3>>& loop, Integer_complex<3>& complex)
 constexpr int limb_bits = 64;
 static_assert(sizeof(boost::multiprecision::limb_type) * 8 == limb_bits);
 
-/// |x| / 2^(limb_bits * (limbs - 1)) by its two leading limbs. Its relative error is below 2^-51: one half is the
-/// rounding of the limbs, the rest the limbs left out and the sum.
+/// |x| / 2^(limb_bits * (limbs - 1)) by its two leading limbs. Its relative error is below 2^-51: one half is
+/// the rounding of the limbs, the rest the limbs left out and the sum.
 double leading(const Big& x) {
   const auto* limbs = x.backend().limbs();
   const auto size = x.backend().size();

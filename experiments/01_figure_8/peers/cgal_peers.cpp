@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // CGAL's AABB_tree over the wall triangles, with a kernel of exact predicates: do_intersect is exact.
 //
-// cgal_segment    do_intersect of the tree for each segment cgal_triangle   do_intersect of the tree for each
-// triangle (from, target, q): bits 4 to 6, moved as recorded cgal_kept_box   the triangles of the enlarged
-// box are kept until the body leaves it; their boxes are compared first with that of the body, then with that
-// of the segment, exactly
+//   cgal_segment    do_intersect of the tree for each segment
+//   cgal_triangle   do_intersect of the tree for each triangle (from, target, q): bits 4 to 6, moved as
+//                   recorded
+//   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are
+//                   compared first with that of the body, then exactly with that of the segment
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/version.h>

@@ -92,7 +92,7 @@ struct Free_chain {
 /// most expensive part.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \pre !way.blocked
+/// \pre !path.blocked
 /// Cost: that of the sweep; if a wall pierces the swept triangle, some twenty signs.
 template <int D>
 std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path,

@@ -28,7 +28,7 @@ class Cell_set {
   std::unordered_set<Cell> index_;  ///< of all cells, once they are more
 };
 
-/// What a flood from a cell finds.
+/// The result of a flood from a cell.
 struct Candidate_walls {
   explicit Candidate_walls(Cell start) : cells(start) {}
 
@@ -39,9 +39,9 @@ struct Candidate_walls {
 
 using Corners = std::array<Point<3>, 4>;
 
-/// Finds all cells that a sheet of the closed tetrahedron may pass, and all walls of theirs that it may meet.
-/// May find more of both: planes and boxes that leave doubt count as met.
-/// Cost: a few ns a cell if no facet is near, up to some hundred else.
+/// Finds all cells that a triangle swept in the closed tetrahedron may pass, and all walls of these cells
+/// that it may meet. It may find too many of both, since planes and boxes that are inconclusive count as met.
+/// Cost: a few ns a cell if no facet is near, otherwise up to some hundred.
 void find_candidate_walls(const Snapshot<3>& snapshot, const Corners& corners, Candidate_walls& candidates,
                           Face_counts& counts);
 

@@ -18,14 +18,14 @@ namespace cellwalk::detail {
 /// inside. They may have a common factor.
 using Volumes = std::array<Ring, 4>;
 
-/// The part of a facet in a closed tetrahedron, by the volumes of its corners, in order. Empty, or a point,
-/// or a segment too.
+/// The part of a facet in a closed tetrahedron, by the volumes of its corners, in order. It may be empty, a
+/// point or a segment.
 std::vector<Volumes> clip(const Cell_view<3>& cell, std::size_t i, const Corners& corners);
 
-/// True if no volume is 0 at all corners of a polygon: then its inner points are inside the tetrahedron.
+/// True if no volume is 0 at all corners of a polygon; then its interior points lie inside the tetrahedron.
 bool reaches_inside(const std::vector<Volumes>& polygon);
 
-/// A tetrahedron abqr with a volume.
+/// A tetrahedron abqr of positive volume.
 class Swept_tetrahedron {
  public:
   /// \pre a, b, q and r do not lie in one plane
@@ -35,19 +35,19 @@ class Swept_tetrahedron {
   /// Cost: 4 to some 100 signs.
   bool meets(const Cell_view<3>& cell, std::size_t i) const;
 
-  /// Where a part of a facet is met first.
+  /// The first meeting of the face with a part of a facet.
   struct Touch {
     Fraction time;
     Exact_point<3> point;
-    Facet_feature feature;  ///< the lowest of the facet that holds the point
+    Facet_feature feature;  ///< the lowest feature of the facet that contains the point
     Body_feature body;      ///< the part of the face
   };
-  /// The first of the points of a facet in the closed tetrahedron, off qr; of those at one time the one on
-  /// the lowest feature of the facet.
+  /// The first of the points of a facet in the closed tetrahedron, off qr; of those at the same time, the one
+  /// on the lowest feature of the facet.
   /// \pre there is one
   Touch first_touch(const Cell_view<3>& cell, std::size_t i) const;
 
-  /// Unit normal of the face at a time, on the side of a, rounded.
+  /// The unit normal of the face at a time, on the side of a, rounded.
   Vector<3> normal_at(const Fraction& time) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which corners (a cell at one of its vertices) are joined through facets: the vertices of the map. A point
-// of the soup whose corners fall apart is pinched, and becomes several vertices.
+// The orbits of corners (a corner is a cell at one of its vertices) that are joined through facets: the
+// vertices of the map. A point of the soup with several orbits is pinched, and becomes several vertices.
 #ifndef CELLWALK_ENVIRONMENT_SOUP_CORNER_ORBITS_H
 #define CELLWALK_ENVIRONMENT_SOUP_CORNER_ORBITS_H
 
@@ -24,7 +24,7 @@ struct Soup_darts {
   }
   std::uint32_t begin_of_cell(std::size_t c) const { return first(soup.cell_begin[c]); }
   std::uint32_t end_of_cell(std::size_t c) const { return first(soup.cell_begin[c + 1]); }
-  /// Point from which a dart starts.
+  /// The point from which a dart starts.
   std::uint32_t origin(std::size_t dart) const { return soup.vertices[D == 2 ? 2 * dart : dart]; }
 };
 
