@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Triangulation of small 2D polygons by exact ear clipping.
+// Triangulation of small 2D polygons by exact ear clipping. Not by CGAL's triangulations, which are GPL.
 #ifndef CELLWALK_GENERATORS_EAR_CLIPPING_H
 #define CELLWALK_GENERATORS_EAR_CLIPPING_H
 

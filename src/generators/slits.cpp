@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint32_t on_boundary = 0xffffffffu;
 
-/// Disjoint sets, joined pairwise. Each is named by its least member.
+/// Disjoint sets, joined pairwise. Each is named by its least member, unlike those of Boost, which are named
+/// by rank.
 class Disjoint_sets {
  public:
   explicit Disjoint_sets(std::size_t n) : parent_(n) {

@@ -23,9 +23,9 @@ struct Contact {
   /// before it, and a walk with an inexact kernel one that is computed in doubles.
   Exact_time time;
   Point<D> point{};  ///< where the wall is met, rounded
-  /// Unit, on the free side. If the vertex is blocked, or an edge by the inside of a facet, that of the wall;
-  /// if an edge is blocked by an edge or vertex, the direction that is perpendicular to both. Always against
-  /// the motion: docs/bodies.md says what it is where that asks for another.
+  /// Unit, on the free side. If the vertex is blocked, or an edge by the interior of a facet, that of the
+  /// wall; if an edge is blocked by an edge or vertex, the direction perpendicular to both. Always against
+  /// the motion; docs/bodies.md describes the cases in which these would not be.
   Vector<D> normal{};
   Contact_kind kind = Contact_kind::facet;  ///< what of the wall is met
   std::uint16_t corner = 0;                 ///< which vertex or edge of it, see Wall_contact

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A lock-free union-find structure of darts: a root is linked only to a lower one, so the root of a finished
-// orbit is its lowest dart, for any order of the unions.
+// A lock-free union-find structure of darts, since Boost's disjoint_sets is for one thread: a root is linked
+// only to a lower one, so the root of a finished orbit is its lowest dart, for any order of the unions.
 #include "corner_orbits.h"
 
 #include <algorithm>

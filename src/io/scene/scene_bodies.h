@@ -19,8 +19,8 @@ Particle_cloud cloud(const Json_node& node);
 template <int D>
 Body_start<D> body_start(const Json_node& node);
 
-/// Way points, at least two, none twice in a row.
-/// \throw Error(input) naming the way point
+/// Waypoints, at least two, successive ones different.
+/// \throw Error(input) naming the waypoint
 template <int D>
 std::vector<Point<D>> way_points(const Json_node& node);
 
