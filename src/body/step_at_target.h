@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide, and what meets a wall
-// stays where it is.
+// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide,
+// and what meets a wall stays where it is.
 #ifndef CELLWALK_BODY_STEP_AT_TARGET_H
 #define CELLWALK_BODY_STEP_AT_TARGET_H
 
