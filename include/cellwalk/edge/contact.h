@@ -27,7 +27,7 @@ struct Contact {
   /// wall; if an edge is blocked by an edge or vertex, the direction perpendicular to both. Always against
   /// the motion; docs/bodies.md describes the cases in which these would not be.
   Vector<D> normal{};
-  Contact_kind kind = Contact_kind::facet;  ///< what of the wall is met
+  Contact_kind kind = Contact_kind::facet;  ///< the feature of the wall
   std::uint16_t corner = 0;                 ///< which vertex or edge of it, see Wall_contact
   Half_facet facet = Half_facet::none;      ///< the wall seen from the free side; names its dart
   Cell cell = Cell::none;                   ///< in which the motion ends

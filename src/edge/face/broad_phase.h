@@ -39,8 +39,8 @@ struct Candidate_walls {
 
 using Corners = std::array<Point<3>, 4>;
 
-/// Finds all cells that a triangle swept in the closed tetrahedron may pass, and all walls of these cells
-/// that it may meet. It may find too many of both, since planes and boxes that are inconclusive count as met.
+/// Finds the cells reached from the first one through passable facets that may meet the closed tetrahedron,
+/// and all walls of these cells that may meet it. Planes and boxes that are inconclusive count as met.
 /// Cost: a few ns a cell if no facet is near, otherwise up to some hundred.
 void find_candidate_walls(const Snapshot<3>& snapshot, const Corners& corners, Candidate_walls& candidates,
                           Face_counts& counts);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if nobody else can have written the file, which is executed as a part of the program.
+/// True if the file belongs to root or to the user, since it is executed as a part of the program.
 bool is_trusted(const fs::path& file) {
   struct stat status;
   return stat(file.c_str(), &status) == 0 && (status.st_uid == 0 || status.st_uid == geteuid());
