@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body of one's own with an integrator of one's own: a tetrahedron of masses and springs falls into a corner of a room.
-// The solver proposes targets, the body goes as far as walls allow, and the solver reads where it got.
+// A body of one's own with an integrator of one's own: a tetrahedron of masses and springs falls into a
+// corner of a room. The solver proposes targets, the body goes as far as walls allow, and the solver reads
+// where it got.
 #include <cellwalk/cellwalk.h>
 
 #include <cstdio>

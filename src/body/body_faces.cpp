@@ -63,8 +63,9 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
     const std::uint32_t q = corners[(k + 1) % 3], r = corners[(k + 2) % 3];
-    // The edge across, of the corners that stand still, may be stale. Then it lies in a region free of walls, where it was when
-    // its ends last moved: a chain is looked into where a wall meets its edge only, and none meets this one.
+    // The edge across, of the corners that stand still, may be stale. Then it lies in a region free of walls,
+    // where it was when its ends last moved: a chain is looked into where a wall meets its edge only, and
+    // none meets this one.
     const Chain& across = body.chains[sides[(k + 1) % 3]];
     const Face_chains chains{{moved_chain(body, scratch, vertex, sides[k]), false},
                              {&across, q > r},

@@ -110,7 +110,8 @@ bool Target_step<D>::touches_wall() {
   return false;
 }
 
-/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves outside of regions.
+/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves
+/// outside of regions.
 template <int D>
 bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& target) {
   body_.refresh_vertex(vertex, counts_);
@@ -158,8 +159,8 @@ inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Partic
   return true;
 }
 
-/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
-/// ends inside of them, so that there is but one chain from one to the other.
+/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a
+/// convex union, and ends inside of them, so that there is but one chain from one to the other.
 template <int D>
 template <class Counts>
 inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
@@ -176,7 +177,8 @@ inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Par
   return true;
 }
 
-/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then, and not stale.
+/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept
+/// then, and not stale.
 template <int D>
 bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Particle<D>& to,
                                              const Corner& corner, Edge_proofs& proofs) {
@@ -214,7 +216,8 @@ Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& 
   Particle<D> to = from;
   Move_scratch& scratch = body_.scratch;
   scratch.clear_walk();
-  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
+  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked
+  // for.
   const bool needs_way = sweep_.sweep != Sweep::three_segments;
   const std::uint64_t signs_before = signs();
   Walk_options recorded;
@@ -260,7 +263,8 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corn
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
   Edge_counts& edges = counts_.edges;
-  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
+  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p
+  // is inside of a cell.
   const bool stops = sweep_.touch == Touch::stop;
   if (is_certified_free(path.to, q, edges)) {
     if (!stops || (body_.is_apart && path.to.dimension == D)) return false;

@@ -6,7 +6,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
+/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first
+/// edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {
   if (const auto order = a.time <=> b.time; order != 0) return order < 0;

@@ -22,11 +22,12 @@ struct Answer {
 
 /// Changes velocities so that nothing that met a wall goes on into it.
 ///
-/// Each contact is an impulse at the place where the body met the wall: with mobility a P + (1 - a) I, a the stiffness and P the
-/// projection on rigid motions. First the impulses are found, none of them pulling, after which no place goes into its wall
-/// (projected Gauss-Seidel); then friction acts where there is one; then places that bounce get their share of the impulse once
-/// more (Moreau's rule). For a rigid body (a = 1) without friction that keeps all energy with restitution 1, whatever the
-/// contacts. A deformable one may gain a little from what deforms it: the caller limits that.
+/// Each contact is an impulse at the place where the body met the wall: with mobility a P + (1 - a) I, a the
+/// stiffness and P the projection on rigid motions. First the impulses are found, none of them pulling, after
+/// which no place goes into its wall (projected Gauss-Seidel); then friction acts where there is one; then
+/// places that bounce get their share of the impulse once more (Moreau's rule). For a rigid body (a = 1)
+/// without friction that keeps all energy with restitution 1, whatever the contacts. A deformable one may
+/// gain a little from what deforms it: the caller limits that.
 /// \pre contacts are of this body, velocities are finite
 /// Cost: some us, and 50 ns a contact and pass.
 template <int D>

@@ -26,7 +26,8 @@ Particle<D> place(const Locator<D>& locator, const Point<D>& position, const std
   return {position, location.cell, location.dimension, 0};
 }
 
-/// A particle in a cell, at a point that may lie on its boundary: a walk to where it is finds the dimension of its place.
+/// A particle in a cell, at a point that may lie on its boundary: a walk to where it is finds the dimension
+/// of its place.
 template <int D>
 Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Point<D>& position,
                         Walk_counts& counts) {

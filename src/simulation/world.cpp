@@ -43,7 +43,8 @@ void World<D>::step_free() {
   }
 }
 
-/// Nothing that moves meets anything else that moves, so all bodies may move at the same time; contacts are reported in their order.
+/// Nothing that moves meets anything else that moves, so all bodies may move at the same time; contacts are
+/// reported in their order.
 template <int D>
 void World<D>::step_bodies() {
   constexpr std::size_t bodies_at_once = 8;

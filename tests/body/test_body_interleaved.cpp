@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a body was asked before must not show in what it answers now: sweeps, policies, regions free of walls, registering and checking in
-// any order against the same moves without regions, registered after each, and against a body made anew where it stands.
+// What a body was asked before must not show in what it answers now: sweeps, policies, regions free of walls,
+// registering and checking in any order against the same moves without regions, registered after each, and
+// against a body made anew where it stands.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/gluing.h>
 
@@ -237,7 +238,8 @@ class Interleaving {
     return true;
   }
 
-  /// A body without faces that is registered where this one stands; in general position only, where there is one way to do it.
+  /// A body without faces that is registered where this one stands; in general position only, where there is
+  /// one way to do it.
   std::optional<Body<D>> made_anew(const Body<D>& body) {
     if (!generic_ || random().below(3) > 0) return {};
     Body_soup<D> soup;

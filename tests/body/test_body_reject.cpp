@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies by the rule of traces among closed walls: a vertex stays if one meets its way or one of its edges where it goes. Where
-// nothing touches a wall, what may not pass it is what meets it, so the same judge tells of either Touch.
+// Bodies by the rule of traces among closed walls: a vertex stays if one meets its way or one of its edges
+// where it goes. Where nothing touches a wall, what may not pass it is what meets it, so the same judge tells
+// of either Touch.
 #include <cellwalk/body/body.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
@@ -48,7 +49,8 @@ struct Rejected_seen {
   }
 };
 
-/// Bodies of all sorts among solid cells and membranes, all on one lattice: coarse, so that much touches, or so fine that nothing does.
+/// Bodies of all sorts among solid cells and membranes, all on one lattice: coarse, so that much touches, or
+/// so fine that nothing does.
 template <int D>
 class Rejection {
  public:
@@ -158,7 +160,8 @@ class Rejection {
     return answer;
   }
 
-  /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that time.
+  /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that
+  /// time.
   bool is_contact(const Contact<D>& c, const std::vector<Point<D>>& positions, const Point<D>& target) const {
     const Point<D>& from = positions[c.vertex];
     const Point<D> there = from + c.rounded_time() * (target - from);

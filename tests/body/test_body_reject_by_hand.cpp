@@ -125,7 +125,8 @@ TEST(Body_reject, EdgesThatGoRoundAreToldAndMove) {
 
 TEST(Body_reject, VerticesMoveOneAfterTheOther) {
   const Snapshot<2> snapshot = rooms_with_membrane();
-  // Twelve vertices in a row, each joined to the next; the first six pass below, the others would pass through the membrane.
+  // Twelve vertices in a row, each joined to the next; the first six pass below, the others would pass
+  // through the membrane.
   Body_soup<2> soup;
   std::vector<Point<2>> targets;
   for (std::uint32_t v = 0; v < 12; ++v) {

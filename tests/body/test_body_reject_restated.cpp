@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces where touching is free, stated once more by the public functions for one particle and one edge: in every
-// position, walls in the plane of the motion included.
+// The rule of traces where touching is free, stated once more by the public functions for one particle and
+// one edge: in every position, walls in the plane of the motion included.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>

@@ -206,7 +206,8 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   Body_counts counts;
   body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, report, counts);
   ASSERT_EQ(counts.in_region, 1u);
-  // The vertex goes from where it is now, not from where it was registered; out of the region, round the cell.
+  // The vertex goes from where it is now, not from where it was registered; out of the region, round the
+  // cell.
   for (const Point<2>& target : {Point<2>{9.52, 6.5}, {11.5, 6.5}, {11.5, 4.5}})
     ASSERT_FALSE(body.move_vertex(0, target, {}, counts));
   EXPECT_NO_THROW(body.validate());
@@ -217,8 +218,8 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   EXPECT_NO_THROW(body.validate());
 }
 
-/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In which one changes
-/// nothing: it comes to lie on the upper side, where it is once it is displaced.
+/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In
+/// which one changes nothing: it comes to lie on the upper side, where it is once it is displaced.
 TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
   Cell_soup<2> soup = square_grid(Grid_options<2>{.cells = {8, 4}});
   int walls = 0;

@@ -245,7 +245,8 @@ void expect_flights_scale() {
   EXPECT_GT(contacts, 150u);
 }
 
-/// Doubles are nearest to each other at the origin: a lift by some of them there would be nothing, at any scale.
+/// Doubles are nearest to each other at the origin: a lift by some of them there would be nothing, at any
+/// scale.
 template <int D>
 void expect_lifts_at_the_origin() {
   const Cell_soup<D> soup = [] {

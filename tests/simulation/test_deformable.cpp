@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity they come to rest.
+// Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity
+// they come to rest.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/body/transform.h>
 #include <cellwalk/generators/vessel.h>

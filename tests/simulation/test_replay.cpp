@@ -101,8 +101,8 @@ TEST(Replay, GivesTheRecordedAnswers) {
   }
 }
 
-/// Cells that are no cubes cost the same: without regions, the same walks, crossings and certificates. Regions have oblique sides
-/// there, and hold nearly as much.
+/// Cells that are no cubes cost the same: without regions, the same walks, crossings and certificates.
+/// Regions have oblique sides there, and hold nearly as much.
 TEST(Replay, ShearedCellsAreLikeCubes) {
   const Trace& trace = crowded();
   const Environment<3> cubes = trace_environment(trace), leaning = trace_environment(trace, sheared<3>());
@@ -134,8 +134,8 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
   }
 }
 
-/// Bodies that report contacts as well have one for each vertex that stays, at the time at which brute force finds the vertex or the first
-/// of its edges that are in the way at a wall.
+/// Bodies that report contacts as well have one for each vertex that stays, at the time at which brute force
+/// finds the vertex or the first of its edges that are in the way at a wall.
 TEST(Replay, BodiesReportContactsOfTheSameMoves) {
   const Trace& trace = crowded();
   const Environment<3> environment = trace_environment(trace);
@@ -252,7 +252,8 @@ TEST(Replay, SweptSegmentsThatRejectGoTheSameWay) {
   EXPECT_EQ(counts.stop_tries, 0u);
 }
 
-/// An edge that goes round an obstacle is in the way where what it sweeps counts, and not where its target does.
+/// An edge that goes round an obstacle is in the way where what it sweeps counts, and not where its target
+/// does.
 TEST(Replay, SweptTrianglesRejectWhatGoesRound) {
   const Trace& trace = crowded();
   const Environment<3> environment = trace_environment(trace);

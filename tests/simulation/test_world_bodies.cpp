@@ -36,8 +36,8 @@ struct Seen_contacts {
   std::size_t by_vertex = 0, by_edge = 0, of_particles = 0;
 };
 
-/// Runs a world of solid unit cells, and at every step: validates, sees that no vertex is outside and no edge goes through a
-/// solid cell, and that every contact of a body lies in a wall and names what there is.
+/// Runs a world of solid unit cells, and at every step: validates, sees that no vertex is outside and no edge
+/// goes through a solid cell, and that every contact of a body lies in a wall and names what there is.
 template <int D>
 void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<D>>& solid, int steps,
                  Seen_contacts& seen) {

@@ -55,8 +55,8 @@ struct Flown {
   std::uint64_t contacts = 0, edge_contacts = 0, face_contacts = 0, validated = 0, differing = 0, stuck = 0;
 };
 
-/// Throws bodies, each twice: with clearance and without. They must do the same, bit for bit; I1 and I2 hold every so many
-/// steps; and every body keeps moving.
+/// Throws bodies, each twice: with clearance and without. They must do the same, bit for bit; I1 and I2 hold
+/// every so many steps; and every body keeps moving.
 template <int D>
 Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, int steps, double time_step,
           int steps_between_checks, std::uint64_t seed, bool compare, const Body_options& options = {}) {

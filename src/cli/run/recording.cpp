@@ -12,7 +12,8 @@ namespace {
 
 using io::in_space;
 
-/// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and base64 adds a third.
+/// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and
+/// base64 adds a third.
 constexpr std::uint64_t most_recorded_points = 5'000'000;
 /// More passable edges of the plane than this are a grey area, not lines.
 constexpr std::size_t most_lines = 40'000;
@@ -34,7 +35,8 @@ void add_walls(const Snapshot<D>& snapshot, Recording_scene& scene) {
   });
 }
 
-/// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between them.
+/// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between
+/// them.
 void add_areas(const Snapshot<3>&, Recording_scene&) {}
 void add_areas(const Snapshot<2>& snapshot, Recording_scene& scene) {
   for_free_cells(snapshot, [&](Cell cell) {

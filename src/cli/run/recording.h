@@ -12,7 +12,8 @@
 
 namespace cellwalk::cli {
 
-/// Written along with the run, of which it only reads: nothing that the run counts depends on whether it is recorded.
+/// Written along with the run, of which it only reads: nothing that the run counts depends on whether it is
+/// recorded.
 template <int D>
 class Run_recording {
  public:
@@ -38,7 +39,8 @@ class Run_recording {
   std::vector<Body_counts> before_;  ///< at the record before
 };
 
-/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0: nothing is recorded.
+/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0:
+/// nothing is recorded.
 template <int D>
 std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps);
 

@@ -15,14 +15,16 @@
 
 namespace cellwalk::cli {
 
-/// Refuses scenes that a trace cannot hold: its environment is a grid of unit cubes (generator hexes, neither scaled nor
-/// rotated nor sheared), and all that moves are bodies with the 8 vertices and 12 edges of the hexahedron.
+/// Refuses scenes that a trace cannot hold: its environment is a grid of unit cubes (generator hexes, neither
+/// scaled nor rotated nor sheared), and all that moves are bodies with the 8 vertices and 12 edges of the
+/// hexahedron.
 /// \throw Error(input) naming the scene and its key
 template <int D>
 void check_recordable(const Scene<D>& scene, const std::vector<Body_soup<D>>& shapes,
                       const std::string& scene_name);
 
-/// How bodies are to move that are recorded: by the rule of traces. What meets a wall is reported as contacts too.
+/// How bodies are to move that are recorded: by the rule of traces. What meets a wall is reported as contacts
+/// too.
 Body_options recorded_options();
 
 /// Records a run whose bodies move by recorded_options().

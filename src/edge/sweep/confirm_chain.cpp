@@ -8,8 +8,9 @@
 namespace cellwalk {
 namespace {
 
-/// False proves that an edge which passes a chain all along its sweep has no choice: no wall of the cells of the chain lies in the plane
-/// of the triangle, or in all of them nothing but walls does, so that none begins.
+/// False proves that an edge that passes a chain throughout its sweep has no choice of sides: no wall of the
+/// cells of the chain lies in the plane of the triangle, or in each of these cells only walls do, so that no
+/// wall begins.
 bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Cell start, const Chain& chain,
                      Walk_counts& counts) {
   bool has_wall = false, has_opening = false;
@@ -30,7 +31,8 @@ bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Ce
   return has_wall && has_opening;
 }
 
-/// In 2D walls lie in the line of an edge only while its end moves in it too: then the end has the choice.
+/// In 2D, walls lie in the line of an edge only while its end moves in that line; then the end has the
+/// choice.
 bool may_have_choice(const Snapshot<2>&, const Swept_triangle<2>&, Cell, const Chain&, Walk_counts&) {
   return false;
 }
@@ -49,8 +51,8 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
     return !may_have_choice(snapshot, triangle, p.cell, chain, counts.walk);
   };
-  // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
-  // through its inside.
+  // A triangle with a corner in the interior of a cell lies in the plane of no facet of it; and a convex
+  // union has no facet in a plane through its interior.
   if (certificates.same_cell && chain.empty() && (p.dimension == D || q.dimension == D || has_no_choice())) {
     ++counts.same_cell;
     result = {};
@@ -66,7 +68,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     return true;
   }
   counts.chain_facets += chain.size();
-  // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
+  // A walk is faster than the signs of passes(), but may find another chain if several are valid.
   bool on_planes = false;
   result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);
   if (!certificates.same_chain) return false;

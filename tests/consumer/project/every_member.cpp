@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Every public member of the classes and every function that headers declare `extern template`, so that a program which inlines
-// nothing links. check_members.py sees that none is missing. Nothing is run.
+// Every public member of the classes and every function that headers declare `extern template`, so that a
+// program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
