@@ -104,7 +104,7 @@ Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall&
     body.step(targets, options, report, counts);
   }
   Landing landing;
-  if (!report.contacts.empty()) landing.stopped_by = report.contacts.front().contact.body;
+  if (!report.contacts.empty()) landing.stopped_by = report.contacts.front().body;
   std::copy(body.positions().begin(), body.positions().end(), landing.end.begin());
   return landing;
 }

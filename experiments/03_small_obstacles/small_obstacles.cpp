@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Runs the experiment and writes sweeps.csv, costs.csv, spikes.csv, floating.csv, manifest.json and, if it is to be timed,
-// timings.csv.
+// Runs the experiment and writes sweeps.csv, costs.csv, spikes.csv, floating.csv, manifest.json and, if it is
+// to be timed, timings.csv.
 //
 //   small_obstacles -o DIR [--quick] [--threads N] [--rounds N] [--seed N] [--commit NAME]
 #include <CLI/CLI.hpp>

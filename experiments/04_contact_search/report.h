@@ -17,8 +17,8 @@ struct Plan {
   std::string commit = "unknown";
 };
 
-/// Runs all searches in all worlds and writes the tables into a folder, which must exist. The same bytes for any number of
-/// threads, but for timings.csv.
+/// Runs all searches in all worlds and writes the tables into a folder, which must exist. The same bytes for
+/// any number of threads, but for timings.csv.
 /// \throw Error(other) where a file cannot be written
 void run(const Plan& plan, const std::filesystem::path& folder);
 

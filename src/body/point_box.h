@@ -89,7 +89,8 @@ struct Pair_bounds {
   }
 };
 
-/// The largest scalar product of a vector with points, each rounded as by dot(). -inf if there are none. \pre they are finite
+/// The largest scalar product of a vector with points, each rounded as by dot(). -inf if there are none.
+/// \pre they are finite
 template <int D>
 double furthest(const Vector<D>& normal, std::span<const Point<D>> points) {
   double most = -std::numeric_limits<double>::infinity();

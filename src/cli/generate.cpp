@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk generate KIND ... -o ENV.ovm: environments that need no file.
+// cellwalk generate KIND ... -o ENV.ovm: environments made without a file.
 #include <cellwalk/internal/io/numbers.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/generators.h>

@@ -40,7 +40,7 @@ struct Cross_section {
   std::array<Vector<3>, tube_sides> directions;
 };
 
-/// Directions round `axis`, the first one next to `start`.
+/// Directions around `axis`, the first one closest to `start`.
 Cross_section make_ring(const Vector<3>& axis, const Vector<3>& start) {
   const Vector<3> u = unit(start - dot(start, axis) * axis), v = cross(axis, u);
   Cross_section ring;
@@ -51,7 +51,7 @@ Cross_section make_ring(const Vector<3>& axis, const Vector<3>& start) {
   return ring;
 }
 
-/// The side of a cone or cylinder between two rings. `slope` leans the normals along the axis a to b.
+/// The side of a cone or cylinder between two rings. `slope` inclines the normals along the axis from a to b.
 void add_side(Drawing& drawing, const Point<3>& a, double radius_a, const Cross_section& ring_a,
               const Point<3>& b, double radius_b, const Cross_section& ring_b, std::uint32_t material) {
   const Vector<3> axis = unit(b - a);

@@ -8,9 +8,9 @@
 namespace cellwalk::drawing::detail {
 namespace {
 
-constexpr double margin = 0.06;         // of the smaller side of the picture, left free all round
-constexpr double caption_strip = 0.05;  // of the height, kept free below for the caption
-constexpr double tilt = 0.35;           // of an automatic view, so that depth can be seen
+constexpr double margin = 0.06;         // left free on all sides, of the smaller side of the picture
+constexpr double caption_strip = 0.05;  // left free at the bottom for the caption, of the height
+constexpr double tilt = 0.35;           // of an automatic view, to show the depth
 
 struct Box {
   Point<3> low, high;

@@ -22,7 +22,8 @@ std::string place(const Point<D>& p) {
   return text + ")";
 }
 
-/// Points that some cell uses, in order. \throw Error(input) if one of them is not finite
+/// The points used by cells, in order.
+/// \throw Error(input) if one of them is not finite
 template <int D>
 std::vector<std::uint32_t> used_points(const Cell_soup<D>& soup) {
   std::vector<std::uint8_t> is_used(soup.points.size(), 0);
@@ -38,7 +39,7 @@ std::vector<std::uint32_t> used_points(const Cell_soup<D>& soup) {
   return used;
 }
 
-/// Pairs (point, the lowest point in the same place) for points of equal coordinates, sorted.
+/// Pairs (point, lowest point at the same position) for points of equal coordinates, sorted.
 template <int D>
 std::vector<std::pair<std::uint32_t, std::uint32_t>> find_duplicates(const std::vector<Point<D>>& points,
                                                                      std::vector<std::uint32_t> used) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Only + - * / and sqrt are used here: they are rounded alike everywhere, other functions of the library are not.
+// Only + - * / and sqrt are used here: they are rounded in the same way everywhere, unlike other functions of
+// the standard library.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
@@ -20,7 +21,7 @@ constexpr int segments_per_tube = 10;
 
 Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
 
-/// The point at t of the quadratic curve through a and c that heads for b.
+/// The point at t of the quadratic curve from a to c with the control point b.
 Point<3> on_curve(const Point<3>& a, const Point<3>& b, const Point<3>& c, double t) {
   return (1 - t) * (1 - t) * a + (2 * t * (1 - t) * b + t * t * c);
 }
@@ -37,7 +38,7 @@ Tube make_tube(const Point<3>& a, const Point<3>& b, const Point<3>& c, double f
   return tube;
 }
 
-/// How deep p lies in a tube: positive inside.
+/// The depth of p in a tube: positive inside.
 double depth_in(const Tube& tube, const Point<3>& p) {
   double depth = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < tube.points.size(); ++i) {
@@ -49,13 +50,13 @@ double depth_in(const Tube& tube, const Point<3>& p) {
   return depth;
 }
 
-/// The larger of two depths, rounded off where they differ by less than `width`.
+/// The larger of two depths, smoothed if they differ by less than `width`.
 double smooth_max(double a, double b, double width) {
   const double h = std::max(0.0, 1 - std::abs(a - b) / width);
   return std::max(a, b) + h * h * width / 4;
 }
 
-/// A box round a tube.
+/// A box around a tube.
 struct Box {
   Point<3> low, high;
 
@@ -79,7 +80,7 @@ Box box_of(const Tube& tube) {
   return box;
 }
 
-/// The union of tubes, rounded off where they meet over a width of `blend`.
+/// The union of tubes, blended over a width of `blend` where they meet.
 Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cell_size) {
   std::vector<Box> boxes;
   for (const Tube& tube : tubes) boxes.push_back(box_of(tube));
@@ -88,11 +89,11 @@ Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cel
   shape.low = boxes[0].low, shape.high = boxes[0].high;
   for (const Box& box : boxes)
     for (int k = 0; k < 3; ++k) {
-      // Rounding off adds up to blend / 4 at a place where two tubes meet, and a little more for a third one.
+      // Blending adds up to blend / 4 at a place where two tubes meet, and a little more for a third one.
       shape.low[k] = std::min(shape.low[k], box.low[k] - blend / 2);
       shape.high[k] = std::max(shape.high[k], box.high[k] + blend / 2);
     }
-  // Far from all tubes only the sign counts. A tube is left out where it would change neither sign nor blend.
+  // Far from all tubes only the sign counts. A tube is skipped if it would change neither sign nor blend.
   const double far = -2 * (blend + cell_size);
   shape.depth = [&, far](const Point<3>& p) {
     double depth = far;
@@ -117,7 +118,7 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
   Random random(options.seed);
   struct Bud {
     Point<3> start;
-    Vector<3> direction, side;  // of the fork it comes from
+    Vector<3> direction, side;  // of the fork from which it comes
     double length, radius;
     int parent, generation;
   };
@@ -134,8 +135,8 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
     const int index = static_cast<int>(tubes.size());
     tubes.push_back(make_tube(bud.start, middle, end, bud.radius, 0.9 * bud.radius, bud.parent));
     if (bud.generation == options.generations) continue;
-    // Forks lie in planes about square to each other, as they do in lungs and brains. Two branches of radius 0.8 have
-    // about the cross-section that Murray's law asks for.
+    // Successive forks lie in planes that are about perpendicular, as in lungs and brains. Two branches of
+    // radius 0.8 have about the cross-section of Murray's law.
     const Vector<3> new_side = unit(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
     const Vector<3> side = unit(new_side - dot(new_side, end_direction) * end_direction);
     for (double sign : {-1.0, 1.0}) {
@@ -167,7 +168,7 @@ Tube bulging_tube_line(const Bulge_options& o) {
   check_option(o.bend >= 0 && o.bend <= 1, "tube: the bend must lie in [0,1]");
   check_option(o.radius > 0 && std::isfinite(o.radius), "tube: the radius must be positive");
   const double half = o.length * o.radius / 2;
-  // The curve rises to half the height of the point it heads for.
+  // The curve rises to half the height of its control point.
   return make_tube({-half, 0, 0}, {0, 0, 4 * o.bend * half}, {half, 0, 0}, o.radius, o.radius, -1);
 }
 

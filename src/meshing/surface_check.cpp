@@ -19,7 +19,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using detail::Surface_mesh;
 using Face = Surface_mesh::Face_index;
 
-/// Remembers which polygon each triangle was cut from.
+/// Records the polygon from which each triangle was cut.
 struct Source_visitor : PMP::Triangulate_faces::Default_visitor<Surface_mesh> {
   Surface_mesh::Property_map<Face, std::uint32_t>* source;
   std::uint32_t current = 0;

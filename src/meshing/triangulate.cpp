@@ -44,7 +44,7 @@ bool cross(const Planar_domain& domain, const Segment& s, const Segment& t) {
   return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
 }
 
-/// The first earlier segment that segment `last` crosses.
+/// Refuses the first crossing of segment `last` with an earlier one.
 [[noreturn]] void refuse_crossing(const Planar_domain& domain, std::size_t last) {
   for (std::size_t i = 0; i < last; ++i)
     if (cross(domain, domain.segments[i], domain.segments[last]))
@@ -96,7 +96,7 @@ Triangulation constrain(const Planar_domain& domain, Triangulate_report& report)
   return triangulation;
 }
 
-/// Marks all faces joined with a face through edges that are no segments.
+/// Marks all faces connected with a face through edges that are not segments.
 void mark(Triangulation::Face_handle start, Region region) {
   std::vector<Triangulation::Face_handle> stack{start};
   start->info() = region;

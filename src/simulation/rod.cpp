@@ -11,8 +11,8 @@
 namespace cellwalk {
 namespace {
 
-/// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that has been pushed
-/// together by so much.
+/// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that
+/// has been pushed together by so much.
 constexpr double most_stretched = 0.5, most_compressed = 1;
 /// In steps of the advance: what was pushed together may come out this fast.
 constexpr double fastest = 2;
@@ -71,9 +71,9 @@ bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   return walk<Exact>(*snapshot_, body_.particles()[0], x, counts.edges.walk).status == Walk_status::arrived;
 }
 
-/// Walls may keep the tip off a way point. It counts as passed where the tip is no further than a spacing from it, or nearer to the
-/// next one than it is with that in sight. A tip that is not bent towards way points goes past them: there it counts when the tip is
-/// beside it, the last one only if it is in sight.
+/// Walls may keep the tip off a way point. It counts as passed where the tip is no further than a spacing
+/// from it, or nearer to the next one than it is with that in sight. A tip that is not bent towards way
+/// points goes past them: there it counts when the tip is beside it, the last one only if it is in sight.
 template <int D>
 void Rod<D>::pass_way_points(Body_counts& counts) {
   for (; next_ < way_.size(); ++next_) {

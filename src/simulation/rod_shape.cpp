@@ -8,7 +8,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the steps that follow.
+/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the
+/// steps that follow.
 constexpr int relaxation_passes = 12;
 
 /// Takes a vector across one direction to one across another, by the least rotation.
@@ -112,7 +113,8 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
   std::size_t last = 1;  // the first vertex, from the tip on, that is straight by nature
   while (last < count && bend.angle(last, state.spacing) > 0) ++last;
   if (last < 2) return;
-  // What bends each vertex beside its nature, before. It stays where it is while vertices go on by part of a link.
+  // What bends each vertex beside its nature, before. It stays where it is while vertices go on by part of a
+  // link.
   const std::vector<Vector<D>> across = curve_directions<D>(before, twist_before, old);
   std::vector<Vector<D>> excess(last + 1, Vector<D>{});
   // At the entry the guide holds the rod straight.

@@ -115,17 +115,18 @@ TEST(Body_reject, EdgesThatGoRoundAreToldAndMove) {
       EXPECT_TRUE(blocked[0].stays());
       EXPECT_EQ(blocked[0].contact->point, (Point<2>{3.625, 2}))
           << "that is not where the edge would meet it";
-      EXPECT_EQ(blocked[0].contact->time, 0.75);
+      EXPECT_EQ(blocked[0].contact->rounded_time(), 0.75);
       // Half way, from (1.5, 2.5), the edge meets the end of the membrane.
       ASSERT_EQ(contacts.size(), 1u);
-      EXPECT_EQ(contacts[0].contact.body, Body_feature::edge);
+      EXPECT_EQ(contacts[0].body, Body_feature::edge);
       EXPECT_EQ(contacts[0].contact.point, (Point<2>{3, 2}));
     }
 }
 
 TEST(Body_reject, VerticesMoveOneAfterTheOther) {
   const Snapshot<2> snapshot = rooms_with_membrane();
-  // Twelve vertices in a row, each joined to the next; the first six pass below, the others would pass through the membrane.
+  // Twelve vertices in a row, each joined to the next; the first six pass below, the others would pass
+  // through the membrane.
   Body_soup<2> soup;
   std::vector<Point<2>> targets;
   for (std::uint32_t v = 0; v < 12; ++v) {

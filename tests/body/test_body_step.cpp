@@ -47,7 +47,7 @@ TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   EXPECT_GT(body.positions()[0][0], 5.4) << "it stuck to the floor";
   EXPECT_LT(body.positions()[0][2], 1e-9);
   ASSERT_FALSE(report.contacts.empty());
-  EXPECT_EQ(report.contacts[0].contact.normal, (Vector<3>{0, 0, 1}));
+  EXPECT_EQ(report.contacts[0].normal, (Vector<3>{0, 0, 1}));
 }
 
 TEST(Body_step, RejectsMovesThatMeetWalls) {
@@ -103,13 +103,13 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
   Body_counts counts;
   const auto contact = body.move_vertex(0, {0.5, 1.25, 0.05}, {}, counts);
   ASSERT_TRUE(contact);
-  EXPECT_EQ(contact->contact.body, Body_feature::edge);
+  EXPECT_EQ(contact->body, Body_feature::edge);
   EXPECT_EQ(contact->feature, 0u);
   EXPECT_EQ(contact->vertex, 0u);
-  EXPECT_EQ(contact->contact.kind, Contact_kind::edge);
+  EXPECT_EQ(contact->kind, Contact_kind::edge);
   // The edge meets (2, 1.25, 1): on a line with (4.5, 1.25, 2.5), p is then at height 0.1.
-  EXPECT_NEAR(contact->contact.rounded_time(), 2.4 / 2.45, 1e-12);
-  EXPECT_EQ(contact->contact.point[1], 1.25);
+  EXPECT_NEAR(contact->rounded_time(), 2.4 / 2.45, 1e-12);
+  EXPECT_EQ(contact->point[1], 1.25);
   EXPECT_EQ(body.positions()[0], (Point<3>{0.5, 1.25, 2.5})) << "nothing moves where there is a contact";
 }
 
@@ -141,9 +141,9 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
       continue;
     }
     ASSERT_FALSE(report.contacts.empty());
-    EXPECT_EQ(report.contacts[0].contact.body, Body_feature::face);
+    EXPECT_EQ(report.contacts[0].body, Body_feature::face);
     EXPECT_EQ(report.contacts[0].feature, 0u);
-    EXPECT_EQ(report.contacts[0].contact.point[2], 1);
+    EXPECT_EQ(report.contacts[0].point[2], 1);
     EXPECT_GT(counts.faces.faces, 50u);
     EXPECT_GT(lowest, 0.4);
     // Two corners may go down past the cell, if the third is left behind; but not the middle.
@@ -206,7 +206,8 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   Body_counts counts;
   body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, report, counts);
   ASSERT_EQ(counts.in_region, 1u);
-  // The vertex goes from where it is now, not from where it was registered; out of the region, round the cell.
+  // The vertex goes from where it is now, not from where it was registered; out of the region, round the
+  // cell.
   for (const Point<2>& target : {Point<2>{9.52, 6.5}, {11.5, 6.5}, {11.5, 4.5}})
     ASSERT_FALSE(body.move_vertex(0, target, {}, counts));
   EXPECT_NO_THROW(body.validate());
@@ -217,8 +218,8 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   EXPECT_NO_THROW(body.validate());
 }
 
-/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In which one changes
-/// nothing: it comes to lie on the upper side, where it is once it is displaced.
+/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In
+/// which one changes nothing: it comes to lie on the upper side, where it is once it is displaced.
 TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
   Cell_soup<2> soup = square_grid(Grid_options<2>{.cells = {8, 4}});
   int walls = 0;

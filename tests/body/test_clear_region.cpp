@@ -209,7 +209,8 @@ TEST(Clear_region, IsNotEnlargedByUnderflowOrOverflow) {
   EXPECT_GT(with_planes, 100);
 }
 
-/// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of those without a facet.
+/// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of
+/// those without a facet.
 TEST(Clear_region, IsFoundWherePlanesSayNothing) {
   for (const double scale : {1.0, 0x1p330, 0x1p500}) {
     Cell_soup<2> soup;

@@ -182,7 +182,8 @@ TEST_F(Replay, RecordsTouchesAsHits) {
                  {"resting.json: body 0: its edge from vertex 0 to vertex 1 touches a wall at the start"});
   write("arriving.json", R"({
     "environment": {"generate": "hexes", "cells": 3},
-    "bodies": [{"shape": "box", "size": [0.5, 0.5, 0.5], "position": [0.75, 1, 1], "velocity": [-0.25, 0, 0]}],
+    "bodies": [{"shape": "box", "size": [0.5, 0.5, 0.5], "position": [0.75, 1, 1],
+                "velocity": [-0.25, 0, 0]}],
     "time_step": 1, "steps": 3})");
   succeed({"run", "arriving.json", "-o", "out", "--record", "t.bin"});
   EXPECT_EQ(json::parse(text("out/run.json"))["body_counts"]["held"], 4) << "it ends on the wall";

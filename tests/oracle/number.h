@@ -47,7 +47,8 @@ inline Dyadic to_dyadic(double x) {
   return r;
 }
 
-/// x * 2^shift as an integer. \pre it is one, and fits
+/// x * 2^shift as an integer.
+/// \pre it is one, and fits
 template <class N>
 N scaled(double x, int shift) {
   const Dyadic d = to_dyadic(x);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity they come to rest.
+// Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity
+// they come to rest.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/body/transform.h>
 #include <cellwalk/generators/vessel.h>
@@ -78,7 +79,7 @@ Seen run(std::vector<Deformable<D>>& bodies, const Dynamics_options<D>& conditio
       report.clear();
       d.step(conditions, report, counts);
       seen.contacts += report.contacts.size();
-      for (const auto& c : report.contacts) seen.of_edges += c.contact.body == Body_feature::edge;
+      for (const auto& c : report.contacts) seen.of_edges += c.body == Body_feature::edge;
       if (conditions.gravity == Vector<D>{}) {
         EXPECT_LE(d.kinetic_energy(), kinetic * (1 + 1e-14)) << "step " << s;
       } else {

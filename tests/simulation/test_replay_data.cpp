@@ -18,7 +18,8 @@ struct Facts {
   std::uint64_t vertex_hits, edge_hits, rounds;
 };
 
-/// Facts of the recorded answers: moves with bit 0, bits 1 to 3, and bits 4 to 6 without the bit 1 to 3 that belongs to it.
+/// Facts of the recorded answers: moves with bit 0, bits 1 to 3, and bits 4 to 6 without the bit 1 to 3 that
+/// belongs to it.
 class Public_traces : public testing::TestWithParam<Facts> {};
 
 void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes anything, and nothing
-// gets stuck.
+// Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes
+// anything, and nothing gets stuck.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/generators/vessel.h>
 

@@ -44,7 +44,7 @@ Pushed push(World<D>& world, int steps, double spacing) {
     world.validate();
     pushed.contacts += world.contacts().size();
     for (const auto& c : world.contacts()) {
-      EXPECT_EQ(c.body->body, 0u);
+      EXPECT_EQ(c.body, 0u);
       pushed.of_edges += c.contact.body == Body_feature::edge;
     }
     const auto x = world.catheter()->body().positions();

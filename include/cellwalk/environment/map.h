@@ -123,7 +123,7 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
 }
 
 /// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot
-/// replaces (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and
+/// replaces (assign_half_facets). A facet is marked impassable if either side is, on the boundary, and
 /// between a solid and a free cell.
 /// \pre gluing = glue(soup); every point is a vertex of some cell
 /// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell

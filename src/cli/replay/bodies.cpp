@@ -27,8 +27,8 @@ using nlohmann::ordered_json;
 /// What all rounds of bodies found: they differ in time only.
 struct Replayed_bodies {
   std::vector<double> ns_per_move;  ///< of each round
-  std::vector<double>
-      step_us;  ///< of each step, the least of all rounds: what the steps cost, not the machine
+  /// Of each step, the least of all rounds: what the steps cost, not the machine.
+  std::vector<double> step_us;
   std::uint64_t mismatches = 0, registered_anew = 0, blocked = 0;
   Body_counts counts;  ///< of one round
 };

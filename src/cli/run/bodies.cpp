@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cli/common/contact_kind_names.h"
@@ -61,8 +62,9 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     sizes.vertices += moving.body().vertex_count();
     sizes.edges += moving.body().edges().size();
     sizes.faces += moving.body().faces().size();
-    if (moving.template as<Rod<D>>()) continue;
-    sizes.guided += scene.bodies[world.entry_of(i)].guided.has_value();
+    const std::optional<std::size_t> entry = world.entry_of(i);
+    if (!entry) continue;
+    sizes.guided += scene.bodies[*entry].guided.has_value();
     sizes.arrived += moving.has_arrived();
   }
   return sizes;

@@ -18,7 +18,8 @@ namespace cellwalk::cli {
 template <int D>
 void check_recordable(const Scene<D>& scene, const std::string& scene_name);
 
-/// Records a run: where its bodies stand before each step, where they are to go, and what walls answer to that.
+/// Records a run: where its bodies stand before each step, where they are to go, and what walls answer to
+/// that.
 class Run_trace {
  public:
   /// \pre the scene is recordable, the world has made no step

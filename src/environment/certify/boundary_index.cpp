@@ -16,7 +16,7 @@ bool is_same(const Box_corner<3>& a, const Box_corner<3>& b) {
   return a.get<0>() == b.get<0>() && a.get<1>() == b.get<1>() && a.get<2>() == b.get<2>();
 }
 
-/// To the bit, where Boost's equals() allows for a tolerance.
+/// Exact equality; Boost's equals() allows a tolerance.
 template <class Corner>
 bool is_same(const boost::geometry::model::box<Corner>& a, const boost::geometry::model::box<Corner>& b) {
   return is_same(a.min_corner(), b.min_corner()) && is_same(a.max_corner(), b.max_corner());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The passes of certification in order, and the simplest of them. Why they suffice: docs/certification.md.
+// The passes of certification in order, and the simplest of them. Proof: docs/certification.md.
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -15,7 +15,7 @@ namespace cellwalk {
 namespace detail {
 namespace {
 
-/// Where points are, for messages: 17 digits would hide the message, 6 suffice to find them.
+/// The text of a point in messages: 6 digits suffice to find it, and 17 would hide the message.
 template <int D>
 std::string place(const Point<D>& p) {
   std::string text = "(";
@@ -23,12 +23,13 @@ std::string place(const Point<D>& p) {
   return text + ")";
 }
 
-/// The first facet by whose first vertices no side can be told: all signs against it would be 0. facet_count() if none.
+/// The first facet whose first vertices are collinear, so that all signs with respect to it would be 0;
+/// facet_count() if there is none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
   std::size_t i = 0;
   for (; i < cell.facet_count(); ++i) {
     const auto loop = cell.loop(i);
-    // Triangles are known to be sound.
+    // Triangles have been checked with their cell.
     if (loop.size() > 3 && are_collinear(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2])))
       break;
   }
@@ -37,7 +38,7 @@ std::size_t first_without_plane(const Cell_view<3>& cell) {
 
 std::size_t first_without_plane(const Cell_view<2>& cell) { return cell.facet_count(); }
 
-/// What is wrong with a facet and its other side; empty if nothing is.
+/// The conflict between a facet and its other side; empty if there is none.
 template <int D>
 std::string flaw_of_link(const Complex<D>& complex, Half_facet f) {
   const Snapshot<D>& snapshot = complex.snapshot();

@@ -89,7 +89,8 @@ Body_trace parse_body_trace(const std::string& name, std::string_view bytes) {
     trace.bodies.push_back(std::move(body));
   }
   const std::uint64_t vertices = trace.vertices();
-  // Neither product leaves 64 bits: the vertices of all bodies are fewer than 2^56, since each body took 12 bytes.
+  // Neither product leaves 64 bits: the vertices of all bodies are fewer than 2^56, since each body took 12
+  // bytes.
   if (vertices > 0 && trace.steps > in.left() / (2 * bytes_of_point * vertices))
     fail(name,
          fmt::format(

@@ -44,7 +44,7 @@ std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node&
   return start;
 }
 
-/// The curved part of the tip, and how its base is turned.
+/// The curved part of the tip, and the rotation of the base.
 template <int D>
 void curve(const Json_node& node, Catheter<D>& result) {
   if (const auto steering = node.find("steering")) {

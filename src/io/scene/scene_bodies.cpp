@@ -12,8 +12,8 @@
 namespace cellwalk::io::detail {
 namespace {
 
-constexpr std::uint64_t max_vertices = 1 << 24, max_subdivisions = 10;  // as the generators have them
-constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;              // kept exactly by every JSON reader
+constexpr std::uint64_t max_vertices = 1 << 24, max_subdivisions = 10;  // as in the generators
+constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;              // exact in every JSON reader
 constexpr double max_speed = 1e300;
 
 double positive(const Json_node& node, std::string_view key, double otherwise) {
@@ -62,7 +62,7 @@ Polyline_shape<D> polyline(const Json_node& node) {
   return shape;
 }
 
-/// A shape by its name, with the keys that are its own.
+/// A shape by its name, with its own keys.
 template <int D>
 struct Known_shape {
   std::string_view name;

@@ -14,11 +14,13 @@ constexpr std::uint64_t max_particles = 10'000'000;
 /// `count`, `seed` and `speed` of a random cloud; `node` has the first.
 Particle_cloud cloud(const Json_node& node);
 
-/// One entry of `bodies`. \throw Error(input) naming the key
+/// One entry of `bodies`.
+/// \throw Error(input) naming the key
 template <int D>
 Body_start<D> body_start(const Json_node& node);
 
-/// Way points, at least two, none twice in a row. \throw Error(input) naming the way point
+/// Waypoints, at least two, successive ones different.
+/// \throw Error(input) naming the waypoint
 template <int D>
 std::vector<Point<D>> way_points(const Json_node& node);
 

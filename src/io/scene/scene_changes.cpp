@@ -22,7 +22,7 @@ using nlohmann::json;
               fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", shown(change), why));
 }
 
-/// JSON is UTF-8, and what is not cannot be written as JSON.
+/// True if a text is UTF-8, as JSON must be.
 bool is_utf8(const std::string& text) {
   try {
     static_cast<void>(json(text).dump());
@@ -32,7 +32,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// The value that a key such as `bodies[0].count` stands for.
+/// The value at a key such as `bodies[0].count`.
 json& at_key(json& document, std::string_view key, const std::string& change) {
   json* here = &document;
   while (!key.empty()) {

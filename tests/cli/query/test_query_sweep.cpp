@@ -102,7 +102,8 @@ TEST_F(Query_sweep, ThreeSegmentsMissWhatFitsBetween) {
   }
 }
 
-/// The solid cell is left behind by the edge before half of the motion, and the wall of the room is met at its end.
+/// The solid cell is left behind by the edge before half of the motion, and the wall of the room is met at
+/// its end.
 TEST_F(Query_sweep, BisectionOfTheSegmentMayBeLate) {
   succeed({"generate", "squares", "--cells", "7", "5", "-o", "env.ovm"});
   write("env.ovm", Ovm_text(text("env.ovm")).set_solid(8).set_solid(13).text());  // at (1,1) and (6,1)
@@ -120,8 +121,8 @@ TEST_F(Query_sweep, BisectionOfTheSegmentMayBeLate) {
 
 TEST_F(Query_sweep, TouchStopEndsWhereTouchPassGoesOn) {
   make_room(2);
-  // The edge turns round q till it lies along the upper side of the obstacle, and p comes to the outer wall; then an edge
-  // that lies there begins, and one that meets nothing.
+  // The edge turns round q till it lies along the upper side of the obstacle, and p comes to the outer wall;
+  // then an edge that lies there begins, and one that meets nothing.
   const std::string motions = std::string(plane) +
                               "1.5,3.5,1.5,3,3.5,3\n"
                               "1.5,4.5,1.5,5,3.5,3.5\n"
@@ -139,8 +140,8 @@ TEST_F(Query_sweep, TouchStopEndsWhereTouchPassGoesOn) {
 }
 
 TEST_F(Query_sweep, AStartOnAWallBelongsToTheSideThatGetsFurthest) {
-  // Two halves of a square of side 4 with a membrane between them, and in each an obstacle beside it: left from y = 1 to 2,
-  // right from 2 to 3.
+  // Two halves of a square of side 4 with a membrane between them, and in each an obstacle beside it: left
+  // from y = 1 to 2, right from 2 to 3.
   succeed({"generate", "squares", "--cells", "4", "-o", "env.ovm"});
   Ovm_text room(text("env.ovm"));
   for (const std::size_t left : {1, 5, 9, 13}) room.separate(left, left + 1);
@@ -184,7 +185,8 @@ TEST_F(Query_sweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
   for (const Row& r : rows) EXPECT_EQ(r[status], "free") << r[row];
 }
 
-/// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of them short.
+/// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of
+/// them short.
 std::string random_sweeps(int count, int size) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> anywhere(0, size), near(-1, 1);

@@ -200,10 +200,10 @@ TEST_F(Run_bodies, AreRefusedWithTheKeyAndThePlace) {
           R"({"environment": {"generate": "hexes", "cells": 3}, "steps": 1, "bodies": [)" + bodies + "]}");
     expect_failure(exit_code, {"run", "s.json", "-o", "out"}, texts);
   };
-  refuse(
-      5,
-      R"({"shape": "hexahedron", "position": [1.5, 1.5, 1.5]}, {"shape": "tetrahedron", "position": [3, 1, 1]})",
-      {"s.json: bodies[1]: vertex 0 of the body, at (3.3", "is outside the environment"});
+  refuse(5,
+         R"({"shape": "hexahedron", "position": [1.5, 1.5, 1.5]},)"
+         R"( {"shape": "tetrahedron", "position": [3, 1, 1]})",
+         {"s.json: bodies[1]: vertex 0 of the body, at (3.3", "is outside the environment"});
   refuse(5, R"({"shape": "catheter", "length": 9, "count": 2})",
          {"s.json: bodies[0]: no room for copy 1 of 2", "1000 random places"});
   refuse(5, R"({"shape": "polyline", "points": [[0, 0, 0], [1, 0, 0]],

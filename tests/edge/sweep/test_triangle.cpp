@@ -100,7 +100,8 @@ Triangle_seen sweep_triangles(bool generic) {
           EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->rounded_time();
         }
         if (hit && edge.contact) {
-          // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a side.
+          // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p
+          // took a side.
           constexpr double rounding = 0x1p-52;  // of both times
           const double early = *hit - edge.contact->rounded_time();
           seen.wrong_times += early < 0 || (generic && early > rounding);

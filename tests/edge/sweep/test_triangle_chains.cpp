@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and on worlds of
-// spikes and long edges, where edges slide in planes of walls.
+// The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and
+// on worlds of spikes and long edges, where edges slide in planes of walls.
 #include <cellwalk/internal/kernel/predicates.h>
 
 #include <gtest/gtest.h>
@@ -214,7 +214,8 @@ void test_sliding() {
 TEST(TriangleChains, AreRightWhereEdgesSlide2) { test_sliding<2>(); }
 TEST(TriangleChains, AreRightWhereEdgesSlide3) { test_sliding<3>(); }
 
-/// Edges about slits, which cells on both sides share windows beside: what lies behind a slit is not known through it.
+/// Edges about slits, which cells on both sides share windows beside: what lies behind a slit is not known
+/// through it.
 template <int D>
 void test_slits() {
   const std::size_t worlds = oracle::scaled_count(24);
@@ -241,7 +242,8 @@ void test_slits() {
 TEST(TriangleChains, AreRightBesideSlits2) { test_slits<2>(); }
 TEST(TriangleChains, AreRightBesideSlits3) { test_slits<3>(); }
 
-/// Cells that share a facet and are parted by a slit beside it, taken for convex pairs: edges then pass through slits.
+/// Cells that share a facet and are parted by a slit beside it, taken for convex pairs: edges then pass
+/// through slits.
 template <int D>
 void test_forgotten_slits() {
   Chains_seen seen;
@@ -264,7 +266,8 @@ void test_forgotten_slits() {
 TEST(TriangleChains, ForgottenSlitsAreCaught2) { test_forgotten_slits<2>(); }
 TEST(TriangleChains, ForgottenSlitsAreCaught3) { test_forgotten_slits<3>(); }
 
-/// The oracle takes for granted that nothing changes between its critical times: two times of each interval must agree.
+/// The oracle takes for granted that nothing changes between its critical times: two times of each interval
+/// must agree.
 template <int D>
 void test_critical_times() {
   const std::size_t worlds = std::max<std::size_t>(1, oracle::scaled_count(oracle::world_kinds));

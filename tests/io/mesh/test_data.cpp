@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The public meshes: each is read with the counts that its entry in SOURCES.txt states, or refused for a stated reason.
+// The public meshes: each is read with the counts that its entry in SOURCES.txt states, or refused for a
+// stated reason.
 #include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
@@ -78,8 +79,8 @@ TEST(PublicMeshes, AreAsManyAsExpected) {
   EXPECT_EQ(entries("bad").size(), 10u);
 }
 
-/// What is wrong with a bad mesh shows here only where its file is broken. Open, inverted and crossing surfaces are read
-/// as they are: meshing and certification refuse them.
+/// What is wrong with a bad mesh shows here only where its file is broken. Open, inverted and crossing
+/// surfaces are read as they are: meshing and certification refuse them.
 TEST(BadMeshes, AreReadAsTheyAreOrRefusedForAReason) {
   const std::map<std::string, std::string> refused{
       {"bad/Armadillo_Tetra_4406_for_test_broken.vtu",

@@ -18,7 +18,8 @@ constexpr const char* complete = R"({  // everything
                "steering": "twist", "tip": {"length": 2, "degrees": 45}, "twist": 5,
                "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0]]},
   "gravity": [0, 0, -9.81], "restitution": 0.5, "friction": 0.25, "time_step": 0.5, "steps": 12,
-  "output": {"frame_every": 3, "motion_every": 4, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
+  "output": {"frame_every": 3, "motion_every": 4,
+             "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
 })";
 
 TEST(Scene, ReadsEveryKey) {
@@ -175,7 +176,8 @@ const Refusal scene_refusals[] = {
      "s.json: output.picture: expected true or false"},
     {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"width": 5}}})",
      "s.json: output.picture.width: expected an integer from 16 to 16384, not 5"},
-    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"up": [0, 0, 0]}}})",
+    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture":)"
+     R"( {"up": [0, 0, 0]}}})",
      "s.json: output.picture.up: a direction cannot be zero"},
 };
 

@@ -32,8 +32,9 @@ Shape shape(const std::string& text) {
 
 TEST(SceneBodies, ReadsEveryKey) {
   const auto found = bodies<3>(R"(
-    {"file": "sub/b.obj", "position": [1, 2, 3], "scale": 0.5, "rotation": {"axis": [0, 1, 2], "degrees": -30},
-     "velocity": [0, 0, 4], "spin": [0.25, 0, 1], "motion": "thrown"},
+    {"file": "sub/b.obj", "position": [1, 2, 3], "scale": 0.5,
+     "rotation": {"axis": [0, 1, 2], "degrees": -30}, "velocity": [0, 0, 4],
+     "spin": [0.25, 0, 1], "motion": "thrown"},
     {"shape": "hexahedron", "side": 0.3, "count": 225, "seed": 8, "speed": 3, "spin": [0, 0, 1]},
     {"shape": "icosphere", "motion": {"path": [[0, 0, 1], [1, 0, 1], [1, 1, 1]], "speed": 2}})");
   ASSERT_EQ(found.size(), 3u);
@@ -58,8 +59,8 @@ TEST(SceneBodies, ReadsEveryKey) {
 
 TEST(SceneBodies, ReadsMaterials) {
   const auto found = bodies<3>(R"({"shape": "box"}, {"shape": "box", "material": {}},
-    {"file": "a.off", "material": {"model": "shape_matching", "mode": "linear", "stiffness": 0.25, "deformation": 0.75,
-                                   "volume": false}},
+    {"file": "a.off", "material": {"model": "shape_matching", "mode": "linear", "stiffness": 0.25,
+                                   "deformation": 0.75, "volume": false}},
     {"shape": "box", "count": 3, "material": {"mode": "quadratic", "deformation": 1}})");
   ASSERT_EQ(found.size(), 4u);
   EXPECT_FALSE(found[0].material);

@@ -16,9 +16,9 @@ namespace cellwalk::io {
 
 /// Reads a whole trace into memory; the file may be compressed with gzip. Nothing is repaired, and no memory
 /// is allocated for counts before they are checked against the size of the file.
-/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, edges or faces
-///        of vertices that do not exist, edges that do not ascend, numbers that are not finite, answers with an
-///        unknown bit
+/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, edges
+///        or faces of vertices that do not exist, edges that do not ascend, numbers that are not finite,
+///        answers with an unknown bit
 Body_trace read_body_trace(const std::filesystem::path& path);
 
 /// Reads a trace of either kind, by what its file begins with.
@@ -31,8 +31,8 @@ Body_trace parse_body_trace(const std::string& name, std::string_view bytes);
 
 /// Writes a trace, which reads back the same, bit for bit, into a file that the caller commits.
 /// \pre the lengths of arrays agree with the counts
-/// \throw Error(usage) if they do not, or if read_body_trace() would refuse the trace; Error(other) if the file
-///        cannot be written
+/// \throw Error(usage) if they do not, or if read_body_trace() would refuse the trace; Error(other) if the
+///        file cannot be written
 void write_body_trace(Atomic_file& file, const Body_trace& trace);
 
 }  // namespace cellwalk::io

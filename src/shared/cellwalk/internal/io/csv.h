@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Tables of comma-separated values: columns by name, rows with their line.
+// Tables of comma-separated values: columns by name, rows with their line. Read here, since a malformed field
+// must invalidate its row only, with a reason, and numbers may be fractions or hexadecimal.
 #ifndef CELLWALK_INTERNAL_IO_CSV_H
 #define CELLWALK_INTERNAL_IO_CSV_H
 

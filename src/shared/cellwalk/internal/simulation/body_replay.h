@@ -13,8 +13,8 @@
 
 namespace cellwalk {
 
-/// Steps by the rule of body traces: what is blocked stays; what touches a wall is not blocked. They report what
-/// blocks.
+/// Steps by the rule of body traces: what is blocked stays; what touches a wall is not blocked. They report
+/// what blocks.
 /// \pre three_segments or triangle: with the latter, swept triangles are answered too
 Body_options body_trace_options(Sweep sweep);
 
@@ -29,8 +29,8 @@ class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
   /// \pre the trace is one that io::read_body_trace accepts
-  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces, and for a vertex
-  ///        with more than 64 edges
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces, and for a
+  ///        vertex with more than 64 edges
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
               const Body_options& options);
 
@@ -50,8 +50,8 @@ class Body_replay {
   std::span<const std::uint8_t> answers() const { return answers_; }
   std::span<const Body<3>> bodies() const { return bodies_; }
   const Body_counts& counts() const { return counts_; }
-  /// The number of bodies that prepare() had to register anew, because walls are between where they were and where
-  /// the trace has them.
+  /// The number of bodies that prepare() had to register anew, because walls are between where they were and
+  /// where the trace has them.
   std::uint64_t registered_anew() const { return registered_anew_; }
 
   /// Refreshes all bodies and checks I1 and I2.
