@@ -119,7 +119,7 @@ TEST(Body_reject, EdgesThatGoRoundAreToldAndMove) {
       // Half way, from (1.5, 2.5), the edge meets the end of the membrane.
       ASSERT_EQ(contacts.size(), 1u);
       EXPECT_EQ(contacts[0].body, Body_feature::edge);
-      EXPECT_EQ(contacts[0].contact.point, (Point<2>{3, 2}));
+      EXPECT_EQ(contacts[0].point, (Point<2>{3, 2}));
     }
 }
 
