@@ -9,19 +9,12 @@
 #include <optional>
 
 #include "complex.h"
+#include "environment/soup/describe_place.h"
 #include "shape.h"
 
 namespace cellwalk {
 namespace detail {
 namespace {
-
-/// Where points are, for messages: 17 digits would hide the message, 6 suffice to find them.
-template <int D>
-std::string place(const Point<D>& p) {
-  std::string text = "(";
-  for (int i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
-  return text + ")";
-}
 
 /// The first facet by whose first vertices no side can be told: all signs against it would be 0. facet_count() if none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
@@ -136,7 +129,7 @@ void certify_distinct_vertices(const Complex<D>& complex) {
   };
   refuse("vertices " + std::to_string(first) + " (of " + cell_with(first) + ") and " +
          std::to_string(second) + " (of " + cell_with(second) + ") lie in the same place " +
-         place<D>(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
+         describe_place(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
 }
 
 }  // namespace detail
