@@ -27,8 +27,7 @@ namespace {
 /// Keeps the first complaint instead of printing it.
 class Listener : public vtkOutputWindow {
  public:
-  static Listener* New();
-  vtkTypeMacro(Listener, vtkOutputWindow);
+  static Listener* New() { VTK_STANDARD_NEW_BODY(Listener); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
@@ -44,7 +43,6 @@ class Listener : public vtkOutputWindow {
  private:
   std::string first_;
 };
-vtkStandardNewMacro(Listener);
 
 /// Puts a listener in the place of VTK's output and log, which are global, for its own lifetime.
 class Silence {
