@@ -45,7 +45,7 @@ class Outputs {
   explicit Outputs(const std::vector<std::string>& inputs);
 
   /// Files that turn out to be read as well. \throw Error(usage) if one is an output
-  void also_reads(const std::string& input);
+  void also_reads(const std::string& name);
 
   /// An output, or nullptr where the name is empty.
   /// \throw Error(usage) if it is an input or another output; Error(other) if it cannot be written
