@@ -70,10 +70,10 @@ Fall random_fall(Random& random, Aim aim, const Point<3>& target, double above, 
   Vector<3> x{1, 0, 0}, y{0, 1, 0}, way{0, 0, -1};
   if (aim == Aim::random) {
     const Vector<3> lean = in_disc(random), drift = in_disc(random);
-    const Vector<3> normal = normalized({most_tilt * lean[0], most_tilt * lean[1], 1});
+    const Vector<3> normal = normalized(Vector<3>{most_tilt * lean[0], most_tilt * lean[1], 1});
     x = normalized(cross(Vector<3>{0, 1, 0}, normal));
     y = cross(normal, x);
-    way = normalized({most_tilt * drift[0], most_tilt * drift[1], -1});
+    way = normalized(Vector<3>{most_tilt * drift[0], most_tilt * drift[1], -1});
   }
   Fall fall;
   fall.step = step * way;
