@@ -29,13 +29,13 @@ namespace cellwalk {
 /// The information of a dart, in 8 bytes that CGAL would use for padding (679 bytes a tetrahedron in total).
 class Dart_info {
  public:
-  static constexpr std::uint32_t max_half_facets = 1u << 29;
+  static constexpr std::uint32_t most_half_facets = 1u << 29;
 
   Dart_info() = default;
-  /// \pre half_facet < max_half_facets
+  /// \pre half_facet < most_half_facets
   Dart_info(std::uint32_t cell, std::uint32_t half_facet, bool impassable, bool solid)
       : cell_(cell),
-        half_facet_(half_facet & (max_half_facets - 1)),
+        half_facet_(half_facet & (most_half_facets - 1)),
         impassable_(impassable),
         solid_(solid) {}
 
@@ -45,7 +45,7 @@ class Dart_info {
   bool is_solid() const { return solid_; }                  ///< of the cell
 
   void set_cell(std::uint32_t cell) { cell_ = cell; }
-  void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet & (max_half_facets - 1); }
+  void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet & (most_half_facets - 1); }
   void set_impassable(bool impassable) { impassable_ = impassable; }
 
   bool operator==(const Dart_info&) const = default;
