@@ -38,7 +38,7 @@ Rod<D>::Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& cathet
     : snapshot_(&snapshot), body_(std::move(body)), catheter_(catheter), way_(std::move(way)) {
   Vector<D> first{};
   first[0] = 1;
-  direction_ = detail::unit(way_[1] - way_[0], first);
+  direction_ = normalized(way_[1] - way_[0], first);
   heading_ = direction_;
 }
 
@@ -101,7 +101,7 @@ void Rod<D>::aim() {
   }
   if (next_ == way_.size()) return;
   if (catheter_.steering == Steering::tip) {
-    heading_ = detail::unit(way_[next_] - tip(), end);
+    heading_ = normalized(way_[next_] - tip(), end);
     return;
   }
   // The curve as it is seen from where it begins.

@@ -12,9 +12,9 @@
 namespace cellwalk::io::detail {
 namespace {
 
-constexpr std::uint64_t max_vertices = 1 << 24, max_subdivisions = 10;  // as in the generators
-constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;              // exact in every JSON reader
-constexpr double max_speed = 1e300;
+constexpr std::uint64_t most_vertices = 1 << 24, most_subdivisions = 10;  // as the generators have them
+constexpr std::uint64_t largest_seed = std::uint64_t{1} << 53;            // kept exactly by every JSON reader
+constexpr double largest_speed = 1e300;                                   // units a second
 
 double positive(const Json_node& node, std::string_view key, double otherwise) {
   const auto given = node.find(key);
@@ -42,7 +42,7 @@ Box_shape box(const Json_node& node) {
     const std::vector<Json_node> counts = cells->elements();
     if (counts.size() != 3) cells->fail("expected 3 integers");
     for (std::size_t k = 0; k < 3; ++k)
-      shape.cells[k] = static_cast<std::uint32_t>(counts[k].integer_in(1, max_vertices));
+      shape.cells[k] = static_cast<std::uint32_t>(counts[k].integer_in(1, most_vertices));
   }
   shape.faces = flag(node, "faces");
   return shape;
@@ -51,7 +51,8 @@ Box_shape box(const Json_node& node) {
 template <int D>
 Catheter_shape<D> catheter(const Json_node& node) {
   const Catheter_shape<D> shape;
-  return {positive(node, "length", shape.length), integer(node, "vertices", 2, max_vertices, shape.vertices)};
+  return {positive(node, "length", shape.length),
+          integer(node, "vertices", 2, most_vertices, shape.vertices)};
 }
 
 template <int D>
@@ -82,7 +83,7 @@ const std::vector<Known_shape<2>>& known_shapes<2>() {
       {"polygon",
        {"corners", "radius"},
        [](Node node) -> Shape {
-         return Polygon_shape{integer(node, "corners", 3, max_vertices, Polygon_shape{}.corners),
+         return Polygon_shape{integer(node, "corners", 3, most_vertices, Polygon_shape{}.corners),
                               positive(node, "radius", Polygon_shape{}.radius)};
        }},
       {"polyline", {"points"}, [](Node node) -> Shape { return polyline<2>(node); }},
@@ -112,7 +113,7 @@ const std::vector<Known_shape<3>>& known_shapes<3>() {
        [](Node node) -> Shape {
          return Icosphere_shape{
              positive(node, "radius", Icosphere_shape{}.radius),
-             integer(node, "subdivisions", 0, max_subdivisions, Icosphere_shape{}.subdivisions)};
+             integer(node, "subdivisions", 0, most_subdivisions, Icosphere_shape{}.subdivisions)};
        }},
       {"polyline", {"points"}, [](Node node) -> Shape { return polyline<3>(node); }},
       {"tetrahedron", {"side"}, [](Node node) -> Shape {
@@ -200,9 +201,9 @@ void refuse_beside(const Json_node& node, std::initializer_list<const char*> key
 
 Particle_cloud cloud(const Json_node& node) {
   Particle_cloud result;
-  result.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, max_particles));
-  if (const auto seed = node.find("seed")) result.seed = seed->integer_in(0, max_seed);
-  if (const auto speed = node.find("speed")) result.speed = speed->number_in(0, max_speed);
+  result.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, most_particles));
+  if (const auto seed = node.find("seed")) result.seed = seed->integer_in(0, largest_seed);
+  if (const auto speed = node.find("speed")) result.speed = speed->number_in(0, largest_speed);
   return result;
 }
 

@@ -9,7 +9,7 @@
 
 namespace cellwalk::io::detail {
 
-constexpr std::uint64_t max_particles = 10'000'000;
+constexpr std::uint64_t most_particles = 10'000'000;
 
 /// `count`, `seed` and `speed` of a random cloud; `node` has the first.
 Particle_cloud cloud(const Json_node& node);
