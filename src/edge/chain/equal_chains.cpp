@@ -49,7 +49,7 @@ class Link_path {
   /// \pre the cells are linked
   std::vector<Half_facet> path() const {
     std::vector<Half_facet> facets;
-    links_.append_way(links_.place(), facets);
+    links_.append_path(links_.place(), facets);
     return facets;
   }
 

@@ -81,7 +81,7 @@ Catheter<D> catheter(const Json_node& node) {
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
   curve(node, result);
-  result.path = detail::way_points<D>(node.at("path"));
+  result.path = detail::waypoints<D>(node.at("path"));
   return result;
 }
 

@@ -165,7 +165,7 @@ Rotation<D> rotation(const Json_node& node) {
 template <int D>
 Guided_motion<D> guided_motion(const Json_node& node) {
   node.expect_keys({"path", "speed"});
-  return {way_points<D>(node.at("path")), node.at("speed").positive()};
+  return {waypoints<D>(node.at("path")), node.at("speed").positive()};
 }
 
 Shape_material material(const Json_node& node) {
@@ -208,14 +208,14 @@ Particle_cloud cloud(const Json_node& node) {
 }
 
 template <int D>
-std::vector<Point<D>> way_points(const Json_node& node) {
+std::vector<Point<D>> waypoints(const Json_node& node) {
   std::vector<Point<D>> path;
   for (const Json_node& point : node.elements()) {
     path.push_back(point.tuple<D>());
     if (path.size() > 1 && path.back() == path[path.size() - 2])
-      point.fail("the same way point twice in a row");
+      point.fail("the same waypoint twice in a row");
   }
-  if (path.size() < 2) node.fail("expected at least 2 way points");
+  if (path.size() < 2) node.fail("expected at least 2 waypoints");
   return path;
 }
 
@@ -243,7 +243,7 @@ Body_start<D> body_start(const Json_node& node) {
   if (start.guided) {
     refuse_beside(node, {"material"}, "not for a body on a path, which is rigid");
     refuse_beside(node, {"position", "velocity", "count", "seed", "speed"},
-                  "not for a body on a path, which starts at the first way point");
+                  "not for a body on a path, which starts at the first waypoint");
     start.placement.position = start.guided->path[0];
   }
   if (node.has("count")) {
@@ -257,7 +257,7 @@ Body_start<D> body_start(const Json_node& node) {
 
 template Body_start<2> body_start(const Json_node&);
 template Body_start<3> body_start(const Json_node&);
-template std::vector<Point<2>> way_points<2>(const Json_node&);
-template std::vector<Point<3>> way_points<3>(const Json_node&);
+template std::vector<Point<2>> waypoints<2>(const Json_node&);
+template std::vector<Point<3>> waypoints<3>(const Json_node&);
 
 }  // namespace cellwalk::io::detail
