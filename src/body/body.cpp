@@ -16,7 +16,7 @@ namespace cellwalk {
 namespace {
 
 /// Bits in the sets of a Rejected_move.
-constexpr std::size_t max_reported_edges = 64;
+constexpr std::size_t most_reported_edges = 64;
 
 [[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
   if (options.edges == Edge_rule::at_target && options.policy == Contact_policy::reject)
@@ -31,7 +31,7 @@ constexpr std::size_t max_reported_edges = 64;
 
 void check_rule(const Body_options& options, const detail::Body_topology& topology) {
   const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > max_reported_edges
+  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > most_reported_edges
                    : options.reported != Reported::contacts)
     refuse_rule(options);
 }

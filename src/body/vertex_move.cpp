@@ -24,7 +24,7 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, s
     if (options.sweep == Sweep::faces) take_up_faces(body, counts);
   if (target == body.positions[vertex]) return {};
   Particle<D> to;
-  if (const auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
+  if (auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
   body.are_faces_swept &= options.sweep == Sweep::faces;
   body.is_apart = false;
   for (const auto& [face, supporting_walls] : scratch.supporting_walls)

@@ -77,7 +77,7 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
     chosen = [options, name] {
       Outputs outputs({});
       const Files files{outputs.file(options->environment), outputs.file(options->json)};
-      std::visit([&](auto&& soup) { write_environment(std::move(soup), *options, outputs, files); },
+      std::visit([&](auto soup) { write_environment(std::move(soup), *options, outputs, files); },
                  generate(name, options->values));
     };
   });

@@ -43,7 +43,7 @@ std::string with_short_words(std::string message, std::span<char* const> words, 
   const auto shorten = [&](std::string_view word) {
     const std::string brief = code == Error_code::usage ? shortened(word) : shortened(word, longest_name);
     if (brief.size() == word.size()) return;
-    for (std::size_t at = 0; (at = message.find(word, at)) != message.npos; at += brief.size())
+    for (std::size_t at = 0; (at = message.find(word, at)) != std::string::npos; at += brief.size())
       message.replace(at, word.size(), brief);
   };
   for (const std::string_view word : words) {

@@ -15,10 +15,7 @@ constexpr double head_length = 0.35;  // of an arrow
 constexpr double head_radius = 2.6;   // in radii of its shaft
 constexpr Vector<3> out_of_plane{0, 0, 1};
 
-Vector<3> unit(const Vector<3>& v) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : Vector<3>{0, 0, 1};
-}
+Vector<3> unit(const Vector<3>& v) { return normalized(v, out_of_plane); }
 
 /// A unit vector orthogonal to the unit vector `axis`.
 Vector<3> orthogonal(const Vector<3>& axis) {

@@ -12,7 +12,7 @@ namespace {
 /// Exponent of the lowest bit set in x.
 /// \pre x is finite and not 0
 int lowest_bit(double x) {
-  int exponent;
+  int exponent = 0;
   auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   exponent -= 53;
   for (; mantissa % 2 == 0; mantissa /= 2) ++exponent;

@@ -143,7 +143,7 @@ class Rooms {
   void add_cell(std::span<const std::uint32_t> polygon, bool solid) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      soup_.add_facet({a, b}, solid || walls_.count(std::minmax(a, b)) > 0);
+      soup_.add_facet({a, b}, solid || walls_.contains(std::minmax(a, b)));
     }
     soup_.end_cell(solid);
   }

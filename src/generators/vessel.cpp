@@ -3,6 +3,7 @@
 // the standard library.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 
@@ -15,13 +16,13 @@
 namespace cellwalk {
 namespace {
 
+using detail::Box;
 using detail::check_option;
+using detail::with_all_coordinates;
 
 constexpr int segments_per_tube = 10;
 
-Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
-
-/// The point at t of the quadratic curve from a to c with the control point b.
+/// The point at t of the quadratic curve through a and c that heads for b.
 Point<3> on_curve(const Point<3>& a, const Point<3>& b, const Point<3>& c, double t) {
   return (1 - t) * (1 - t) * a + (2 * t * (1 - t) * b + t * t * c);
 }
@@ -56,38 +57,33 @@ double smooth_max(double a, double b, double width) {
   return std::max(a, b) + h * h * width / 4;
 }
 
-/// A box around a tube.
-struct Box {
-  Point<3> low, high;
-
-  double squared_distance(const Point<3>& p) const {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double d = std::max({0.0, low[i] - p[i], p[i] - high[i]});
-      sum += d * d;
-    }
-    return sum;
+double squared_distance(const Box<3>& box, const Point<3>& p) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double d = std::max({0.0, box.low[i] - p[i], p[i] - box.high[i]});
+    sum += d * d;
   }
-};
+  return sum;
+}
 
-Box box_of(const Tube& tube) {
-  Box box{tube.points[0], tube.points[0]};
-  for (std::size_t i = 0; i < tube.points.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], tube.points[i][k] - tube.radii[i]);
-      box.high[k] = std::max(box.high[k], tube.points[i][k] + tube.radii[i]);
-    }
+Box<3> box_of(const Tube& tube) {
+  Box<3> box;
+  for (std::size_t i = 0; i < tube.points.size(); ++i) {
+    const Vector<3> radius = with_all_coordinates<3>(tube.radii[i]);
+    box.extend({tube.points[i] - radius, tube.points[i] + radius});
+  }
   return box;
 }
 
 /// The union of tubes, blended over a width of `blend` where they meet.
 Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cell_size) {
-  std::vector<Box> boxes;
+  std::vector<Box<3>> boxes;
+  boxes.reserve(tubes.size());
   for (const Tube& tube : tubes) boxes.push_back(box_of(tube));
   Implicit_shape shape;
   shape.cell_size = cell_size;
   shape.low = boxes[0].low, shape.high = boxes[0].high;
-  for (const Box& box : boxes)
+  for (const Box<3>& box : boxes)
     for (int k = 0; k < 3; ++k) {
       // Blending adds up to blend / 4 at a place where two tubes meet, and a little more for a third one.
       shape.low[k] = std::min(shape.low[k], box.low[k] - blend / 2);
@@ -98,7 +94,7 @@ Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cel
   shape.depth = [&, far](const Point<3>& p) {
     double depth = far;
     for (std::size_t i = 0; i < tubes.size(); ++i)
-      if (boxes[i].squared_distance(p) < far * far) depth = smooth_max(depth, depth_in(tubes[i], p), blend);
+      if (squared_distance(boxes[i], p) < far * far) depth = smooth_max(depth, depth_in(tubes[i], p), blend);
     return depth;
   };
   return fill_implicit(shape);
@@ -130,19 +126,19 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
     const Vector<3> across = cross(bud.direction, bud.side);
     const double bend = options.curvature * random.real(-1, 1), sway = options.curvature * random.real(-1, 1);
     const Point<3> middle = bud.start + (bud.length / 2) * bud.direction;
-    const Vector<3> end_direction = unit(bud.direction + (bend * bud.side + sway * across));
+    const Vector<3> end_direction = normalized(bud.direction + (bend * bud.side + sway * across));
     const Point<3> end = middle + (bud.length / 2) * end_direction;
     const int index = static_cast<int>(tubes.size());
     tubes.push_back(make_tube(bud.start, middle, end, bud.radius, 0.9 * bud.radius, bud.parent));
     if (bud.generation == options.generations) continue;
     // Successive forks lie in planes that are about perpendicular, as in lungs and brains. Two branches of
     // radius 0.8 have about the cross-section of Murray's law.
-    const Vector<3> new_side = unit(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
-    const Vector<3> side = unit(new_side - dot(new_side, end_direction) * end_direction);
+    const Vector<3> new_side = normalized(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
+    const Vector<3> side = normalized(new_side - dot(new_side, end_direction) * end_direction);
     for (double sign : {-1.0, 1.0}) {
       const double lean = random.real(0.55, 0.95);  // tangent of the angle between branch and parent
-      const Vector<3> direction = unit(end_direction + sign * lean * side);
-      const Vector<3> next_side = unit(side - dot(side, direction) * direction);
+      const Vector<3> direction = normalized(end_direction + sign * lean * side);
+      const Vector<3> next_side = normalized(side - dot(side, direction) * direction);
       buds.push_back({end, direction, next_side, bud.length * random.real(0.72, 0.9),
                       bud.radius * random.real(0.78, 0.86), index, bud.generation + 1});
     }

@@ -52,7 +52,7 @@ std::vector<Edge_use> sorted_edge_uses(const Surface_soup& soup) {
 void check_edges(const Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name) {
   std::size_t open = 0, crowded = 0;
   std::optional<Edge_use> first_open, first_crowded;
-  for (std::size_t i = 0, j; i < uses.size(); i = j) {
+  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
     for (j = i; j < uses.size() && uses[j].same_edge(uses[i]);) ++j;
     if (j - i == 1 && open++ == 0) first_open = uses[i];
     if (j - i > 2 && crowded++ == 0) first_crowded = uses[i];

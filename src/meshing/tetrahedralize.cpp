@@ -155,7 +155,7 @@ Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_
     // The facets in the order of add_tetrahedron(), each with its wall.
     for (const Triangle& f : {Triangle{t[0], t[2], t[1]}, Triangle{t[0], t[1], t[3]},
                               Triangle{t[1], t[2], t[3]}, Triangle{t[2], t[0], t[3]}}) {
-      const bool wall = owners.count(sorted(f)) > 0;
+      const bool wall = owners.contains(sorted(f));
       report.boundary_facets += wall && !in_obstacle;
       soup.add_facet({number[f[0]], number[f[1]], number[f[2]]}, wall || in_obstacle);
     }

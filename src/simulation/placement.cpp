@@ -83,7 +83,7 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
     const std::vector<Point<D>> route = find_route(*snapshot_, here, next, counts_);
     if (route.empty())
       throw Error(Error_code::outside,
-                  fmt::format("{}: walls cut it off from the way point before; move it or open a wall", key));
+                  fmt::format("{}: walls cut it off from the waypoint before; move it or open a wall", key));
     way.insert(way.end(), route.begin() + 1, route.end());
     here = next;
   }

@@ -72,13 +72,6 @@ template <int D>
 std::vector<Vector<D>> curve_directions(const Rod_state<D>& state, double twist,
                                         std::span<const Point<D>> vertices);
 
-/// A unit vector, or the one given instead where the length is 0.
-template <std::size_t D>
-std::array<double, D> unit(const std::array<double, D>& v, const std::array<double, D>& otherwise) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : otherwise;
-}
-
 extern template struct Rod_state<2>;
 extern template struct Rod_state<3>;
 

@@ -22,7 +22,7 @@ namespace bgi = boost::geometry::index;
 /// Rounds outward: boxes may be larger than their cells, never smaller.
 float down(double x) {
   const auto f = static_cast<float>(x);
-  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 float up(double x) { return -down(-x); }
 

@@ -40,7 +40,7 @@ Snapshot<3> beside_a_slit() {
   return compile(soup);
 }
 
-TEST(Body_faces, ASlitIsMetFromBothSides) {
+TEST(BodyFaces, ASlitIsMetFromBothSides) {
   const Snapshot<3> snapshot = beside_a_slit();
   for (const double side : {1.0, -1.0}) {
     const double y = 0.25 * side;
@@ -110,7 +110,7 @@ struct Strip {
 
 /// Round a corner, nearly all the way without tests: particles and chains are where they were. Then faces are
 /// asked about.
-TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
+TEST(BodyFaces, AreRegisteredWhereTheBodyIs) {
   const Snapshot<3> snapshot = round_a_corner();
   Strip strip(snapshot, {10, 1.7, 1.5});
   for (int k = 0; k < 85; ++k) strip.step({-0.1, 0, 0});
@@ -127,7 +127,7 @@ TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
 
 /// Whatever sweep comes after whatever other, and whether or not everything is caught up with in between: the
 /// same.
-TEST(Body_faces, AnyOrderOfSweepsIsTheSame) {
+TEST(BodyFaces, AnyOrderOfSweepsIsTheSame) {
   const Snapshot<3> snapshot = round_a_corner();
   Random random(5);
   int steps = 0, with_faces = 0;

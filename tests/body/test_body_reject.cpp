@@ -271,12 +271,12 @@ void expect_rejections(Touch touch, bool is_coarse) {
   }
 }
 
-TEST(Body_reject, AmongWallsThatNothingTouches2) { expect_rejections<2>(Touch::pass, false); }
-TEST(Body_reject, AmongWallsThatNothingTouches3) { expect_rejections<3>(Touch::pass, false); }
-TEST(Body_reject, WhatPassesNothingTouchesNothing2) { expect_rejections<2>(Touch::stop, false); }
-TEST(Body_reject, WhatPassesNothingTouchesNothing3) { expect_rejections<3>(Touch::stop, false); }
-TEST(Body_reject, TouchesAreInTheWay2) { expect_rejections<2>(Touch::stop, true); }
-TEST(Body_reject, TouchesAreInTheWay3) { expect_rejections<3>(Touch::stop, true); }
+TEST(BodyReject, AmongWallsThatNothingTouches2) { expect_rejections<2>(Touch::pass, false); }
+TEST(BodyReject, AmongWallsThatNothingTouches3) { expect_rejections<3>(Touch::pass, false); }
+TEST(BodyReject, WhatPassesNothingTouchesNothing2) { expect_rejections<2>(Touch::stop, false); }
+TEST(BodyReject, WhatPassesNothingTouchesNothing3) { expect_rejections<3>(Touch::stop, false); }
+TEST(BodyReject, TouchesAreInTheWay2) { expect_rejections<2>(Touch::stop, true); }
+TEST(BodyReject, TouchesAreInTheWay3) { expect_rejections<3>(Touch::stop, true); }
 
 }  // namespace
 }  // namespace cellwalk::test

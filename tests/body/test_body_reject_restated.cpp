@@ -254,8 +254,8 @@ void test_restated() {
   }
 }
 
-TEST(Body_reject, AsWalksAndSweepsSay2) { test_restated<2>(); }
-TEST(Body_reject, AsWalksAndSweepsSay3) { test_restated<3>(); }
+TEST(BodyReject, AsWalksAndSweepsSay2) { test_restated<2>(); }
+TEST(BodyReject, AsWalksAndSweepsSay3) { test_restated<3>(); }
 
 }  // namespace
 }  // namespace cellwalk::test

@@ -34,7 +34,7 @@ Body<3> hexahedron(const Snapshot<3>& snapshot, const Point<3>& at, double side)
                  transformed(generate_body(Hexahedron_shape{side, false}), placement));
 }
 
-TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
+TEST(BodyStep, SlidesAlongAnAxisAlignedWall) {
   const Snapshot<3> snapshot = rooms<3>({8, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {2, 2, 0.5}, 1);  // stands on the floor
   Step_report<3> report;
@@ -50,7 +50,7 @@ TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   EXPECT_EQ(report.contacts[0].normal, (Vector<3>{0, 0, 1}));
 }
 
-TEST(Body_step, RejectsMovesThatMeetWalls) {
+TEST(BodyStep, RejectsMovesThatMeetWalls) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {1, 2, 2}, 1);
   const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
@@ -70,7 +70,7 @@ TEST(Body_step, RejectsMovesThatMeetWalls) {
   EXPECT_NO_THROW(body.validate());
 }
 
-TEST(Body_step, SlidesAlongAnObliqueWall) {
+TEST(BodyStep, SlidesAlongAnObliqueWall) {
   // A channel whose floor rises: by no angle at which anything is a double.
   Cell_soup<2> soup;
   for (int i = 0; i <= 10; ++i) {
@@ -95,7 +95,7 @@ TEST(Body_step, SlidesAlongAnObliqueWall) {
   EXPECT_LT(counts.held, report.contacts.size() / 2);
 }
 
-TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
+TEST(BodyStep, ReportsTheEdgeThatMeetsASpike) {
   // A solid cell sticks out of the floor; an edge longer than it is wide comes down on it.
   const Snapshot<3> snapshot = rooms<3>({5, 3, 4}, {7});
   const Body_soup<3> soup{{{0.5, 1.25, 2.5}, {4.5, 1.25, 2.5}}, {{0, 1}}, {}};
@@ -114,7 +114,7 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
 }
 
 /// A face wider than the solid cell that sticks out of the floor under it.
-TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
+TEST(BodyStep, FacesAreStoppedByWhatEdgesMiss) {
   const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Locator<3> locator(snapshot);
   const Body_soup<3> soup{
@@ -151,7 +151,7 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
   }
 }
 
-TEST(Body_step, RefusesFacesThatWallsPierce) {
+TEST(BodyStep, RefusesFacesThatWallsPierce) {
   const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Body_soup<3> soup{
       {{0.25, 0.25, 0.5}, {4.75, 0.25, 0.5}, {2.5, 4.75, 0.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
@@ -166,7 +166,7 @@ TEST(Body_step, RefusesFacesThatWallsPierce) {
 }
 
 /// Free moves need no contacts; the first of them is where a vertex stops.
-TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
+TEST(BodyStep, FewContactsDoNotKeepVerticesFromMoving) {
   const Snapshot<2> snapshot = rooms<2>({4, 4});
   const Locator<2> locator(snapshot);
   for (const bool clearance : {false, true})
@@ -187,7 +187,7 @@ TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
     }
 }
 
-TEST(Body_step, ABodyWithoutVerticesStaysOne) {
+TEST(BodyStep, ABodyWithoutVerticesStaysOne) {
   const Snapshot<3> snapshot = rooms<3>({2, 2, 2}, {});
   Body<3> body(snapshot, Locator<3>(snapshot), {});
   Step_report<3> report;
@@ -198,7 +198,7 @@ TEST(Body_step, ABodyWithoutVerticesStaysOne) {
   EXPECT_NO_THROW(body.validate());
 }
 
-TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
+TEST(BodyStep, MovesOfOneVertexLeaveTheRegion) {
   // A solid cell at x from 10 to 11, y from 4 to 5.
   const Snapshot<2> snapshot = rooms<2>({20, 20}, {90});
   Body<2> body(snapshot, Locator<2>(snapshot), {{{9.5, 4.5}}, {}, {}});
@@ -220,7 +220,7 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
 
 /// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In
 /// which one changes nothing: it comes to lie on the upper side, where it is once it is displaced.
-TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
+TEST(BodyStep, AVertexThatStaysInARegionStaysInItsCell) {
   Cell_soup<2> soup = square_grid(Grid_options<2>{.cells = {8, 4}});
   int walls = 0;
   for (std::size_t f = 0; f < soup.facet_count(); ++f) {
@@ -250,7 +250,7 @@ TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
   }
 }
 
-TEST(Body_step, AVertexThatStaysMeetsNothing) {
+TEST(BodyStep, AVertexThatStaysMeetsNothing) {
   const Snapshot<2> snapshot = rooms<2>({2, 2}, {});
   const Body_soup<2> soup{
       {{0, 0}, {2, 0}, {1, 0}}, {{0, 1}, {1, 2}}, {}};  // along the floor, corner to corner
@@ -314,8 +314,8 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
   EXPECT_EQ(plain_counts.in_region, 0u);
 }
 
-TEST(Body_step, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
-TEST(Body_step, RegionsHoldNoWalls3) {
+TEST(BodyStep, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
+TEST(BodyStep, RegionsHoldNoWalls3) {
   expect_sound_regions<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}), {4, 4, 4}, 400);
 }
 

@@ -46,7 +46,7 @@ void expect_three_segments_go_on(const Snapshot<D>& snapshot, const Body_soup<D>
   }
 }
 
-TEST(Body_targets, ThreeSegmentsStopWhereTheEdgeIsInTheWayFirst) {
+TEST(BodyTargets, ThreeSegmentsStopWhereTheEdgeIsInTheWayFirst) {
   expect_three_segments_go_on<2>(rooms<2>({3, 3}, {4}), {{{0.5, 0.75}, {1.5, 0.5}}, {{0, 1}}, {}}, 1);
   expect_three_segments_go_on<3>(rooms<3>({3, 3, 3}, {13}),
                                  {{{0.5, 0.75, 1.25}, {1.5, 0.5, 1.5}}, {{0, 1}}, {}}, 1);
@@ -54,7 +54,7 @@ TEST(Body_targets, ThreeSegmentsStopWhereTheEdgeIsInTheWayFirst) {
 
 /// Targets so far away that differences to them forget all other points: the filters of the signs decide as
 /// many as ever.
-TEST(Body_targets, FarTargetsLeaveFiltersOfUse) {
+TEST(BodyTargets, FarTargetsLeaveFiltersOfUse) {
   const Snapshot<3> snapshot = rooms<3>({6, 6, 6}, {43, 86, 100, 129, 172});
   const Locator<3> locator(snapshot);
   Random random(7);

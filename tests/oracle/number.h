@@ -13,7 +13,7 @@
 
 namespace cellwalk::oracle {
 
-using Int128 = __int128;
+__extension__ using Int128 = __int128;  // not of ISO C++
 using Wide = boost::multiprecision::checked_int512_t;
 
 /// The type that holds sums of two products of N.

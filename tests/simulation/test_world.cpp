@@ -171,7 +171,7 @@ TEST(World, RefusesStartsOutsideFreeSpace) {
   scene.catheter->find_route = true;
   scene.catheter->path = {{0.5, 0.5}, {2.5, 0.5}};
   EXPECT_EQ(refusal([&] { World<2>(snapshot, scene); }),
-            "catheter.path[1]: walls cut it off from the way point before; move it or open a wall");
+            "catheter.path[1]: walls cut it off from the waypoint before; move it or open a wall");
   scene.catheter->path[0] = {-1, 0};
   EXPECT_EQ(refusal([&] { World<2>(snapshot, scene); }),
             "catheter.path[0]: (-1, 0) lies outside the environment; put it into free space");

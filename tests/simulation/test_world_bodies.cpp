@@ -189,7 +189,7 @@ TEST(WorldBodies, AGuidedBodyIsStoppedByAWallAndSlidesAlongIt) {
   const auto snapshot = rooms<2>({4, 4});
   World<2> world(snapshot, guided(), {generate_body(Quad_shape{0.5})});
   const auto x = [&](std::uint32_t v) { return world.bodies()[0].body().positions()[v]; };
-  EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first way point";
+  EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first waypoint";
   std::size_t contacts = 0, slid = 0;
   for (int i = 0; i < 100; ++i) {
     world.step();

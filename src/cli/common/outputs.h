@@ -48,7 +48,7 @@ class Outputs {
 
   /// Adds a file that is read as well.
   /// \throw Error(usage) if one is an output
-  void also_reads(const std::string& input);
+  void also_reads(const std::string& name);
 
   /// An output, or nullptr if the name is empty.
   /// \throw Error(usage) if it is an input or another output; Error(other) if it cannot be written

@@ -71,7 +71,7 @@ class Chain_search {
       });
     for (const std::size_t k : order) {
       const std::size_t before = chain_.size();
-      links.append_way(k, chain_);
+      links.append_path(k, chain_);
       if (is_end ? rule_.is_accepted(chain_) : goes_on(links.cell(k), places[k])) return true;
       chain_.resize(before);
     }

@@ -49,7 +49,7 @@ class Link_path {
   /// \pre the cells are linked
   std::vector<Half_facet> path() const {
     std::vector<Half_facet> facets;
-    links_.append_way(links_.place(), facets);
+    links_.append_path(links_.place(), facets);
     return facets;
   }
 
@@ -105,7 +105,7 @@ template <int D>
 std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
                                   const std::vector<Piece>& chain, const std::vector<Piece>& other) {
   for (auto piece = chain.begin(), with = other.begin();;) {
-    const auto parting =
+    auto parting =
         first_parting(snapshot, segment, piece->cell, with->cell, std::max<Fraction>(piece->low, with->low),
                       std::min<Fraction>(piece->high, with->high));
     if (parting) return parting;

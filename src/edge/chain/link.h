@@ -30,7 +30,7 @@ Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cel
   Link_search<D> links(snapshot, from);
   while (links.next()) {
     if (links.cell() == to) {
-      links.append_way(links.place(), chain);
+      links.append_path(links.place(), chain);
       return Half_facet::none;
     }
     links.expand_all(holds, note);

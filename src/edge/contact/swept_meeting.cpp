@@ -131,7 +131,7 @@ Vector<D> unit(Vector<D> v) {
   for (const double x : v) largest = std::max(largest, std::abs(x));
   if (!(largest > 0) || !std::isfinite(largest)) return {};
   for (double& x : v) x /= largest;
-  return (1 / length(v)) * v + Vector<D>{};  // no negative zeros for readers of tables
+  return normalized(v) + Vector<D>{};  // no negative zeros for readers of tables
 }
 
 /// v without its component along a unit vector.

@@ -84,7 +84,7 @@ class Event_time {
  public:
   Event_time() = default;  ///< 0
   explicit Event_time(double time) : low_(time), high_(time) {}
-  explicit Event_time(const Fraction& time) : low_(0), high_(1), value_(time) {}
+  explicit Event_time(const Fraction& time) : high_(1), value_(time) {}
   /// \pre the function has a root
   static Event_time root_of(const Moving_orientation<D>& function) {
     Event_time result;

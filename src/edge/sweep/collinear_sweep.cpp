@@ -25,23 +25,23 @@ Sweep_result<D> detail::collinear_sweep(const Snapshot<D>& snapshot, const Verte
     return result;
   }
   // Parameters on the segment from a to b or to q, whichever is further: that of q, and that of the end of p.
-  const Ring way_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
-  const Ring way_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
-  const Ring whole = std::max<Ring>(way_of_p, way_to_q);
-  const Rational_segment<D> line(a, way_of_p < way_to_q ? q.position : b);
-  const Fraction at_q(way_to_q, whole);
+  const Ring path_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
+  const Ring distance_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
+  const Ring whole = std::max<Ring>(path_of_p, distance_to_q);
+  const Rational_segment<D> line(a, path_of_p < distance_to_q ? q.position : b);
+  const Fraction at_q(distance_to_q, whole);
   Event_time<D> limit(until.value_or(1));
   if (path.blocked) {
     const auto blocked = exit_time<D>(snapshot.view(path.visited.back()), a, b, counts);
     if (blocked < limit) limit = blocked;
   }
-  const Fraction end = Fraction(way_of_p, whole) * limit.value();
+  const Fraction end = Fraction(path_of_p, whole) * limit.value();
 
   const auto pieces = pieces_of<D>(snapshot, line, path.from.cell, {before.data(), before.size()}, at_q);
   const auto walked = pieces_of<D>(snapshot, line, path.from.cell, path.crossed, end);
   if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
     result.chain.clear();
-    const Exact_time time = to_time(parting->at * Fraction(whole, way_of_p));
+    const Exact_time time = to_time(parting->at * Fraction(whole, path_of_p));
     result.contact = edge_contact<D>(snapshot, time, parting->wall, line.at(parting->at));
     return result;
   }

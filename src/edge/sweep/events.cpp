@@ -116,10 +116,10 @@ class Event_sweep {
       if (side.has_root()) return Event_time<D>::root_of(side);
       if (side.at_1() != 0) return {};  // a lies in the plane of the facet
     }
-    const Rational_segment<D> way_of_p(triangle_.a, triangle_.b);
+    const Rational_segment<D> path_of_p(triangle_.a, triangle_.b);
     Fraction time = 0;
     for (const Half_facet f : facets)
-      if (const auto met = way_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
+      if (const auto met = path_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
         time = std::max<Fraction>(time, met->low);
     return Event_time<D>(time);
   }

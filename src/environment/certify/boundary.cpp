@@ -160,7 +160,7 @@ template <int D>
 void certify_boundary(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   const std::vector<Boundary_facet<D>> facets = boundary_facets(complex);
-  using Entry = std::pair<Box<D>, std::uint32_t>;
+  using Entry = std::pair<Tree_box<D>, std::uint32_t>;
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < facets.size(); ++i)
     entries.push_back({box_of<D>(snapshot.points(), facets[i].loop), i});
@@ -210,7 +210,7 @@ void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell>
   Overlap_test<D> test(snapshot.points());
   for (const Cell c : star) {
     const Cell_view<D> view = snapshot.view(c);
-    const Box<D> box = box_of<D>(snapshot.points(), view.vertices);
+    const Tree_box<D> box = box_of<D>(snapshot.points(), view.vertices);
     for (const Boundary_facet<D>& facet : facets)
       if (snapshot.cell_of(facet.facet) != c &&
           boost::geometry::intersects(box, box_of<D>(snapshot.points(), facet.loop)) && test(facet, view))

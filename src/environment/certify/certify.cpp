@@ -9,22 +9,15 @@
 #include <optional>
 
 #include "complex.h"
+#include "environment/soup/describe_place.h"
 #include "shape.h"
 
 namespace cellwalk {
 namespace detail {
 namespace {
 
-/// The text of a point in messages: 6 digits suffice to find it, and 17 would hide the message.
-template <int D>
-std::string place(const Point<D>& p) {
-  std::string text = "(";
-  for (int i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
-  return text + ")";
-}
-
-/// The first facet whose first vertices are collinear, so that all signs with respect to it would be 0;
-/// facet_count() if there is none.
+/// The first facet by whose first vertices no side can be told: all signs against it would be 0.
+/// facet_count() if none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
   std::size_t i = 0;
   for (; i < cell.facet_count(); ++i) {
@@ -137,7 +130,7 @@ void certify_distinct_vertices(const Complex<D>& complex) {
   };
   refuse("vertices " + std::to_string(first) + " (of " + cell_with(first) + ") and " +
          std::to_string(second) + " (of " + cell_with(second) + ") lie in the same place " +
-         place<D>(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
+         describe_place(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
 }
 
 }  // namespace detail

@@ -231,7 +231,7 @@ std::vector<Map_vertex<D>> Map_storage<D>::vertices_of(std::uint32_t point) cons
 
 template <int D>
 std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing) {
-  if (soup.facet_count() >= Dart_info::max_half_facets)
+  if (soup.facet_count() >= Dart_info::most_half_facets)
     throw Error(Error_code::input, "more than 2^29 facets of cells: split the environment");
   if constexpr (D == 2) check_chains(soup);
   auto storage = std::make_unique<Map_storage<D>>();
@@ -248,7 +248,7 @@ std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
                         std::span<const Half_facet> half_facets, std::size_t slots) {
-  if (slots >= Dart_info::max_half_facets)
+  if (slots >= Dart_info::most_half_facets)
     throw Error(Error_code::input, "more than 2^29 slots of half-facets: split the environment");
   std::vector<Dart<D>> dart_of_half_facet(slots, Dart<D>{});
   for_each_parallel(darts.size(), [&](std::size_t i) {

@@ -131,6 +131,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     }
   }
   std::vector<bool> open_is_wall;
+  open_is_wall.reserve(open.size());
   for (const Half_facet g : open) open_is_wall.push_back(is_impassable(g));
 
   // The indices of the removed cells in their order, then the lowest free ones, then new ones.

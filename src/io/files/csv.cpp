@@ -113,12 +113,12 @@ std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
   return fmt::format("{} fields, where the header has {}", count, columns_.size());
 }
 
-Csv_writer::Csv_writer(std::filesystem::path path, std::vector<std::string> columns)
+Csv_writer::Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns)
     : own_(std::make_unique<Atomic_file>(std::move(path))), file_(*own_), column_count_(columns.size()) {
   header(columns);
 }
 
-Csv_writer::Csv_writer(Atomic_file& file, std::vector<std::string> columns)
+Csv_writer::Csv_writer(Atomic_file& file, const std::vector<std::string>& columns)
     : file_(file), column_count_(columns.size()) {
   header(columns);
 }

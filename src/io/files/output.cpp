@@ -115,7 +115,8 @@ bool Replacement::put(const std::filesystem::path& from, const std::filesystem::
   return had_old_ ? exchange(from, to) : std::rename(from.c_str(), to.c_str()) == 0;
 }
 
-void Replacement::take_back(const std::filesystem::path& from, const std::filesystem::path& to) noexcept {
+void Replacement::take_back(const std::filesystem::path& from,
+                            const std::filesystem::path& to) const noexcept {
   if (had_old_)
     exchange(from, to);
   else

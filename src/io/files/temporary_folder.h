@@ -33,7 +33,7 @@ class Temporary_folder {
   /// Writes the file into the folder; returns its path.
   /// \throw Error(other) if the device is full
   std::string write(const std::string& name, std::string_view bytes) {
-    const std::string path = path_ + "/" + name;
+    std::string path = path_ + "/" + name;
     unfinished_file_.hold(path);
     std::ofstream out(path, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

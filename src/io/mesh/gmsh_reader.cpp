@@ -211,7 +211,7 @@ Element_soup read_with_gmsh(const std::string& name, const Reader_input& input, 
   const auto errors = session.messages("Error");
   if (!errors.empty()) why = errors.front();
   if (!why.empty()) {
-    for (std::size_t at; (at = why.find(input.path)) != std::string::npos;)
+    for (std::size_t at = 0; (at = why.find(input.path)) != std::string::npos;)
       why.replace(at, input.path.size(), name);
     fail(name, fmt::format("broken or cut short: Gmsh cannot read it as {} ({})", report.format, why));
   }

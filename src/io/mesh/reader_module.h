@@ -50,6 +50,7 @@ const Loaded_module& vtk_module();
 }  // namespace cellwalk::io
 
 #define CELLWALK_READER_MODULE(module)                                                 \
+  extern "C" const cellwalk::io::Reader_module* cellwalk_reader_module();              \
   extern "C" __attribute__((visibility("default"))) const cellwalk::io::Reader_module* \
   cellwalk_reader_module() {                                                           \
     return &module;                                                                    \

@@ -237,8 +237,8 @@ class Cell_reader {
     const std::size_t n = v.size() / 2;
     soup().add_facet(Indices(v.rend() - static_cast<std::ptrdiff_t>(n), v.rend()));
     soup().add_facet(Indices(v.begin() + static_cast<std::ptrdiff_t>(n), v.end()));
-    for (std::size_t i = 0, j; i < n; ++i) {
-      j = (i + 1) % n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = (i + 1) % n;
       soup().add_facet({v[i], v[j], v[n + j], v[n + i]});
     }
     soup().end_cell();

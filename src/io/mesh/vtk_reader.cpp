@@ -28,8 +28,7 @@ namespace {
 /// Keeps the first message instead of printing it.
 class Listener : public vtkOutputWindow {
  public:
-  static Listener* New();
-  vtkTypeMacro(Listener, vtkOutputWindow);
+  static Listener* New() { VTK_STANDARD_NEW_BODY(Listener); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
@@ -45,7 +44,6 @@ class Listener : public vtkOutputWindow {
  private:
   std::string first_;
 };
-vtkStandardNewMacro(Listener);
 
 /// Replaces VTK's output and log, which are global, by a listener during its lifetime.
 class Silence {

@@ -46,8 +46,8 @@ void check_xml(const std::string& name, std::string_view bytes) {
   for (const std::string_view tag : {"<Piece", "<DataArray"})
     for (std::size_t at = bytes.find(tag); at != std::string_view::npos; at = bytes.find(tag, at)) {
       std::string_view rest = bytes.substr(at, bytes.find('>', at) - at);
-      at += rest.size();  // a tag that is not closed is searched only once
-      for (std::size_t found; (found = rest.find(attribute)) != std::string_view::npos;) {
+      at += rest.size();  // a tag that is not closed is looked through once
+      for (std::size_t found = 0; (found = rest.find(attribute)) != std::string_view::npos;) {
         rest.remove_prefix(found + attribute.size());
         const std::size_t word = std::min(rest.find_first_of("= \t\r\n"), rest.size());
         const std::size_t digits = rest.find_first_of("0123456789");

@@ -39,7 +39,7 @@ class Json_node {
   bool is_array() const;
 
   /// \throw Error(input) unless the value is an object that has only these keys
-  void expect_keys(std::span<const std::string_view> keys) const;
+  void expect_keys(std::span<const std::string_view> allowed) const;
   void expect_keys(std::initializer_list<std::string_view> keys) const {
     expect_keys(std::span(keys.begin(), keys.size()));
   }

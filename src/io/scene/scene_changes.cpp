@@ -39,7 +39,7 @@ json& at_key(json& document, std::string_view key, const std::string& change) {
     if (key.front() == '[') {
       const std::size_t end = key.find(']');
       std::size_t index = 0;
-      if (end == key.npos) refuse(change, "] is missing");
+      if (end == std::string_view::npos) refuse(change, "] is missing");
       const auto read = std::from_chars(key.data() + 1, key.data() + end, index);
       if (read.ec != std::errc() || read.ptr != key.data() + end) refuse(change, "expected an index in []");
       if (!here->is_array() || index >= here->size())
@@ -69,7 +69,7 @@ std::string change_scene(const std::string& name, std::string_view text,
   const auto document = detail::parse_json(name, text);
   for (const std::string& change : changes) {
     const std::size_t equals = change.find('=');
-    if (equals == change.npos || equals == 0) refuse(change, "no key");
+    if (equals == std::string::npos || equals == 0) refuse(change, "no key");
     if (!is_utf8(change)) refuse("a change", "is not written in UTF-8");
     const std::string value = change.substr(equals + 1);
     const auto watch = [&](int depth, json::parse_event_t, json&) {

@@ -104,8 +104,8 @@ void keep_simulation() {
   keep(
       +[](const Snapshot<D>& s, Body<D> b, const Catheter<D>& c) { return Rod<D>(s, std::move(b), c, {}); },
       &moved<Rod<D>>, &Rod<D>::at_entry, &Rod<D>::step, &Rod<D>::targets, &Rod<D>::tip,
-      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::way, &Rod<D>::next_way_point, &Rod<D>::steps_waited,
-      &Rod<D>::velocity, &Rod<D>::has_arrived);
+      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::waypoints, &Rod<D>::next_waypoint,
+      &Rod<D>::steps_waited, &Rod<D>::velocity, &Rod<D>::has_arrived);
   keep_both(&Rod<D>::body, &Rod<D>::body);
 
   keep(

@@ -98,34 +98,12 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
 template <int D>
 void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
   const oracle::Chain_oracle<D> oracle(w.world.soup);
-  for (int k = 0; k < edges; ++k) {
-    Particle<D> p = w.start();
-    if (p.cell == Cell::none) continue;
-    const Particle<D> q = w.end(p);
-    if (q.cell == Cell::none) continue;
-    const Chain_result<D> start = find_chain(w.snapshot, p, q, seen.counts.walk);
-    if (start.contact) continue;
-    Sweep_result<D> edge{{}, start.chain};
-    for (int step = 0; step < 6 && !edge.contact; ++step) {
-      const Particle<D> from = p;
-      std::vector<Cell> visited;
-      std::vector<Half_facet> crossed;
-      w.choose_kind();
-      const Point<D> target = w.target(p);
-      const auto walked =
-          move(w.snapshot, p, target, seen.counts.walk, {Walk_strategy::certified, &visited, &crossed});
-      const bool blocked = walked.status != Walk_status::arrived;
-      Particle<D> to = p;
-      if (blocked) {
-        to.position = target;
-        to.cell = visited.back();
-      }
-      const Vertex_path<D> path{from, to, visited, crossed, blocked};
-      const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, path, q, edge.chain, seen.counts);
-      judge(w, oracle, path, q, edge.chain, result, seen);
-      if (!blocked) edge = result;
-    }
-  }
+  for_each_sweep(
+      w, edges, seen.counts.walk, [&](const Moved_end<D>& moved, const Particle<D>& q, const Chain& chain) {
+        const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, moved.path(), q, chain, seen.counts);
+        judge(w, oracle, moved.path(), q, chain, result, seen);
+        return result.contact ? std::nullopt : std::optional(result.chain);
+      });
 }
 
 void report(const std::string& name, const Chains_seen& seen) {

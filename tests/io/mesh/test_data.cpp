@@ -52,9 +52,9 @@ void expect_counts(const Entry& entry, const Mesh_file& file) {
   }
 }
 
-class Public_mesh : public testing::TestWithParam<Entry> {};
+class PublicMesh : public testing::TestWithParam<Entry> {};
 
-TEST_P(Public_mesh, HasTheStatedCounts) {
+TEST_P(PublicMesh, HasTheStatedCounts) {
   const Entry& entry = GetParam();
   const Mesh_file file = read_mesh(data / entry.path);
   EXPECT_EQ(kind_name(file.mesh),
@@ -66,10 +66,10 @@ std::string test_name(const testing::TestParamInfo<Entry>& info) {
   return std::regex_replace(info.param.path, std::regex("\\W"), "_");
 }
 
-INSTANTIATE_TEST_SUITE_P(Tet, Public_mesh, testing::ValuesIn(entries("tet")), test_name);
-INSTANTIATE_TEST_SUITE_P(HexPoly, Public_mesh, testing::ValuesIn(entries("hex_poly")), test_name);
-INSTANTIATE_TEST_SUITE_P(Surface, Public_mesh, testing::ValuesIn(entries("surface")), test_name);
-INSTANTIATE_TEST_SUITE_P(Body, Public_mesh, testing::ValuesIn(entries("body")), test_name);
+INSTANTIATE_TEST_SUITE_P(Tet, PublicMesh, testing::ValuesIn(entries("tet")), test_name);
+INSTANTIATE_TEST_SUITE_P(HexPoly, PublicMesh, testing::ValuesIn(entries("hex_poly")), test_name);
+INSTANTIATE_TEST_SUITE_P(Surface, PublicMesh, testing::ValuesIn(entries("surface")), test_name);
+INSTANTIATE_TEST_SUITE_P(Body, PublicMesh, testing::ValuesIn(entries("body")), test_name);
 
 TEST(PublicMeshes, AreAsManyAsExpected) {
   EXPECT_EQ(entries("tet").size(), 9u);

@@ -201,13 +201,13 @@ const Body_refusal of_space[] = {
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [1, 0, 0]]}})",
      "bodies[0].motion: key \"speed\" is missing"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0]], "speed": 1}})",
-     "bodies[0].motion.path: expected at least 2 way points"},
+     "bodies[0].motion.path: expected at least 2 waypoints"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [0, 0, 0]], "speed": 1}})",
-     "bodies[0].motion.path[1]: the same way point twice in a row"},
+     "bodies[0].motion.path[1]: the same waypoint twice in a row"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 0}})",
      "bodies[0].motion.speed: expected a number greater than 0, not 0"},
     {R"({"file": "a", "count": 3, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
-     "bodies[0].count: not for a body on a path, which starts at the first way point"},
+     "bodies[0].count: not for a body on a path, which starts at the first waypoint"},
     {R"({"file": "a", "material": "rubber"})", "bodies[0].material: expected an object {...}"},
     {R"({"file": "a", "material": {"model": "fem"}})",
      "bodies[0].material.model: expected \"shape_matching\""},
@@ -229,7 +229,7 @@ const Body_refusal of_space[] = {
     {R"({"file": "a", "material": {}, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
      "bodies[0].material: not for a body on a path, which is rigid"},
     {R"({"file": "a", "position": [0, 0, 0], "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
-     "bodies[0].position: not for a body on a path, which starts at the first way point"},
+     "bodies[0].position: not for a body on a path, which starts at the first waypoint"},
 };
 
 TEST(SceneBodies, RefusesWithTheKeyThatIsWrong) {

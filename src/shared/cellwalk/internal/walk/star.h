@@ -187,7 +187,7 @@ class Star_search {
   /// The facets on the path to a candidate.
   Star_path path(const Candidate& candidate) const {
     Star_path path;
-    links_.append_way(candidate.place, path);
+    links_.append_path(candidate.place, path);
     return path;
   }
   /// A wall that blocks the motion, if there is one: of several the one met most head-on. No decision depends
