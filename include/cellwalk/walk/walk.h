@@ -68,7 +68,7 @@ enum class Contact_kind : std::uint8_t { vertex, edge, facet };
 /// The contact that blocks a walk. Contact is the same for the motion of a body, with its exact time.
 template <int D>
 struct Wall_contact {
-  double time = 0;     ///< parameter of the motion in [0,1]; the exact fraction, rounded to within 4 ulp
+  double time = 0;     ///< parameter of the motion in [0,1]: the greatest double that is not later
   Point<D> point{};    ///< from + time (to - from), rounded
   Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
@@ -108,7 +108,7 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 
 /// Computes the time, point and normal of a contact of the motion from a to b, if the walk omitted them
 /// (Walk_options::locates_contact); otherwise it changes nothing.
-/// Cost: 0.2 us, more if the time needs rational arithmetic.
+/// Cost: 0.2 us, more if only exact numbers tell how the time is rounded.
 template <int D>
 void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
                     Wall_contact<D>& contact);
