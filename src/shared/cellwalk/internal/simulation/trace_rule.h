@@ -24,11 +24,6 @@ std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep);
 void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers);
 
-/// A body at a wall stays there for good: a trace is not to start with one.
-/// \pre the body is one of a trace, registered, and has not moved
-/// \throw Error(input) naming the body that touches a wall, or has all its vertices in one place
-void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number);
-
 }  // namespace cellwalk
 
 #endif  // CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
