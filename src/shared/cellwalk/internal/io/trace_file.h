@@ -12,6 +12,9 @@
 
 namespace cellwalk::io {
 
+/// What a file begins with.
+constexpr std::string_view trace_magic = "ECCDTRC1";
+
 /// Reads a whole trace into memory; the file may be compressed with gzip. Nothing is repaired, and no memory
 /// is allocated for counts before they are checked against the size of the file.
 /// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, a grid
