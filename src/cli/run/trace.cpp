@@ -14,13 +14,8 @@ void check_recordable(const Scene<D>& scene, const std::string& scene_name) {
   const auto refuse = [&](const char* key, const char* what) {
     throw Error(Error_code::input, fmt::format("{}: {}: {}", scene_name, key, what));
   };
-  if constexpr (D == 2) {
-    refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
-  } else {
-    if (!scene.particles.empty()) refuse("particles", "a trace holds bodies only: leave them out");
-    if (scene.bodies.empty() && !scene.catheter)
-      refuse("bodies", "there is none to record: add one, or a catheter");
-  }
+  if (D == 2) refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
+  if (!scene.particles.empty()) refuse("particles", "a trace holds bodies only: leave them out");
 }
 
 std::unique_ptr<Body_trace_recorder> start_trace(const io::Atomic_file* file, const std::string& scene_name,

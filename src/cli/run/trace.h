@@ -13,7 +13,7 @@
 
 namespace cellwalk::cli {
 
-/// Refuses scenes that a trace cannot hold: those in 2D, with particles, or with nothing else.
+/// Refuses scenes that a trace cannot hold: those in 2D, and those with particles.
 /// \throw Error(input) naming the scene and its key
 template <int D>
 void check_recordable(const Scene<D>& scene, const std::string& scene_name);
