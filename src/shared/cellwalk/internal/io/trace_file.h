@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Trace files (magic `ECCDTRC1`, little endian). The format is described in docs/formats.md.
+// Files of traces in a grid (magic `ECCDTRC1`, little endian). The format is described in docs/formats.md.
 #ifndef CELLWALK_INTERNAL_IO_TRACE_FILE_H
 #define CELLWALK_INTERNAL_IO_TRACE_FILE_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces, docs/formats.md, for bodies of the library: how they are moved, and the answers to that.
+// The rule of traces in a grid, docs/formats.md, for bodies of the library: how they are moved, and the answers to that.
 #ifndef CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 #define CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 
@@ -13,7 +13,7 @@
 
 namespace cellwalk {
 
-/// Steps by the rule of traces: what hits a wall, or touches one, stays. They report what blocks.
+/// Steps by that rule: what hits a wall, or touches one, stays. They report what blocks.
 /// \pre three_segments or triangle: with the latter, bits 4 to 6 are answered too
 Body_options trace_options(Sweep sweep);
 
