@@ -70,9 +70,10 @@ std::span<const Point<3>> Body_replay::part(std::span<const Point<3>> of_step, s
 
 Body<3> Body_replay::registered(std::size_t body, std::size_t step) const {
   const auto positions = part(trace_->before_step(step), body);
-  const Traced_body& shape = trace_->bodies[body];
   try {
-    return Body<3>(*snapshot_, *locator_, {{positions.begin(), positions.end()}, shape.edges, shape.faces});
+    // Faces are left alone by the rule, and a wall may pierce one: a body without them moves alike.
+    return Body<3>(*snapshot_, *locator_,
+                   {{positions.begin(), positions.end()}, trace_->bodies[body].edges, {}});
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("body {} before step {}: {}", body, step, error.what()));
   }

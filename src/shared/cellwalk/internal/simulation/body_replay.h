@@ -29,12 +29,12 @@ std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size
 void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const Rejected_move<3>> blocked,
                          Sweep sweep, std::vector<std::uint8_t>& answers);
 
-/// The bodies of a trace in motion. Refers to the snapshot, the locator and the trace, which must outlive it.
+/// The bodies of a trace in motion, without their faces, which the rule leaves alone. Refers to the snapshot, the locator and the trace, which must outlive it.
 class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
   /// \pre the trace is one that io::read_body_trace accepts
-  /// \throw Error(outside) naming the body, and its vertex, edge or face; Error(input) naming a vertex with more than
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more than
   ///        64 edges; Error(usage) for Sweep::faces
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
               const Body_options& options);
