@@ -24,7 +24,24 @@ target_compile_features(cellwalk_options INTERFACE cxx_std_20)
 target_compile_options(cellwalk_options INTERFACE -ffp-contract=off)
 
 add_library(cellwalk_warnings INTERFACE)
-target_compile_options(cellwalk_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+target_compile_options(cellwalk_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow
+  -Wcast-align -Wcast-qual -Wold-style-cast
+  -Wconversion -Wno-sign-conversion # indices of points and facets are signed, sizes are not
+  $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wformat=2
+  -Wextra-semi -Wmissing-declarations -Wredundant-decls -Wundef -Wunused-macros
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wsuggest-override)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  target_compile_options(cellwalk_warnings INTERFACE -Wduplicated-branches -Wduplicated-cond -Wlogical-op)
+else()
+  target_compile_options(cellwalk_warnings INTERFACE -Wno-overlength-strings) # the page of the viewer is one
+endif()
+
+# Off under sanitizers, whose instructions gcc takes for uses of what is not initialised.
+option(CELLWALK_WERROR "Warnings are errors; without the option, the variable of this name in the environment" "$ENV{CELLWALK_WERROR}")
+if(CELLWALK_WERROR)
+  target_compile_options(cellwalk_warnings INTERFACE -Werror)
+endif()
 
 # Sources in batches (CMAKE_UNITY_BUILD, on in all presets but dev) compile in about half the time: what a header costs is parsed and
 # optimised once a batch. So names in anonymous namespaces must differ within a layer. In a batch gcc takes sources for headers, in

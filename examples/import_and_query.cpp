@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A mesh file becomes an environment; then questions about motions of points and of edges that were in no cell before.
+// A mesh file becomes an environment; then questions about motions of points and of edges that were in no
+// cell before.
 //
 // usage: import_and_query MESH    a closed surface (needs meshing), or cells of space
 #include <cellwalk/cellwalk.h>

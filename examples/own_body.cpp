@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body of one's own with an integrator of one's own: a tetrahedron of masses and springs falls into a corner of a room.
-// The solver proposes targets, the body goes as far as walls allow, and the solver reads where it got.
+// A body of one's own with an integrator of one's own: a tetrahedron of masses and springs falls into a
+// corner of a room. The solver proposes targets, the body goes as far as walls allow, and the solver reads
+// where it got.
 #include <cellwalk/cellwalk.h>
 
 #include <cstdio>
@@ -86,7 +87,7 @@ int main() {
   std::printf("%llu moves of vertices, %zu contacts\n", static_cast<unsigned long long>(counts.moves),
               report.contacts.size());
   std::printf("lowest x %.3f, lowest z %.3f\n", lowest[0], lowest[2]);
-  const Contact<3>& first = report.contacts.front().contact;
+  const Contact<3>& first = report.contacts.front();
   std::printf("first: normal (%g %g %g) at z = %g\n", first.normal[0], first.normal[1], first.normal[2],
               first.point[2]);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A number policy of one's own: where all coordinates are small integers, signs can be had in 64-bit integers, exactly. The walk is
-// compiled for it here, and gives the answers of the policy that is shipped.
+// A number policy of one's own: where all coordinates are small integers, signs can be had in 64-bit
+// integers, exactly. The walk is compiled for it here, and gives the answers of the policy that is shipped.
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/walk_impl.h>
@@ -9,8 +9,8 @@
 #include <cstdio>
 
 //! [kernel]
-/// Exact for integer coordinates of at most 2^19: differences are at most 2^20, a product of three of them 2^60, and six of these
-/// fit into 64 bits.
+/// Exact for integer coordinates of at most 2^19: differences are at most 2^20, a product of three of them
+/// 2^60, and six of these fit into 64 bits.
 struct Small_integers {
   static constexpr bool is_exact = true;            // no guard against contradicting signs is needed
   static constexpr bool uses_certificates = false;  // the walk asks for signs only

@@ -24,31 +24,36 @@ def entries(build):
     return json.loads(commands.read_text()) if commands.exists() else []
 
 
+def configure():
+    """A build of the sources one by one, of which only the list of commands is used."""
+    command = ["cmake", "--preset", "release", "-B", str(BUILD), "-DCMAKE_UNITY_BUILD=OFF", "-DCMAKE_CXX_COMPILER_LAUNCHER="]
+    configured = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if configured.returncode != 0:
+        sys.exit(configured.stdout + configured.stderr)
+
+
 def commands(folders):
-    """The sources of the project in these folders, and how the compiler is called for each."""
-    alone = {entry["file"] for entry in entries(RELEASE)}
+    """The sources of the project in these folders, and how the compiler is called for each, without an output."""
     for entry in entries(BUILD):
         source = pathlib.Path(entry["file"])
         generated = source.is_relative_to(ROOT / "build")
-        if generated or entry["file"] in alone or not any(source.is_relative_to(folder) for folder in folders):
+        if generated or not any(source.is_relative_to(folder) for folder in folders):
             continue
         words = shlex.split(entry["command"])
         at = words.index("-o")
-        yield source, words[:at] + words[at + 2:] + ["-fsyntax-only"]
+        yield source, words[:at] + words[at + 2:]
 
 
 def complaint(command):
-    done = subprocess.run(command[1], cwd=BUILD, capture_output=True, text=True)
+    done = subprocess.run([*command[1], "-fsyntax-only"], cwd=BUILD, capture_output=True, text=True)
     return done.stderr if done.returncode != 0 or " warning: " in done.stderr else ""
 
 
 def main(names):
     folders = [(ROOT / name).resolve() for name in names or ["."]]
-    configure = ["cmake", "--preset", "release", "-B", str(BUILD), "-DCMAKE_UNITY_BUILD=OFF", "-DCMAKE_CXX_COMPILER_LAUNCHER="]
-    configured = subprocess.run(configure, cwd=ROOT, capture_output=True, text=True)
-    if configured.returncode != 0:
-        sys.exit(configured.stdout + configured.stderr)
-    sources = list(commands(folders))
+    configure()
+    alone = {entry["file"] for entry in entries(RELEASE)}
+    sources = [command for command in commands(folders) if str(command[0]) not in alone]
     if not sources:
         sys.exit(f"sources: there is none in {', '.join(names)}")
     bad = 0

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Records a trace of the scene of figure 8.
 //
-//   make_traces OUT.bin [--cells NX NY NZ] [--solid SHARE] [--side CELLS] [--steps N] [--bodies N] [--speed CELLS] [--seed N]
+//   make_traces OUT.bin [--cells NX NY NZ] [--solid SHARE] [--side CELLS] [--steps N] [--bodies N]
+//               [--speed CELLS] [--seed N]
 #include <cellwalk/internal/io/trace_file.h>
 
 #include <CLI/CLI.hpp>

@@ -56,8 +56,8 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Seconds of a replay. The clock starts when a part of the trace has been replayed, so that no method pays for what the others
-/// left in the caches.
+/// Seconds of a replay. The clock starts when a part of the trace has been replayed, so that no method pays
+/// for what the others left in the caches.
 double timed_replay(Peer& peer, const Trace& first, const Trace& trace, Answers& answers) {
   peer.prepare(first);
   peer.replay(first, std::span(answers).first(first.moves()));

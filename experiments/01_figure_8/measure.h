@@ -36,8 +36,8 @@ struct Measure_options {
   std::string only;  ///< names of methods have to match this regular expression; empty: all
 };
 
-/// Builds the methods and replays the trace with each, one after the other within a round, so that what disturbs the
-/// machine for a while disturbs them alike.
+/// Builds the methods and replays the trace with each, one after the other within a round, so that what
+/// disturbs the machine for a while disturbs them alike.
 /// \throw std::runtime_error if a method answers a later round otherwise than the first
 std::vector<Row> measure(const Grid_world& world, const Trace& trace, const std::vector<Family>& families,
                          const Measure_options& options);

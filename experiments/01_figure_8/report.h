@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The results as files: figure_8.csv (a row a method and trace) and manifest.json (what they were measured with).
+// The results as files: figure_8.csv (a row a method and trace) and manifest.json (what they were measured
+// with).
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_REPORT_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_REPORT_H
 

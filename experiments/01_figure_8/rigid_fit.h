@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rotation of a body: what shape matching needs, in arithmetic that is the same on every machine (no function but the
-// square root).
+// The rotation of a body: what shape matching needs, in arithmetic that is the same on every machine (no
+// function but the square root).
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_RIGID_FIT_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_RIGID_FIT_H
 
@@ -43,8 +43,8 @@ inline Matrix3 random_rotation(Random& random) {
   }
 }
 
-/// The rotation nearest to a matrix (its polar factor, by Newton's iteration); `otherwise` where the matrix is singular or
-/// turned inside out.
+/// The rotation nearest to a matrix (its polar factor, by Newton's iteration); `otherwise` where the matrix
+/// is singular or turned inside out.
 inline Matrix3 nearest_rotation(const Matrix3& matrix, const Matrix3& otherwise) {
   const double scale = std::sqrt(matrix.squaredNorm() / 3);
   if (!(scale > 0)) return otherwise;

@@ -7,13 +7,13 @@ usage: summarize.py DIR        reads DIR/figure_8.csv; writes tables.md, figure_
 Without gnuplot the tables and the plot's script are written, and the program says so and returns 3.
 """
 
-import csv
 import math
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
+from tables import read_rows, table, unique  # noqa: E402
 
 # Method: label in the plot, and style: dash type, point type, line width. None: in the tables only, as it lies beside another
 # line. The styles differ without colours.
@@ -37,26 +37,12 @@ PLOTTED = {
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "fallbacks", "certified_edges", "clear_moves"]
 
 
-def read_rows(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def unique(values):
-    return list(dict.fromkeys(values))
-
-
 def number(text, digits):
     return f"{float(text):,.{digits}f}" if text else ""
 
 
 def nanoseconds(text):
     return number(text, 1 if text and float(text) < 99.95 else 0)
-
-
-def table(header, lines):
-    rule = ["---"] + ["---:"] * (len(header) - 1)
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [header, rule, *lines]) + "\n"
 
 
 def by_trace(rows, traces, cell):

@@ -21,10 +21,11 @@ namespace {
 
 /// The largest share of cells of which no two touch.
 constexpr double largest_apart = 0.125;
-/// A vertex is asked to move by at most so many times the speed, as the published traces have it: bodies that hang on a wall
-/// do not snap back.
+/// A vertex is asked to move by at most so many times the speed, as the published traces have it: bodies that
+/// hang on a wall do not snap back.
 constexpr double longest_move = 5;
-/// A body turns by at most so much a step, in radians (a vertex of the paper's bodies then by a quarter of its speed).
+/// A body turns by at most so much a step, in radians (a vertex of the paper's bodies then by a quarter of
+/// its speed).
 constexpr double fastest_turn = 0.02;
 /// Places tried for a body: bodies of three cells find one in about a thousand.
 constexpr int most_tries = 1'000'000;

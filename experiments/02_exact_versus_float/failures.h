@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Records of failures, for `cellwalk query --replay-failure`: the first of each sort that each rounded kernel makes.
+// Records of failures, for `cellwalk query --replay-failure`: the first of each sort that each rounded kernel
+// makes.
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 
@@ -21,8 +22,8 @@ void write_failure(const std::filesystem::path& path, const Scene<D>& scene, con
   io::write_repro(path, record);
 }
 
-/// Walks degenerate motions until each rounded kernel has failed in each way, or enough have been walked. Writes
-/// failures/2d_float_missed_wall.json and so on. Returns how many.
+/// Walks degenerate motions until each rounded kernel has failed in each way, or enough have been walked.
+/// Writes failures/2d_float_missed_wall.json and so on. Returns how many.
 std::uint64_t run_failures(const Run_options& options);
 
 }  // namespace cellwalk::exact_float

@@ -24,7 +24,8 @@ struct Kernel {
 
 inline constexpr std::size_t kernel_count = 8;
 
-/// exact: float planes with an error bound, then filtered signs (the default of the library); exact_signs: filtered signs only.
+/// exact: float planes with an error bound, then filtered signs (the default of the library); exact_signs:
+/// filtered signs only.
 template <int D>
 std::array<Kernel<D>, kernel_count> kernels() {
   constexpr auto certified = Walk_strategy::certified, rule = Walk_strategy::exit_rule;

@@ -7,7 +7,6 @@ usage: summarize.py DIR        reads DIR/walks.csv, sweeps.csv, flights.csv and,
 Without gnuplot the tables and the scripts of the plots are written, and the program says so and returns 3.
 """
 
-import csv
 import math
 import sys
 from fractions import Fraction
@@ -15,9 +14,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
+from tables import EXACT, ROUNDED, read_rows, share, table, unique  # noqa: E402
 
-EXACT = ["exact", "exact_signs", "lazy", "rational"]
-ROUNDED = ["double", "double_1e-9", "double_1e-6", "float"]
 LABELS = {
     "degeneracy": "distance of the target from a degenerate position (ulp)",
     "scale": "size of a cell (units)",
@@ -26,24 +24,6 @@ LABELS = {
     "rotation": "rotation of the lattice (degrees)",
     "length": "length of a motion (cells)",
 }
-
-
-def read_rows(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def unique(values):
-    return list(dict.fromkeys(values))
-
-
-def table(header, lines):
-    rule = ["---"] * 2 + ["---:"] * (len(header) - 2)
-    return "\n".join("| " + " | ".join(map(str, cells)) + " |" for cells in [header, rule, *lines]) + "\n"
-
-
-def share(count, total):
-    return "0" if int(count) == 0 else f"{100 * int(count) / int(total):.3g} %"
 
 
 def place(variable, value):
@@ -150,14 +130,14 @@ def walk_tables(rows):
             lines.append([variable, f"{float(value):.6g}", any_row["motions"], share(any_row["degenerate"], any_row["motions"]),
                           sum(int(found[k]["wrong"]) for k in EXACT)]
                          + [share(found[k]["wrong"], found[k]["motions"]) for k in ROUNDED])
-        text += table(["variable", "value", "motions", "degenerate", "wrong by exact kernels", *ROUNDED], lines)
+        text += table(["variable", "value", "motions", "degenerate", "wrong by exact kernels", *ROUNDED], lines, names=2)
         text += f"\n## Walks in {dimension}D: how they go wrong, of all at the point\n\n"
         kinds = list(here[0])[10:]
         sums = []
         for kernel in EXACT + ROUNDED:
             mine = [r for r in here if r["kernel"] == kernel]
             sums.append([kernel, sum(int(r["motions"]) for r in mine), *(sum(int(r[k]) for r in mine) for k in kinds)])
-        text += table(["kernel", "motions", *kinds], sums)
+        text += table(["kernel", "motions", *kinds], sums, names=2)
     return text
 
 
@@ -171,7 +151,7 @@ def plain_table(title, rows):
             return f"{float(text):.4g}"
         except ValueError:
             return text
-    return f"\n## {title}\n\n" + table(list(rows[0]), [[cell(v) for v in r.values()] for r in rows])
+    return f"\n## {title}\n\n" + table(list(rows[0]), [[cell(v) for v in r.values()] for r in rows], names=2)
 
 
 def main():

@@ -136,7 +136,8 @@ class Sweep_trial {
     }
   }
 
-  /// The way of p and the third segment, as walks; a walk that arrives in another cell than that of q is a contact.
+  /// The way of p and the third segment, as walks; a walk that arrives in another cell than that of q is a
+  /// contact.
   Walk_status walk_both(const Kernel<D>& kernel, const Move<D>& move) const {
     Walk_counts counts;
     const Walk_options options{kernel.strategy, nullptr, nullptr};

@@ -8,46 +8,20 @@ usage: test_exact_versus_float.py BUILD_DIR
 The expected tables were written once; every compiler, build type and number of threads must write them again.
 """
 
-import csv
 import json
 import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-TABLES = ["walks.csv", "sweeps.csv", "flights.csv"]
-EXACT = {"exact", "exact_signs", "lazy", "rational"}
-ROUNDED = {"double", "double_1e-9", "double_1e-6", "float"}
+sys.path.insert(0, str(HERE.parent / "common"))
+import quick_case  # noqa: E402
+from tables import EXACT, ROUNDED, read_rows  # noqa: E402
 
 
-def quick(build, out, threads):
-    subprocess.run([HERE / "run.sh", "--quick", "--counts", "--no-build", "--build", build, "--out", out, "--threads",
-                    str(threads)], check=True, stdout=subprocess.DEVNULL)
-
-
-def read(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-class Exact_versus_float(unittest.TestCase):
-    build = None
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.out = Path(cls.folder.name)
-        quick(cls.build, cls.out, 2)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def test_tables_are_as_expected(self):
-        for name in TABLES:
-            self.assertEqual((HERE / "expected" / name).read_bytes(), (self.out / name).read_bytes(), name)
+class ExactVersusFloat(quick_case.QuickCase):
+    experiment = HERE
+    expected = ["walks.csv", "sweeps.csv", "flights.csv"]
 
     def test_threads_make_no_difference(self):
         other = self.out / "one_thread"
@@ -61,19 +35,19 @@ class Exact_versus_float(unittest.TestCase):
             self.assertNotEqual((other / "1" / name).read_bytes(), (self.out / name).read_bytes())
 
     def test_exact_kernels_are_never_wrong(self):
-        walks = [r for r in read(self.out / "walks.csv") if r["kernel"] in EXACT]
+        walks = [r for r in read_rows(self.out / "walks.csv") if r["kernel"] in EXACT]
         self.assertEqual(sum(int(r["wrong"]) for r in walks), 0)
         self.assertGreater(sum(int(r["motions"]) for r in walks), 100_000)
-        sweeps = [r for r in read(self.out / "sweeps.csv") if r["method"] == "triangle"]
+        sweeps = [r for r in read_rows(self.out / "sweeps.csv") if r["method"] == "triangle"]
         self.assertEqual(sum(int(r["wrong"]) for r in sweeps), 0)
         self.assertGreater(sum(int(r["blocked"]) for r in sweeps), 1000)
-        flights = [r for r in read(self.out / "flights.csv") if r["kernel"] in EXACT]
+        flights = [r for r in read_rows(self.out / "flights.csv") if r["kernel"] in EXACT]
         self.assertEqual(sum(int(r["wrong"]) + int(r["escapes"]) for r in flights), 0)
         self.assertGreater(min(int(r["contacts"]) for r in flights), 100)
         self.assertEqual(json.loads((self.out / "manifest.json").read_text())["exact"]["walks"]["wrong"], 0)
 
     def test_rounded_kernels_are_wrong(self):
-        walks = read(self.out / "walks.csv")
+        walks = read_rows(self.out / "walks.csv")
         for kernel in ROUNDED:
             wrong = [r for r in walks if r["kernel"] == kernel and r["dimension"] == "3"]
             self.assertGreater(sum(int(r["wrong"]) for r in wrong), 100, kernel)
@@ -82,7 +56,7 @@ class Exact_versus_float(unittest.TestCase):
         self.assertTrue(any(int(r["degenerate"]) > int(r["motions"]) / 3 for r in walks))
 
     def test_the_paper_s_sweep_misses_what_the_complete_one_finds(self):
-        sweeps = [r for r in read(self.out / "sweeps.csv") if r["method"] == "three_segments" and r["dimension"] == "3"]
+        sweeps = [r for r in read_rows(self.out / "sweeps.csv") if r["method"] == "three_segments" and r["dimension"] == "3"]
         self.assertGreater(sum(int(r["missed"]) for r in sweeps), 5)
 
     def test_failures_can_be_replayed(self):
@@ -96,19 +70,5 @@ class Exact_versus_float(unittest.TestCase):
         self.assertEqual(told, len(records))
 
 
-def update(build):
-    with tempfile.TemporaryDirectory() as folder:
-        quick(build, Path(folder), 1)
-        (HERE / "expected").mkdir(exist_ok=True)
-        for name in TABLES:
-            (HERE / "expected" / name).write_bytes((Path(folder) / name).read_bytes())
-
-
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    Exact_versus_float.build = Path(sys.argv[1]).resolve()
-    if sys.argv[2:] == ["--update"]:
-        update(Exact_versus_float.build)
-    else:
-        unittest.main(argv=sys.argv[:1])
+    quick_case.main(ExactVersusFloat)

@@ -7,8 +7,9 @@
 
 namespace cellwalk::exact_float {
 
-/// Walks `count` motions by each kernel, degenerate ones and those displaced by 2^40 ulp, free ones and blocked ones, on one thread: nanoseconds of processor time and bytes
-/// allocated (and freed again) a walk, medians of five rounds.
+/// Walks `count` motions by each kernel, degenerate ones and those displaced by 2^40 ulp, free ones and
+/// blocked ones, on one thread: nanoseconds of processor time and bytes allocated (and freed again) a walk,
+/// medians of five rounds.
 void run_times(const Run_options& options);
 
 }  // namespace cellwalk::exact_float

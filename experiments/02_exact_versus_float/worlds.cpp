@@ -9,8 +9,8 @@
 namespace cellwalk::exact_float {
 namespace {
 
-/// Binary places of the columns of a lattice map: with the coordinates of the lattice, determinants then have more than the 53 bits
-/// of a double, and points, even at the largest offset, have no more.
+/// Binary places of the columns of a lattice map: with the coordinates of the lattice, determinants then have
+/// more than the 53 bits of a double, and points, even at the largest offset, have no more.
 template <int D>
 constexpr int column_places = D == 2 ? 26 : 20;
 
@@ -19,7 +19,8 @@ double rounded(double x) {
   return std::ldexp(std::nearbyint(std::ldexp(x, column_places<D>)), -column_places<D>);
 }
 
-/// A rotation by twice the angle of tangent t; 3D: about an axis in general position, by the formula of Rodrigues.
+/// A rotation by twice the angle of tangent t; 3D: about an axis in general position, by the formula of
+/// Rodrigues.
 std::array<Vector<2>, 2> rotation_columns(double t, std::array<Vector<2>, 2>) {
   const double c = (1 - t * t) / (1 + t * t), s = 2 * t / (1 + t * t);
   return {{{c, s}, {-s, c}}};

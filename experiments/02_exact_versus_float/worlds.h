@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The worlds of the experiment: lattices full of degeneracies, placed where one likes, every coordinate exactly a double.
+// The worlds of the experiment: lattices full of degeneracies, placed where one likes, every coordinate
+// exactly a double.
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 
@@ -14,8 +15,8 @@ namespace cellwalk::exact_float {
 
 /// Where a point of the experiment lies. The defaults are those of the points that vary something else.
 struct Setting {
-  int ulps =
-      -1;  ///< log2 of the distance from a degeneracy; -1: 0 for half of the motions, up to 2^10 for the others
+  /// Log2 of the distance from a degeneracy; -1: 0 for half of the motions, up to 2^10 for the others.
+  int ulps = -1;
   bool on_degeneracy = false;  ///< all motions at distance 0; `ulps` does not count
   int scale = 0;               ///< log2 of the size of a cell
   int offset = -1;     ///< log2 of the distance from the origin along each axis, in cells; -1: at the origin
@@ -42,10 +43,10 @@ Lattice_map<D> lattice_map(const Setting& setting);
 template <int D>
 World<D> make_world(const Setting& setting, std::uint64_t seed);
 
-/// One half of the motions lead from a point of the lattice (multiples of 1/8 of a cell) to another, so that they start, end, and
-/// pass on facets, edges and vertices more often than not, exactly. The others start anywhere, with all bits of a double, and lead to such
-/// a point exactly, or past it as nearly as doubles allow. Then the target is moved by the distance of the setting along a
-/// random axis, either way.
+/// One half of the motions lead from a point of the lattice (multiples of 1/8 of a cell) to another, so that
+/// they start, end, and pass on facets, edges and vertices more often than not, exactly. The others start
+/// anywhere, with all bits of a double, and lead to such a point exactly, or past it as nearly as doubles
+/// allow. Then the target is moved by the distance of the setting along a random axis, either way.
 template <int D>
 struct Motion {
   Point<D> from, to;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A grid of unit cubes (2D: squares), in each of which a small box floats: obstacles of a known size, spread evenly.
+// A grid of unit cubes (2D: squares), in each of which a small box floats: obstacles of a known size, spread
+// evenly.
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_BOX_WORLD_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_BOX_WORLD_H
 
@@ -19,8 +20,9 @@ struct Box_world_options {
   std::uint64_t seed = 1;    ///< where in their cubes they are
 };
 
-/// The certified grid. Each cube is cut into its box, which is solid, and a frustum between each side of the box and the side of
-/// the cube. The boxes have sides along the axes and lie at random places; the grid starts at the origin.
+/// The certified grid. Each cube is cut into its box, which is solid, and a frustum between each side of the
+/// box and the side of the cube. The boxes have sides along the axes and lie at random places; the grid
+/// starts at the origin.
 /// Cost: some 5 us a cube.
 template <int D>
 Environment<D> box_world(const Box_world_options<D>& options);

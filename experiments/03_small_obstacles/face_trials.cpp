@@ -15,13 +15,15 @@ constexpr double steps_a_bound = 64;
 constexpr int most_steps = 256;
 /// Room about an obstacle, more than any face needs where it starts and on its way.
 constexpr double room_about = 24;
-/// Of spikes. Faces are at most 6.7 wide and lean by at most 27 degrees: their corners start 3 below the tip at most.
+/// Of spikes. Faces are at most 6.7 wide and lean by at most 27 degrees: their corners start 3 below the tip
+/// at most.
 constexpr double least_height = 6;
 
 }  // namespace
 
 Spike_tally run_spikes(const Spike_setting& setting) {
-  // The greatest circle of the base is larger than that of the faces: a spike stops them before they reach the floor.
+  // The greatest circle of the base is larger than that of the faces: a spike stops them before they reach
+  // the floor.
   const double height = std::max(setting.sharpness, least_height);
   const Spike spike{height, height / setting.sharpness};
   const double cone_sharpness = spike.height / inner_radius(spike);
@@ -56,8 +58,9 @@ Floating_tally run_floating(const Floating_setting& setting) {
   const Environment<3> environment = floating_room(room, side);
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
-  // A point inside the face falls through the centre of the cube. Normal and way of a face are at most 54 degrees apart, so
-  // from twice the side away along its way its plane is 1.17 sides from the centre, and half a diagonal of the cube is 0.87.
+  // A point inside the face falls through the centre of the cube. Normal and way of a face are at most 54
+  // degrees apart, so from twice the side away along its way its plane is 1.17 sides from the centre, and
+  // half a diagonal of the cube is 0.87.
   const Point<3> centre{0, 0, room.height / 2};
   const double above = 2 * side, step = side / 16;
   const int steps = 64;  // to as far behind it

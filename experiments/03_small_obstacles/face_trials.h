@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A triangular face comes down on an obstacle, its edges swept completely: how deep does what meets no edge come in?
+// A triangular face comes down on an obstacle, its edges swept completely: how deep does what meets no edge
+// come in?
 // Paper: figure 6. The bound by an inverted pyramid is ours (README.md).
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
@@ -32,8 +33,8 @@ struct Penetration {
 };
 
 struct Spike_tally {
-  double bound =
-      0;  ///< of the depth behind a face as it is drawn: its inradius times the sharpness of the cone in the spike
+  /// Of the depth behind a face as it is drawn: its inradius times the sharpness of the cone in the spike.
+  double bound = 0;
   std::vector<Penetration> by_edges;     ///< faces that the spike was in, when their edges met it
   std::uint64_t not_pierced = 0;         ///< faces stopped by their edges or corners before the tip came in
   std::uint64_t not_stopped = 0;         ///< faces that never met anything

@@ -22,8 +22,6 @@ Point<3> in_disc(Random& random) {
   }
 }
 
-Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
-
 /// Opposite to corner i.
 double side(const Triangle& t, std::size_t i) { return length(t[(i + 2) % 3] - t[(i + 1) % 3]); }
 
@@ -48,7 +46,7 @@ double inradius(const Triangle& t) {
 }
 
 double distance_from_plane(const Triangle& t, const Point<3>& x) {
-  return std::abs(dot(unit(cross(t[1] - t[0], t[2] - t[0])), x - t[0]));
+  return std::abs(dot(normalized(cross(t[1] - t[0], t[2] - t[0])), x - t[0]));
 }
 
 bool passes_inside(const Triangle& t, const Point<3>& x, const Point<3>& y) {
@@ -72,10 +70,10 @@ Fall random_fall(Random& random, Aim aim, const Point<3>& target, double above, 
   Vector<3> x{1, 0, 0}, y{0, 1, 0}, way{0, 0, -1};
   if (aim == Aim::random) {
     const Vector<3> lean = in_disc(random), drift = in_disc(random);
-    const Vector<3> normal = unit({most_tilt * lean[0], most_tilt * lean[1], 1});
-    x = unit(cross(Vector<3>{0, 1, 0}, normal));
+    const Vector<3> normal = normalized(Vector<3>{most_tilt * lean[0], most_tilt * lean[1], 1});
+    x = normalized(cross(Vector<3>{0, 1, 0}, normal));
     y = cross(normal, x);
-    way = unit({most_tilt * drift[0], most_tilt * drift[1], -1});
+    way = normalized(Vector<3>{most_tilt * drift[0], most_tilt * drift[1], -1});
   }
   Fall fall;
   fall.step = step * way;
@@ -104,7 +102,7 @@ Landing fall(const Snapshot<3>& snapshot, const Locator<3>& locator, const Fall&
     body.step(targets, options, report, counts);
   }
   Landing landing;
-  if (!report.contacts.empty()) landing.stopped_by = report.contacts.front().contact.body;
+  if (!report.contacts.empty()) landing.stopped_by = report.contacts.front().body;
   std::copy(body.positions().begin(), body.positions().end(), landing.end.begin());
   return landing;
 }

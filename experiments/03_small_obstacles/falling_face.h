@@ -21,8 +21,8 @@ struct Fall {
   Vector<3> step;  ///< of all corners, one after the other
 };
 
-/// A face whose greatest circle has the radius face_inradius. The target lies ahead of a point of it, see Aim, at the distance
-/// `above` along its way; `step` is how far it falls in a step.
+/// A face whose greatest circle has the radius face_inradius. The target lies ahead of a point of it, see
+/// Aim, at the distance `above` along its way; `step` is how far it falls in a step.
 Fall random_fall(Random& random, Aim aim, const Point<3>& target, double above, double step);
 
 /// The radius of the greatest circle in a triangle.

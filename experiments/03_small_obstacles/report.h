@@ -3,22 +3,16 @@
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_REPORT_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_REPORT_H
 
-#include <cstdint>
 #include <filesystem>
-#include <string>
+
+#include "common/plan.h"
 
 namespace cellwalk::small_obstacles {
 
-struct Plan {
-  bool quick = false;
-  int threads = 1;
-  int rounds = 0;  ///< timed, at the end, one row after the other
-  std::uint64_t seed = 1;
-  std::string commit = "unknown";
-};
+using experiments::Plan;
 
-/// Runs all rows and writes the tables into a folder, which must exist. The same bytes for any number of threads, but for
-/// timings.csv.
+/// Runs all rows and writes the tables into a folder, which must exist. The same bytes for any number of
+/// threads, but for timings.csv.
 /// \throw Error(other) where a file cannot be written
 void run(const Plan& plan, const std::filesystem::path& folder);
 

@@ -7,29 +7,16 @@ usage: summarize.py DIR     writes tables.md, and missed, cost, depth and floati
 Without gnuplot the tables and the plots' scripts are written, and the program says so and returns 3.
 """
 
-import csv
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import plots  # noqa: E402
+from tables import read_rows_if_any, table  # noqa: E402
 
 INRADIUS = 0.5  # of all faces, in the unit of the depths
 SIZE = "side of the obstacles / length of the step"
-
-
-def read(folder, name):
-    path = folder / name
-    if not path.exists():
-        return []
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def table(header, lines):
-    rule = ["---"] + ["---:"] * (len(header) - 1)
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [header, rule, *lines]) + "\n"
 
 
 def count(text):
@@ -143,8 +130,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
-    sweeps, costs, timings = (read(folder, f"{name}.csv") for name in ("sweeps", "costs", "timings"))
-    spikes, floating = (read(folder, f"{name}.csv") for name in ("spikes", "floating"))
+    sweeps, costs, timings = (read_rows_if_any(folder / f"{name}.csv") for name in ("sweeps", "costs", "timings"))
+    spikes, floating = (read_rows_if_any(folder / f"{name}.csv") for name in ("spikes", "floating"))
     text = "# Small obstacles: results\n\n## Contacts of an edge, and those that three segments miss\n\n" + sweep_table(sweeps)
     text += "\n## What a sweep costs\n\nA move of one end, its walk included.\n\n" + cost_table(costs, timings)
     text += "\n## Faces that come down on a spike, their edges swept completely\n\nDepths in units in which the inradius of each "

@@ -42,8 +42,8 @@ double twice_area(const Vector<D>& u, const Vector<D>& v) {
   return std::abs(u[0] * v[1] - u[1] * v[0]);
 }
 
-/// How many of the boxes, one in each unit of space, meet a triangle but not its side pq, on average over all places and
-/// directions: the principal kinematic formula for convex sets.
+/// How many of the boxes, one in each unit of space, meet a triangle but not its side pq, on average over all
+/// places and directions: the principal kinematic formula for convex sets.
 template <int D>
 double expected_hits(const Point<D>& p, const Point<D>& target, const Point<D>& q, double side) {
   const double area = twice_area<D>(target - p, q - p) / 2;
@@ -67,8 +67,8 @@ class Moves {
 
   const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
 
-  /// Draws the next move. False if it starts in or across a box: then it is not made. `expected` receives the contacts
-  /// expected of it in either case.
+  /// Draws the next move. False if it starts in or across a box: then it is not made. `expected` receives the
+  /// contacts expected of it in either case.
   bool draw(Move<D>& move, double& expected) {
     Point<D> x;
     for (double& coordinate : x) coordinate = border_ + period * random_.real();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Random moves of an edge among boxes of one size: what the paper's three segments miss, and what each sweep costs.
+// Random moves of an edge among boxes of one size: what the paper's three segments miss, and what each sweep
+// costs.
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_SWEEP_TRIALS_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_SWEEP_TRIALS_H
 
@@ -10,7 +11,8 @@
 
 namespace cellwalk::small_obstacles {
 
-/// One row: edges of a length, one end of which makes a step of a length, among boxes of a size. Lengths in cubes.
+/// One row: edges of a length, one end of which makes a step of a length, among boxes of a size. Lengths in
+/// cubes.
 struct Sweep_setting {
   int dimension = 3;
   double step = 0.5;

@@ -7,56 +7,23 @@ usage: test_small_obstacles.py BUILD_DIR [--update]     --update writes expected
 costs.csv is only compared between runs: it changes with every better certificate.
 """
 
-import csv
-import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-EXPECTED = HERE / "expected"
-EXPECTED_TABLES = ["sweeps.csv", "spikes.csv", "floating.csv"]
-TABLES = [*EXPECTED_TABLES, "costs.csv"]
+sys.path.insert(0, str(HERE.parent / "common"))
+import quick_case  # noqa: E402
+from tables import read_rows  # noqa: E402
 
 
-def quick(build, out, threads=1):
-    subprocess.run([HERE / "run.sh", "--quick", "--counts", "--no-build", "--build", build, "--out", out, "--threads",
-                    str(threads)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def read(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-class SmallObstacles(unittest.TestCase):
-    build = None
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.out = Path(cls.folder.name)
-        quick(cls.build, cls.out / "one")
-        quick(cls.build, cls.out / "two", threads=2)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+class SmallObstacles(quick_case.QuickCase):
+    experiment = HERE
+    expected = ["sweeps.csv", "spikes.csv", "floating.csv"]
+    repeated = ["costs.csv"]  # changes with every better certificate
+    threads = [1, 2]
 
     def rows(self, name):
-        return read(self.out / "one" / name)
-
-    def test_tables_are_as_expected(self):
-        for name in EXPECTED_TABLES:
-            with self.subTest(name):
-                self.assertEqual((EXPECTED / name).read_text(encoding="utf-8"),
-                                 (self.out / "one" / name).read_text(encoding="utf-8"))
-
-    def test_tables_do_not_depend_on_threads(self):
-        for name in TABLES:
-            with self.subTest(name):
-                self.assertEqual((self.out / "one" / name).read_bytes(), (self.out / "two" / name).read_bytes())
+        return read_rows(self.out / name)
 
     def test_three_segments_miss_what_is_small_and_nothing_is_made_up(self):
         rows = self.rows("sweeps.csv")
@@ -97,27 +64,13 @@ class SmallObstacles(unittest.TestCase):
         self.assertEqual("0", self.rows("floating.csv")[-1]["passed"])
 
     def test_tables_and_plots_are_written(self):
-        text = (self.out / "one" / "tables.md").read_text(encoding="utf-8")
+        text = (self.out / "tables.md").read_text(encoding="utf-8")
         self.assertEqual(4, text.count("\n## "))
         for name in ("missed", "cost", "depth", "floating"):
-            script = (self.out / "one" / f"{name}.gp").read_text(encoding="utf-8")
+            script = (self.out / f"{name}.gp").read_text(encoding="utf-8")
             self.assertIn("set xlabel", script)
             self.assertIn("set ylabel", script)
 
 
-def update(build):
-    with tempfile.TemporaryDirectory() as folder:
-        quick(build, Path(folder))
-        EXPECTED.mkdir(exist_ok=True)
-        for name in EXPECTED_TABLES:
-            (EXPECTED / name).write_bytes((Path(folder) / name).read_bytes())
-
-
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    SmallObstacles.build = Path(sys.argv[1]).resolve()
-    if sys.argv[2:] == ["--update"]:
-        update(SmallObstacles.build)
-    else:
-        unittest.main(argv=sys.argv[:1])
+    quick_case.main(SmallObstacles)

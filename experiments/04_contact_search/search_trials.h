@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One contact, located by all searches: how far are they from the exact one, and what do they cost? Paper: section III.
+// One contact, located by all searches: how far are they from the exact one, and what do they cost? Paper:
+// section III.
 #ifndef CELLWALK_EXPERIMENTS_CONTACT_SEARCH_SEARCH_TRIALS_H
 #define CELLWALK_EXPERIMENTS_CONTACT_SEARCH_SEARCH_TRIALS_H
 
@@ -53,8 +54,8 @@ struct Trial_options {
 };
 inline constexpr std::size_t timed_contacts = 300;
 
-/// Draws random moves of an edge until so many of them are stopped by it, before its end is, and locates each of these contacts by
-/// all searches.
+/// Draws random moves of an edge until so many of them are stopped by it, before its end is, and locates each
+/// of these contacts by all searches.
 /// Cost: some ms a contact; some seconds for the vessel.
 std::vector<Search_tally> run(World world, const std::vector<Search>& searches, const Trial_options& options);
 

@@ -7,31 +7,18 @@ usage: summarize.py DIR     writes tables.md, and time, normal and cost as .gp, 
 Without gnuplot the tables and the plots' scripts are written, and the program says so and returns 3.
 """
 
-import csv
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import plots  # noqa: E402
+from tables import read_rows_if_any, table  # noqa: E402
 
 TOLERANCE = "tolerance of the dichotomic search (share of the motion)"
 ONE_SHOT = {"exact": "exact", "exhaustive": "exhaustive", "exhaustive_unlimited": "exhaustive, beyond the end as well",
             "exhaustive_traversed": "exhaustive, cells of the edge at its end"}
 BISECTIONS = {"dichotomic": "dichotomic", "dichotomic_segment": "dichotomic, of the segment"}
-
-
-def read(folder, name):
-    path = folder / name
-    if not path.exists():
-        return []
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def table(header, lines):
-    rule = ["---"] + ["---:"] * (len(header) - 1)
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [header, rule, *lines]) + "\n"
 
 
 def tolerance(row):
@@ -109,7 +96,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
-    errors, costs, timings = (read(folder, f"{name}.csv") for name in ("errors", "costs", "timings"))
+    errors, costs, timings = (read_rows_if_any(folder / f"{name}.csv") for name in ("errors", "costs", "timings"))
     text = "# Contact searches: results\n\nTimes as shares of the motion, distances in lengths of the step, angles in degrees; "
     text += "costs a contact, with the sweep that finds it.\n"
     for world in dict.fromkeys(r["world"] for r in errors):

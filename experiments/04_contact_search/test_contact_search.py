@@ -7,54 +7,27 @@ usage: test_contact_search.py BUILD_DIR [--update]     --update writes expected/
 costs.csv is only compared between runs: it changes with every better certificate.
 """
 
-import csv
-import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-EXPECTED = HERE / "expected" / "errors.csv"
+sys.path.insert(0, str(HERE.parent / "common"))
+import quick_case  # noqa: E402
+from tables import read_rows  # noqa: E402
+
 WORLDS = {"room", "boxes", "vessel"}
 
 
-def quick(build, out, threads=1):
-    subprocess.run([HERE / "run.sh", "--quick", "--counts", "--no-build", "--build", build, "--out", out, "--threads",
-                    str(threads)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def read(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-class ContactSearch(unittest.TestCase):
-    build = None
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.out = Path(cls.folder.name)
-        quick(cls.build, cls.out / "one")
-        quick(cls.build, cls.out / "two", threads=2)
-        cls.errors = read(cls.out / "one" / "errors.csv")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+class ContactSearch(quick_case.QuickCase):
+    experiment = HERE
+    expected = ["errors.csv"]
+    repeated = ["costs.csv"]  # changes with every better certificate
+    threads = [1, 2]
 
     def of(self, search):
-        rows = [r for r in self.errors if r["search"] == search]
+        rows = [r for r in read_rows(self.out / "errors.csv") if r["search"] == search]
         self.assertEqual(WORLDS, {r["world"] for r in rows})
         return rows
-
-    def test_errors_are_as_expected(self):
-        self.assertEqual(EXPECTED.read_text(encoding="utf-8"), (self.out / "one" / "errors.csv").read_text(encoding="utf-8"))
-
-    def test_tables_do_not_depend_on_threads(self):
-        for name in ("errors.csv", "costs.csv"):
-            self.assertEqual((self.out / "one" / name).read_bytes(), (self.out / "two" / name).read_bytes())
 
     def test_exact_and_exhaustive_agree(self):
         for row in self.of("exact") + self.of("exhaustive") + self.of("exhaustive_unlimited"):
@@ -88,26 +61,13 @@ class ContactSearch(unittest.TestCase):
             self.assertEqual(int(row["contacts"]), int(row["late"]) + int(row["same_time"]), row)
 
     def test_tables_and_plots_are_written(self):
-        text = (self.out / "one" / "tables.md").read_text(encoding="utf-8")
+        text = (self.out / "tables.md").read_text(encoding="utf-8")
         self.assertEqual(3, text.count("\n## "))
         for name in ("time", "normal", "cost"):
-            script = (self.out / "one" / f"{name}.gp").read_text(encoding="utf-8")
+            script = (self.out / f"{name}.gp").read_text(encoding="utf-8")
             self.assertIn("set xlabel", script)
             self.assertIn("set ylabel", script)
 
 
-def update(build):
-    with tempfile.TemporaryDirectory() as folder:
-        quick(build, Path(folder))
-        EXPECTED.parent.mkdir(exist_ok=True)
-        EXPECTED.write_bytes((Path(folder) / "errors.csv").read_bytes())
-
-
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    ContactSearch.build = Path(sys.argv[1]).resolve()
-    if sys.argv[2:] == ["--update"]:
-        update(ContactSearch.build)
-    else:
-        unittest.main(argv=sys.argv[:1])
+    quick_case.main(ContactSearch)

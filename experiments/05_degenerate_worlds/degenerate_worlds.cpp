@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Degenerate motions in degenerate worlds under every kernel, judged by the oracle; and the two touch policies.
+// Degenerate motions in degenerate worlds under every kernel, judged by the oracle; and the two touch
+// policies.
 //
 //   degenerate_worlds -o DIR [--motions N] [--seed S] [--threads N] [--commit NAME]
 #include <cellwalk/edge/sweep.h>
@@ -73,7 +74,8 @@ std::string name(const Family& f) {
                      motion_families[f.motion].first);
 }
 
-/// True if a wall meets the motion off its start. \pre the motion arrives
+/// True if a wall meets the motion off its start.
+/// \pre the motion arrives
 bool touches(const oracle::Trace& trace) {
   return std::any_of(trace.incidences.begin(), trace.incidences.end(),
                      [](const oracle::Incidence& i) { return !i.passable && i.last > 0; });

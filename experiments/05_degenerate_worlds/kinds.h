@@ -22,8 +22,8 @@ enum class World_kind {
 inline constexpr std::array<const char*, 6> world_names{"lattice", "coplanar_walls", "membranes",
                                                         "pinched", "collinear",      "simplices"};
 
-/// Where the lattice lies: along the axes with integer coordinates, where even floats compute exactly; or turned, each coordinate with
-/// 20 (3D) or 26 (2D) binary places.
+/// Where the lattice lies: along the axes with integer coordinates, where even floats compute exactly; or
+/// turned, each coordinate with 20 (3D) or 26 (2D) binary places.
 inline constexpr std::array<const char*, 2> placement_names{"integer", "turned"};
 
 /// Families of motions, made by the source of the oracle's tests.

@@ -7,39 +7,19 @@ usage: summarize.py DIR        reads DIR/degenerate.csv and touches.csv; writes 
 Without gnuplot the tables and the scripts of the plots are written, and the program says so and returns 3.
 """
 
-import csv
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
+from tables import EXACT, ROUNDED, read_rows, share, table, unique  # noqa: E402
 
-EXACT = ["exact", "exact_signs", "lazy", "rational"]
-ROUNDED = ["double", "double_1e-9", "double_1e-6", "float"]
 PLACEMENTS = ["integer", "turned"]
 FILLS = [1, 2, 4, 6]  # patterns of gnuplot that differ in print
 
 
-def read_rows(path):
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def unique(values):
-    return list(dict.fromkeys(values))
-
-
-def table(header, lines):
-    rule = ["---"] * 3 + ["---:"] * (len(header) - 3)
-    return "\n".join("| " + " | ".join(map(str, cells)) + " |" for cells in [header, rule, *lines]) + "\n"
-
-
 def summed(rows, column):
     return sum(int(r[column]) for r in rows)
-
-
-def share(count, total):
-    return "0" if count == 0 else f"{100 * count / total:.3g} %"
 
 
 def verdicts(rows, key):
@@ -51,7 +31,7 @@ def verdicts(rows, key):
         motions = summed(of["exact"], "motions")
         lines.append([f"{dimension}D", placement, name, motions, share(summed(of["exact"], "blocked"), motions),
                       sum(summed(of[k], "wrong") for k in EXACT), *(share(summed(of[k], "wrong"), motions) for k in ROUNDED)])
-    return table(["", "lattice", key, "motions", "blocked", "wrong by exact kernels", *ROUNDED], lines)
+    return table(["", "lattice", key, "motions", "blocked", "wrong by exact kernels", *ROUNDED], lines, names=3)
 
 
 def touches(rows):
@@ -62,7 +42,8 @@ def touches(rows):
         lines.append([f"{dimension}D", motion, motions, share(summed(here, "blocked"), motions),
                       share(summed(here, "either"), motions), share(summed(here, "contacts_with_stop"), motions),
                       summed(here, "wrong_with_stop")])
-    return table(["", "motions", "count", "contact with pass", "by the side taken", "contact with stop", "wrong with stop"], lines)
+    return table(["", "motions", "count", "contact with pass", "by the side taken", "contact with stop", "wrong with stop"], lines,
+                 names=3)
 
 
 def plot(folder, rows, dimension):

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a move of a vertex with its three edges costs in the scene of the paper, with all certificates and without each of them:
-// hexahedra of side 0.3 bounce in a grid of hexahedral unit cells, 10 % of them solid, by a fiftieth of a cell a step. Times
-// include the response to contacts. Beside it, what the searches for a contact cost where there is one.
+// What a move of a vertex with its three edges costs in the scene of the paper, with all certificates and
+// without each of them: hexahedra of side 0.3 bounce in a grid of hexahedral unit cells, 10 % of them solid,
+// by a fiftieth of a cell a step. Times include the response to contacts. Beside it, what the searches for a
+// contact cost where there is one.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/body/transform.h>
 #include <cellwalk/environment/gluing.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What the check of a moving body edge costs: by walking a temporary particle along it each time (the paper), with the
-// certificate of its old chain in front of that, and as a complete sweep of the triangle.
+// What the check of a moving body edge costs: by walking a temporary particle along it each time (the paper),
+// with the certificate of its old chain in front of that, and as a complete sweep of the triangle.
 //
-// Edges of a given length, in units of the cubes that six tetrahedra fill, lie all over a jittered grid of 10^5
-// tetrahedra without inner walls. Their one end moves there and back by a twentieth of a cube. Times include the walk of
-// that end.
+// Edges of a given length, in units of the cubes that six tetrahedra fill, lie all over a jittered grid of
+// 10^5 tetrahedra without inner walls. Their one end moves there and back by a twentieth of a cube. Times
+// include the walk of that end.
 //
-// Faces are swept in the same grid, far from all walls, and in one in which some facets are walls: there, times are of
-// sweep_face alone, of moves that are free.
+// Faces are swept in the same grid, far from all walls, and in one in which some facets are walls: there,
+// times are of sweep_face alone, of moves that are free.
 #include <cellwalk/edge/face.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>

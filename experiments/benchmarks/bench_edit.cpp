@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edits of an environment of tetrahedra: vertices that are moved, inside and on the boundary, facets opened and closed.
+// Edits of an environment of tetrahedra: vertices that are moved, inside and on the boundary, facets opened
+// and closed.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/random.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a second thread brings: the scene of data/hexahedra.json, bodies only, without files. 225 deformable hexahedra bounce in a
-// grid of 10^3 hexahedral cells, a tenth of them solid. The argument is the number of threads; time is that of the clock.
+// What a second thread brings: the scene of data/hexahedra.json, bodies only, without files. 225 deformable
+// hexahedra bounce in a grid of 10^3 hexahedral cells, a tenth of them solid. The argument is the number of
+// threads; time is that of the clock.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a move costs: staying in a cell, and crossing facets, in tetrahedral grids of 10^4, 10^5 and 10^6 cells, beside
-// point location by CGAL's triangulation with the start as a hint, on the same points and motions in the same run.
+// The cost of a move: staying in a cell, and crossing facets, in tetrahedral grids of 10^4, 10^5 and 10^6
+// cells, beside point location by CGAL's triangulation with the start as a hint, on the same points and
+// motions in the same run.
 //
-// repeated: 200 particles start close together and are moved again and again. All they read is in the cache, and the
-//           processor learns their branches by heart, which no program meets in practice.
-// warm:     the same with 4,000 particles: the cells are in the cache, the ways are too many to learn.
-// cold:     100,000 particles all over the grid, moved once each: memory is read from where it lies.
-// "crossing" subtracts nothing: it is the time of a whole move divided by the facets crossed (or tetrahedra visited).
+//   repeated: 200 particles start close together and are moved again and again. All their data are in the
+//             cache, and the processor learns their branches by heart, as in no real program.
+//   warm:     the same with 4,000 particles: the cells are in the cache, the paths are too many to learn.
+//   cold:     100,000 particles all over the grid, moved once each: data are read from main memory.
+//
+// "crossing" subtracts nothing: it is the time of a whole move divided by the number of facets crossed (or
+// tetrahedra visited).
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/walk/locate.h>
@@ -59,8 +62,8 @@ World& world(std::size_t tetrahedra) {
   return *w;
 }
 
-/// Particles that go there and back, and the same for locate: the last answer is the next hint. `reach` is the largest
-/// displacement along an axis, in cubes.
+/// Particles that go there and back, and the same for locate: the last answer is the next hint. `reach` is
+/// the largest displacement along an axis, in cubes.
 struct Motions {
   std::vector<Particle<3>> particles;
   std::vector<Delaunay::Cell_handle> hints;

@@ -9,8 +9,8 @@
 
 namespace cellwalk::experiments {
 
-/// commit, cellwalk (its version), compiler, flags, processor, versions (cgal, boost). Experiments add what is theirs: seed,
-/// threads, counts. The processor is "unknown" where the system does not tell.
+/// commit, cellwalk (its version), compiler, flags, processor, versions (cgal, boost). Experiments add what
+/// is theirs: seed, threads, counts. The processor is "unknown" where the system does not tell.
 nlohmann::ordered_json manifest(const std::string& commit);
 
 }  // namespace cellwalk::experiments

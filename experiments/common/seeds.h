@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Seeds of the parts of an experiment, from its one seed and the name of the part: no part's numbers depend on which others
-// ran, nor in which order.
+// Seeds of the parts of an experiment, from its one seed and the name of the part: no part's numbers depend
+// on which others ran, nor in which order.
 #ifndef CELLWALK_EXPERIMENTS_COMMON_SEEDS_H
 #define CELLWALK_EXPERIMENTS_COMMON_SEEDS_H
 

@@ -12,7 +12,8 @@ namespace cellwalk::figures {
 using Polygon = std::vector<Point<2>>;  // of an obstacle: a triangle
 
 /// The rectangle from (0,0), triangulated and certified; obstacles are solid cells. Vertices stand at every
-/// unit of its sides. \pre obstacles are triangles that do not meet; width and height are whole
+/// unit of its sides.
+/// \pre obstacles are triangles that do not meet; width and height are whole
 Environment<2> planar_world(int width, int height, const std::vector<Polygon>& obstacles);
 
 }  // namespace cellwalk::figures

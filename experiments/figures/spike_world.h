@@ -17,8 +17,8 @@ struct Spike {
   double half_width;   ///< of the base, in (0,1/2)
 };
 
-/// A certified grid of unit cubes. A cube with a spike is cut into pyramids that meet in its tip: the spike, which is a solid
-/// cell, four round it, four to the sides and one to the top.
+/// A certified grid of unit cubes. A cube with a spike is cut into pyramids that meet in its tip: the spike,
+/// which is a solid cell, four round it, four to the sides and one to the top.
 Environment<3> spike_world(const std::array<std::uint32_t, 3>& cubes, const std::vector<Spike>& spikes);
 
 }  // namespace cellwalk::figures

@@ -223,7 +223,8 @@ drawing::Panel draw_dichotomic(Case& c, Json& json) {
   Json steps = Json::array();
   double low = 0, high = 1;
   while (high - low > tolerance) {
-    // Exact: the ends have few binary digits. So this is the part of the motion that the search itself looks at.
+    // Exact: the ends have few binary digits. So this is the part of the motion that the search itself looks
+    // at.
     const double middle = low + (high - low) / 2;
     const bool is_free = !c.sweep({}, p_at(middle)).contact;
     steps.push_back({{"time", to_json(Exact_time(middle))}, {"free", is_free}});

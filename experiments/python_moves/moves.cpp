@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The moves of compare.py from C++: one thread, one loop. For each line on stdin a round is made and its nanoseconds of processor time a move are
-// printed, so that rounds of both languages alternate; at the end what came out, to be compared.
+// The moves of compare.py from C++: one thread, one loop. Each line on stdin starts a round, whose
+// nanoseconds of processor time a move are printed, so that rounds of both languages alternate; at the end
+// the results are printed for comparison.
 //
-// usage: python_moves CELLS POINTS    tetrahedra in CELLS^3 cubes, jitter 0.1; POINTS: doubles, starts and then two sets of targets
+// usage: python_moves CELLS POINTS
+//   CELLS    tetrahedra in CELLS^3 cubes, jitter 0.1
+//   POINTS   a file of doubles, starts and then two sets of targets
 #include <cellwalk/cellwalk.h>
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// NumPy arrays as the library sees them: read where they lie, or refused; results are views or new arrays that the caller owns.
+// NumPy arrays as the library sees them: read where they lie, or refused; results are views or new arrays
+// that the caller owns.
 #ifndef CELLWALK_PYTHON_ARRAYS_H
 #define CELLWALK_PYTHON_ARRAYS_H
 
@@ -24,7 +25,8 @@ namespace py = pybind11;
 /// \throw TypeError that says what the argument is instead, and how to convert it
 std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const char* name, int columns);
 
-/// The points of an array, without a copy. \pre the argument outlives the span
+/// The points of an array, without a copy.
+/// \pre the argument outlives the span
 template <int D>
 std::span<const Point<D>> points_of(const py::handle& argument, const char* name) {
   static_assert(sizeof(Point<D>) == D * sizeof(double));
@@ -58,7 +60,8 @@ py::array_t<T> to_array(std::vector<T>&& values) {
 
 [[noreturn]] void refuse_word(const std::string& word, const char* option, const std::string& words);
 
-/// What stands behind a word. \throw UsageError that names the words there are
+/// What stands behind a word.
+/// \throw UsageError that names the words there are
 template <class T>
 T choose(const std::string& word, const char* option,
          std::initializer_list<std::pair<const char*, T>> meanings) {

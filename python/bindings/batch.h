@@ -17,7 +17,8 @@ inline constexpr std::size_t chunk_rows = 4096;
 
 inline std::size_t chunk_count(std::size_t rows) { return (rows + chunk_rows - 1) / chunk_rows; }
 
-/// Calls work(chunk, first row, row after the last) for every chunk. \pre threads >= 0; 0: as many as there are cores
+/// Calls work(chunk, first row, row after the last) for every chunk.
+/// \pre threads >= 0; 0: as many as there are cores
 template <class Work>
 void for_each_chunk(std::size_t rows, int threads, const Work& work) {
   const std::size_t chunks = chunk_count(rows);

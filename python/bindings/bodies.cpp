@@ -94,7 +94,7 @@ class Any_body {
             const std::lock_guard guard(*moving_);
             body.step(to, options, report, counts_);
             const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
-            for (const Body_contact<D>& met : report.contacts) contacts.push_back(to_row(snapshot, met));
+            for (const Contact<D>& met : report.contacts) contacts.push_back(to_row(snapshot, met));
             for (const Rejected_move<D>& move : report.blocked) blocked.push_back(to_row(snapshot, move));
           }
           return options.reported == Reported::blocked ? py::array(to_array(std::move(blocked)))

@@ -29,13 +29,12 @@ using Body_contact_row_2 = Body_contact_row<2>;
 using Body_contact_row_3 = Body_contact_row<3>;
 
 template <int D>
-Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Body_contact<D>& met) {
-  const Contact<D>& contact = met.contact;
+Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Contact<D>& contact) {
   return {contact.rounded_time(),
           contact.point,
           contact.normal,
-          met.vertex,
-          met.feature,
+          contact.vertex,
+          contact.feature,
           number_of(snapshot, snapshot.cell_of(contact.facet)),
           static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
           static_cast<std::uint32_t>(contact.kind),
@@ -68,7 +67,7 @@ Rejected_row<D> to_row(const Snapshot<D>& snapshot, const Rejected_move<D>& move
   row.stays = move.stays();
   row.is_vertex_blocked = move.is_vertex_blocked;
   if (move.contact) {
-    row.time = move.contact->time;
+    row.time = move.contact->rounded_time();
     row.point = move.contact->point;
     row.normal = move.contact->normal;
     row.cell = number_of(snapshot, snapshot.cell_of(move.contact->facet));

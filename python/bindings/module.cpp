@@ -17,7 +17,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// The class of cellwalk._errors for each code; never freed, since exceptions may be raised until the interpreter ends.
+/// The class of cellwalk._errors for each code; never freed, since exceptions may be raised until the
+/// interpreter ends.
 const py::object& error_class(Error_code code) {
   static const auto* const classes = [] {
     const py::module_ errors = py::module_::import("cellwalk._errors");

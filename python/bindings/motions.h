@@ -35,16 +35,16 @@ static_assert(sizeof(Contact_row<2>) == 5 * sizeof(double) + 16 &&
 using Contact_row_2 = Contact_row<2>;
 using Contact_row_3 = Contact_row<3>;
 
-/// What Python calls Motions. A small move takes a few nanoseconds, and memory that is written for the first time costs as much: what
-/// can be made when it is asked for is not written before.
+/// What Python calls Motions. A small move takes a few nanoseconds, and memory that is written for the first
+/// time costs as much: what can be made when it is asked for is not written before.
 struct Motions {
   py::array_t<std::uint8_t> status;
   py::array_t<std::uint32_t> cells;
   py::array contacts;
   py::dict counts;
   std::shared_ptr<const Any_world> world;
-  std::vector<std::pair<std::size_t, double>>
-      stops;                           ///< row and time of each contact; `contacts` belongs to the caller
+  /// Row and time of each contact; `contacts` belongs to the caller.
+  std::vector<std::pair<std::size_t, double>> stops;
   py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells; none where no motion was made
   py::object cell = py::none(), time = py::none();  ///< made when they are asked for
 
@@ -67,8 +67,8 @@ std::int32_t number_of(const Snapshot<D>& snapshot, Cell cell) {
   return cell == Cell::none ? -1 : static_cast<std::int32_t>(snapshot.index(cell));
 }
 
-/// Where the rows of a batch are written; needs no interpreter. To be copied into loops, so that the compiler can see that nothing
-/// else changes it.
+/// Where the rows of a batch are written; needs no interpreter. To be copied into loops, so that the compiler
+/// can see that nothing else changes it.
 template <int D>
 struct Motion_rows {
   Motion_status* status;  // not bytes, which the compiler takes to change anything else when they are written
@@ -115,7 +115,8 @@ py::dict to_dict(const Set& counts) {
 py::dict to_dict(const Walk_counts& counts);
 py::dict to_dict(const Edge_counts& counts);
 
-/// Works a batch off: work(rows, chunk, first row, row after the last) answers a chunk. The interpreter is free meanwhile.
+/// Works a batch off: work(rows, chunk, first row, row after the last) answers a chunk. The interpreter is
+/// free meanwhile.
 template <class Counts, int D, class Work>
 Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
                   const Work& work) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// An environment as Python holds it: never edited, so that any number of particles, bodies and threads can share it.
+// An environment as Python holds it: never edited, so that any number of particles, bodies and threads can
+// share it.
 #ifndef CELLWALK_PYTHON_WORLD_H
 #define CELLWALK_PYTHON_WORLD_H
 
@@ -13,7 +14,8 @@
 
 namespace cellwalk::python {
 
-/// An environment that can be asked where points are. It stays where it is: the locator refers to the snapshot.
+/// An environment that can be asked where points are. It stays where it is: the locator refers to the
+/// snapshot.
 template <int D>
 struct World {
   static constexpr int dimension = D;

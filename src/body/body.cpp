@@ -16,7 +16,7 @@ namespace cellwalk {
 namespace {
 
 /// Bits in the sets of a Rejected_move.
-constexpr std::size_t max_reported_edges = 64;
+constexpr std::size_t most_reported_edges = 64;
 
 [[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
   if (options.edges == Edge_rule::at_target && options.policy == Contact_policy::reject)
@@ -31,7 +31,7 @@ constexpr std::size_t max_reported_edges = 64;
 
 void check_rule(const Body_options& options, const detail::Body_topology& topology) {
   const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > max_reported_edges
+  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > most_reported_edges
                    : options.reported != Reported::contacts)
     refuse_rule(options);
 }
@@ -98,6 +98,15 @@ const Chain& Body<D>::chain(std::size_t edge) const {
 }
 
 template <int D>
+Cell Body<D>::cell_of(std::uint32_t vertex) const {
+  Particle<D> particle = state_->particles[vertex];
+  Walk_counts uncounted;
+  if (const Point<D>& position = state_->positions[vertex]; particle.position != position)
+    state_->follow(particle, position, uncounted);
+  return particle.cell;
+}
+
+template <int D>
 std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
   std::vector<std::uint32_t> result;
   for (const detail::Corner& corner : state_->topology.corners_of(vertex)) result.push_back(corner.other);
@@ -123,8 +132,8 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
 }
 
 template <int D>
-std::optional<Body_contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
-                                                    const Body_options& options, Body_counts& counts) {
+std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                               const Body_options& options, Body_counts& counts) {
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }

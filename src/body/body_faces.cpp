@@ -58,13 +58,14 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
 }
 
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
-                 const Vertex_path<3>& path, std::optional<Body_contact<3>>& first, Face_counts& counts) {
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
     const std::uint32_t q = corners[(k + 1) % 3], r = corners[(k + 2) % 3];
-    // The edge across, of the corners that stand still, may be stale. Then it lies in a region free of walls, where it was when
-    // its ends last moved: a chain is looked into where a wall meets its edge only, and none meets this one.
+    // The edge across, of the corners that stand still, may be stale. Then it lies in a region free of walls,
+    // where it was when its ends last moved: a chain is looked into where a wall meets its edge only, and
+    // none meets this one.
     const Chain& across = body.chains[sides[(k + 1) % 3]];
     const Face_chains chains{{moved_chain(body, scratch, vertex, sides[k]), false},
                              {&across, q > r},
@@ -74,7 +75,9 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
     if (swept.contact) {
       Contact<3> contact = *swept.contact;
       contact.body = Body_feature::face;
-      if (!first || is_before(contact, first->contact)) first = {contact, vertex, f};
+      contact.vertex = vertex;
+      contact.feature = f;
+      if (!first || is_before(contact, *first)) first = contact;
     } else if (!first && (!swept.supporting_walls.empty() || !body.supporting_walls[f].empty())) {
       scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }

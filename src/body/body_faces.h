@@ -12,20 +12,24 @@
 
 namespace cellwalk::detail {
 
-/// Where it stands. \pre its edges are not stale
+/// Where it stands.
+/// \pre its edges are not stale
 Face_registration registered_face(const Body_state<3>& body, std::uint32_t face, Face_counts& counts);
 
-/// Registers all faces. \throw Error(code) naming the first that a wall pierces
+/// Registers all faces.
+/// \throw Error(code) naming the first that a wall pierces
 void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts);
 
-/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked about is needed.
+/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked
+/// about is needed.
 /// \throw Error(usage) if a wall pierces one
 void take_up_faces(Body_state<3>& body, Body_counts& counts);
 
-/// Sweeps the faces of a vertex that goes a way: puts the first contact in, or into the scratch what they rest on then.
+/// Sweeps the faces of a vertex that goes a way: puts the first contact in, or into the scratch what they
+/// rest on then.
 /// \pre its edges were swept, and their chains are in the scratch
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
-                 const Vertex_path<3>& path, std::optional<Body_contact<3>>& first, Face_counts& counts);
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts);
 
 }  // namespace cellwalk::detail
 

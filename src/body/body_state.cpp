@@ -64,8 +64,8 @@ void Body_state<D>::give_region_up() {
   is_apart = false;  // walls may be put up next
 }
 
-/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered. True if it holds
-/// all.
+/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered.
+/// True if it holds all.
 template <int D>
 bool Body_state<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
   if (region.must_wait()) return false;
@@ -91,16 +91,9 @@ void Body_state<D>::spread_marks() {
 }
 
 template <int D>
-void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
-  if (!region.is_vertex_stale(vertex)) return;
-  region.pass_mark_on(vertex, topology);
-  Particle<D>& particle = particles[vertex];
-  const Point<D>& position = positions[vertex];
-  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides depends on it.
-  if (particle.position == position) return;
-  ++counts.catch_ups;
-  // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the region is no wall.
-  Walk_counts& walks = counts.edges.walk;
+inline void Body_state<D>::follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const {
+  // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the
+  // region is no wall.
   Cell cell = particle.cell;
   if (!certainly_inside(*snapshot, cell, position, walks))
     cell = certain_end(*snapshot, region.anchor(), position, walks);
@@ -110,6 +103,19 @@ void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
   }
   particle = region.anchor();
   cellwalk::move(*snapshot, particle, position, walks);
+}
+
+template <int D>
+void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
+  if (!region.is_vertex_stale(vertex)) return;
+  region.pass_mark_on(vertex, topology);
+  Particle<D>& particle = particles[vertex];
+  const Point<D>& position = positions[vertex];
+  // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides
+  // depends on it.
+  if (particle.position == position) return;
+  ++counts.catch_ups;
+  follow(particle, position, counts.edges.walk);
 }
 
 template <int D>

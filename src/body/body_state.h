@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a registered body is made of, and how it is kept true: particles and chains that are stale are registered anew where they are needed.
+// What a registered body is made of, and how it is kept true: particles and chains that are stale are
+// registered anew where they are needed.
 #ifndef CELLWALK_BODY_BODY_STATE_H
 #define CELLWALK_BODY_BODY_STATE_H
 
@@ -39,7 +40,8 @@ struct Move_scratch {
 
 template <int D>
 struct Body_state {
-  /// Registers a body; faces are left. \throw Error(outside) as Body does
+  /// Registers a body; faces are left.
+  /// \throw Error(outside) as Body does
   Body_state(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
              std::span<const Particle<D>> before);
 
@@ -49,19 +51,24 @@ struct Body_state {
   }
   Chain seen_from(const Corner& corner) const;
 
-  /// Moves all vertices without a test. \pre the region holds the body and the targets
+  /// Moves all vertices without a test.
+  /// \pre the region holds the body and the targets
   void move_all(std::span<const Point<D>> targets, Body_counts& counts) {
     std::memcpy(positions.data(), targets.data(), targets.size_bytes());
     region.mark_all_moved();
     counts.in_region += targets.size();
   }
-  /// Where that region does not: moves all in a new one, if there is one for all. Else what needs one by one is prepared.
+  /// Where that region does not: moves all in a new one, if there is one for all. Else what needs one by one
+  /// is prepared.
   bool try_move_all_in_new_region(std::span<const Point<D>> targets, bool clearance, Body_counts& counts);
   /// Moves one vertex without a test, if the region allows it.
   bool try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
-  /// Gives the region up. \pre nothing is stale
+  /// Gives the region up.
+  /// \pre nothing is stale
   void give_region_up();
 
+  /// Moves the particle of a stale vertex to a position of the vertex in the region.
+  void follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const;
   /// Registers what is stale.
   void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
   void refresh_edge(std::uint32_t edge, Body_counts& counts);

@@ -96,7 +96,8 @@ class Region_search {
     return true;
   }
 
-  /// Adds the cell behind a passable facet; if there are too many, the facet is cut off. False if that cannot be made.
+  /// Adds the cell behind a passable facet; if there are too many, the facet is cut off. False if that cannot
+  /// be made.
   bool enter(Cell cell, std::size_t i) {
     const Cell next = snapshot_.neighbour(Snapshot<D>::half_facet(cell, i));
     if (next == Cell::none || is_found(next)) return true;
@@ -110,7 +111,8 @@ class Region_search {
     return true;
   }
 
-  /// Asks for what visit() will need: in a large environment the cells are not in the cache, and so they come side by side.
+  /// Asks for what visit() will need: in a large environment the cells are not in the cache, and so they come
+  /// side by side.
   void prefetch(Cell cell) const {
     const Plane_block<D>* planes = snapshot_.blocks(cell);
     for (std::size_t b = 0; b < snapshot_.block_count(cell); ++b) __builtin_prefetch(planes + b);
@@ -139,8 +141,8 @@ class Region_search {
   }
   std::size_t slot(Cell cell) const { return (to_index(cell) * 0x9e3779b1u >> 8) & (table_.size() - 1); }
 
-  /// Facets (bits) of a block whose planes the closed box does not certainly lie inside of. The corner of the box that is
-  /// furthest outside is a point like any other: its value is within plane_error.
+  /// Facets (bits) of a block whose planes the closed box does not certainly lie inside of. The corner of the
+  /// box that is furthest outside is a point like any other: its value is within plane_error.
   unsigned facets_met(const Plane_block<D>& block) {
     std::array<Float4, D> far;
     for (std::size_t k = 0; k < D; ++k)
@@ -165,8 +167,8 @@ class Region_search {
     is_mapped_ = true;
   }
 
-  /// Makes the region smaller until it holds no point of a facet. False if it cannot, without losing its anchor, or positions if
-  /// they may not be lost.
+  /// Makes the region smaller until it holds no point of a facet. False if it cannot, without losing its
+  /// anchor, or positions if they may not be lost.
   bool cut_off(const Cell_view<D>& cell, std::size_t i, bool may_lose = true) {
     const auto loop = cell.loop(i);
     Pair_box<D> bounds(cell.point(loop[0]));
@@ -285,9 +287,9 @@ class Region_search {
     return true;
   }
 
-  /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is soon found: it is turned
-  /// to the furthest of the points and the nearest of the facet, until they are in order. Any direction will do; cut_by_plane()
-  /// says what it is worth.
+  /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is
+  /// soon found: it is turned to the furthest of the points and the nearest of the facet, until they are in
+  /// order. Any direction will do; cut_by_plane() says what it is worth.
   Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
     Vector<D> normal = outward(cell, i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Body clearance: a convex region free of walls, in which a body moves without tests. Theory: docs/bodies.md, clearance.
+// Body clearance: a convex region free of walls, in which a body moves without tests. Theory: docs/bodies.md,
+// clearance.
 #ifndef CELLWALK_BODY_CLEAR_REGION_H
 #define CELLWALK_BODY_CLEAR_REGION_H
 
@@ -15,8 +16,8 @@
 
 namespace cellwalk::detail {
 
-/// An open box cut by open half-spaces, without a point of a wall: what is spanned by points in it meets none. Edits of the
-/// environment void it.
+/// An open box cut by open half-spaces, without a point of a wall: what is spanned by points in it meets
+/// none. Edits of the environment void it.
 template <int D>
 class Clear_region {
  public:
@@ -32,7 +33,9 @@ class Clear_region {
 
   /// False where rounding leaves doubt.
   bool holds(const Point<D>& x) const { return box_.holds(x) && is_below_planes(x); }
-  /// True if it holds all of them. \pre they are finite. Cost: half a nanosecond a point where no half-space cuts the box.
+  /// True if it holds all of them.
+  /// \pre they are finite.
+  /// Cost: half a nanosecond a point where no half-space cuts the box.
   bool holds_all(std::span<const Point<D>> points) const {
     return box_.holds_all(points) && (plane_count_ == 0 || are_below_planes(points));
   }
@@ -41,7 +44,8 @@ class Clear_region {
   /// Makes it smaller: to the part below (above) a value along an axis.
   void cut_above(int axis, double value) { box_.cut_above(axis, value); }
   void cut_below(int axis, double value) { box_.cut_below(axis, value); }
-  /// To the points whose product with the normal, as rounded, is less than the offset. \pre plane_count() < most_planes
+  /// To the points whose product with the normal, as rounded, is less than the offset.
+  /// \pre plane_count() < most_planes
   void cut(const Vector<D>& normal, double offset) { planes_[plane_count_++] = {normal, offset}; }
 
  private:
@@ -82,9 +86,9 @@ struct Region_effort {
   bool is_exhausted = false;  ///< true if there were more than might be looked at
 };
 
-/// A region about a particle, by a flood of the cells that it meets: walls are cut off, and what was not looked at, if possible
-/// so that all positions and targets are kept. None if a wall comes too close to the particle, the positions lie in too many
-/// cells, or what is asked for is not finite.
+/// A region about a particle, by a flood of the cells that it meets: walls are cut off, and what was not
+/// looked at, if possible so that all positions and targets are kept. None if a wall comes too close to the
+/// particle, the positions lie in too many cells, or what is asked for is not finite.
 /// \pre the anchor satisfies I1, and is one of the positions; as many targets as positions
 /// Cost: about 20 ns a cell met, 100 ns a wall.
 template <int D>

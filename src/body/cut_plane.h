@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Half-spaces that facets cut off, in rounded arithmetic with bounds: whatever is rounded, none of the facet is left.
+// Half-spaces that facets cut off, in rounded arithmetic with bounds: whatever is rounded, none of the facet
+// is left.
 #ifndef CELLWALK_BODY_CUT_PLANE_H
 #define CELLWALK_BODY_CUT_PLANE_H
 
@@ -14,16 +15,16 @@
 
 namespace cellwalk::detail {
 
-/// A half-space without a wall: the exact product of its points with the normal is less than the limit; where the product as
-/// rounded is less than the offset, for points of the box, it is.
+/// A half-space without a wall: the exact product of its points with the normal is less than the limit; where
+/// the product as rounded is less than the offset, for points of the box, it is.
 template <int D>
 struct Cut_plane {
   Vector<D> normal{};
   double limit = 0, offset = 0;
 };
 
-/// A scalar product is rounded by less than this part of the sum of the sizes of its terms: each is rounded at most D times,
-/// by 2^-53, and so is the sum of their sizes.
+/// A scalar product is rounded by less than this part of the sum of the sizes of its terms: each is rounded
+/// at most D times, by 2^-53, and so is the sum of their sizes.
 constexpr double product_error = 0x1p-50;
 /// And by less than product_error of this where a term underflows.
 constexpr double least_magnitude = 1e-290;

@@ -18,15 +18,13 @@ constexpr std::uint32_t most_subdivisions = 10;  // 10 million vertices
 
 using Triangles = std::vector<std::vector<std::uint32_t>>;
 
-Point<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
-
 /// Cuts every triangle into four at the middles of its sides.
 Triangles subdivided(const Triangles& triangles, std::vector<Point<3>>& points) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const auto [found, is_new] =
         middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
-    if (is_new) points.push_back(unit(points[a] + points[b]));
+    if (is_new) points.push_back(normalized(points[a] + points[b]));
     return found->second;
   };
   Triangles result;
@@ -51,7 +49,7 @@ Body_soup<3> generate_body(const Icosphere_shape& shape) {
   Body_parts<3> parts;
   parts.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  for (Point<3>& p : parts.points) p = unit(p);
+  for (Point<3>& p : parts.points) p = normalized(p);
   Triangles triangles{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};

@@ -34,7 +34,8 @@ class Open_box {
     return all_true(both(between(0, first, first), between(D - 2, last, last)));
   }
 
-  /// \pre the points are finite. Cost: about half a nanosecond a point.
+  /// \pre the points are finite.
+  /// Cost: about half a nanosecond a point.
   bool holds_all(std::span<const Point<D>> points) const {
     if (points.size() % 2 != 0 && !holds(points.back())) return false;
     if (points.size() < 2) return true;

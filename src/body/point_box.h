@@ -3,7 +3,7 @@
 #ifndef CELLWALK_BODY_POINT_BOX_H
 #define CELLWALK_BODY_POINT_BOX_H
 
-#include <cellwalk/kernel/point.h>
+#include <cellwalk/internal/kernel/box.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -89,7 +89,8 @@ struct Pair_bounds {
   }
 };
 
-/// The largest scalar product of a vector with points, each rounded as by dot(). -inf if there are none. \pre they are finite
+/// The largest scalar product of a vector with points, each rounded as by dot(). -inf if there are none.
+/// \pre they are finite
 template <int D>
 double furthest(const Vector<D>& normal, std::span<const Point<D>> points) {
   double most = -std::numeric_limits<double>::infinity();
@@ -113,29 +114,6 @@ double furthest(const Vector<D>& normal, std::span<const Point<D>> points) {
   for (; i < points.size(); ++i) most = std::max(most, dot(normal, points[i]));
   return most;
 }
-
-/// A closed box, and nothing before it is extended.
-template <int D>
-struct Box {
-  Point<D> low, high;
-
-  Box() {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-  }
-  void extend(const Point<D>& x) {
-    for (std::size_t k = 0; k < D; ++k) {
-      low[k] = std::min(low[k], x[k]);
-      high[k] = std::max(high[k], x[k]);
-    }
-  }
-  void extend(const Box& other) {
-    for (std::size_t k = 0; k < D; ++k) {
-      low[k] = std::min(low[k], other.low[k]);
-      high[k] = std::max(high[k], other.high[k]);
-    }
-  }
-};
 
 /// The box of points that lie anywhere, in two pairs of lanes: the first two coordinates, and the last two.
 template <int D>

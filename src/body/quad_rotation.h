@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to body: cosine and sine of an angle in degrees, by an arithmetic of 113 binary digits that is the same on
-// every machine (the functions of the C library differ in their last digits).
+// Private to body: cosine and sine of an angle in degrees, by an arithmetic of 113 binary digits that is the
+// same on every machine (the functions of the C library differ in their last digits).
 #ifndef CELLWALK_BODY_QUAD_ROTATION_H
 #define CELLWALK_BODY_QUAD_ROTATION_H
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The region free of walls in which a body moves without tests, and what is stale of the body since. Theory: docs/bodies.md, clearance.
+// The region free of walls in which a body moves without tests, and what is stale of the body since. Theory:
+// docs/bodies.md, clearance.
 #ifndef CELLWALK_BODY_REGION_CACHE_H
 #define CELLWALK_BODY_REGION_CACHE_H
 
@@ -59,13 +60,14 @@ class Region_cache {
                       std::span<const Point<D>> positions) const {
     return outside_ != 0 || !found || !found->holds_all(positions);
   }
-  /// Takes over what was found. \pre set_outside() was called where that changes
+  /// Takes over what was found.
+  /// \pre set_outside() was called where that changes
   /// Returns true if it holds the body and all targets.
   bool take(const std::optional<Clear_region<D>>& found, std::span<const Point<D>> targets,
             Body_counts& counts);
 
-  // A vertex is stale that was moved in the region and not registered there; an edge, if its chain is not known. Edges at a stale vertex
-  // are as well, marked or not.
+  // A vertex is stale that was moved in the region and not registered there; an edge, if its chain is not
+  // known. Edges at a stale vertex are as well, marked or not.
   void mark_all_moved() { are_all_stale_ = true; }
   void mark_moved(std::uint32_t vertex) { is_vertex_stale_[vertex] = true; }
   bool are_all_stale() const { return are_all_stale_; }

@@ -61,8 +61,8 @@ class Registration {
     return std::move(here.sides);
   }
 
-  /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were dropped; none at
-  /// all are left where the edge crosses a wall.
+  /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were
+  /// dropped; none at all are left where the edge crosses a wall.
   bool narrow(std::uint32_t e, std::optional<Wall_contact<D>>& contact) {
     Sides &of_u = sides_[soup_.edges[e][0]], &of_v = sides_[soup_.edges[e][1]];
     if (of_u.size() == 1 && of_v.size() == 1 && is_checked_[e]) return false;
@@ -156,8 +156,8 @@ class Registration {
   const Body_soup<D>& soup_;
   std::vector<Sides> sides_;
   std::vector<std::vector<std::uint32_t>> edges_at_;
-  std::vector<std::pair<std::uint32_t, Sides>>
-      dropped_;                         ///< sides of vertices before some were dropped, in order
+  /// Sides of vertices before some were dropped, in order.
+  std::vector<std::pair<std::uint32_t, Sides>> dropped_;
   std::vector<std::uint32_t> checked_;  ///< edges checked in the same time
   std::vector<bool> is_checked_ = std::vector<bool>(soup_.edges.size());
   Walk_counts counts_;

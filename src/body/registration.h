@@ -18,7 +18,8 @@ struct Registered {
   std::vector<Chain> chains;  ///< of the edges, from their first end to their second
 };
 
-/// `before`, if not empty, says for each vertex where it was registered last: on walls it takes the same side if it can.
+/// `before`, if not empty, says for each vertex where it was registered last: on walls it takes the same side
+/// if it can.
 /// \throw Error(outside) as Body does
 template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,

@@ -12,12 +12,14 @@
 
 namespace cellwalk::detail {
 
-/// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion is a few ulp
-/// each; a lift that is too small only costs another contact, since every move is checked exactly.
+/// How far a new move is lifted off the wall it starts from. Rounding of a position and of a projected motion
+/// is a few ulp each; a lift that is too small only costs another contact, since every move is checked
+/// exactly.
 constexpr double contact_offset_ulps = 16;
 
-/// The lift of a motion from a position at a wall, along the normal of that. At the origin, where doubles are as near to each other
-/// as they get anywhere, the motion says what a few ulp are: so the lift is in proportion to the environment.
+/// The lift of a motion from a position at a wall, along the normal of that. At the origin, where doubles are
+/// as near to each other as they get anywhere, the motion says what a few ulp are: so the lift is in
+/// proportion to the environment.
 template <int D>
 Vector<D> lift(const Point<D>& position, const Vector<D>& motion, const Vector<D>& normal) {
   return (contact_offset_ulps * ulp<D>(position == Point<D>{} ? motion : position)) * normal;
@@ -31,11 +33,12 @@ inline Vector<3> project_on_both_planes(const Vector<3>& v, const Vector<3>& n, 
   return square > 0 ? (dot(v, edge) / square) * edge : Vector<3>{};
 }
 
-/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to, by rounding.
+/// A motion along two walls leads into a wall by no more than this share of its length if it only seems to,
+/// by rounding.
 constexpr double rounding = 0x1p-40;
 
-/// What is left of a motion that met walls with these normals, the last of them just now: its part along the last one; where that
-/// leads into another, its part along both; nothing where that leads into a third.
+/// What is left of a motion that met walls with these normals, the last of them just now: its part along the
+/// last one; where that leads into another, its part along both; nothing where that leads into a third.
 template <int D>
 Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   const Vector<D>& last = normals.back();

@@ -11,13 +11,13 @@ namespace {
 
 /// Moves a vertex to a verified position just before a contact, if there is one.
 template <int D>
-bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Body_contact<D>& met,
+bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Contact<D>& met,
           const Sweep_options& options, Body_counts& counts) {
-  if (met.contact.time == Exact_time()) return false;
+  if (met.time == Exact_time()) return false;
   const Point<D> from = body.positions[vertex];
   Sweep_options tried = options;
   tried.search = Contact_search::exact;  // whether there is a contact matters, not where
-  return try_stops<D>(from, target, met.contact, [&](const Point<D>& x) {
+  return try_stops<D>(from, target, met, [&](const Point<D>& x) {
     if (x == from) return false;
     ++counts.stop_tries;
     return !try_move(body, body.scratch, vertex, x, tried, counts, true);
@@ -28,7 +28,7 @@ bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, con
 
 template <int D>
 void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
-               std::vector<Body_contact<D>>& contacts, Body_counts& counts) {
+               std::vector<Contact<D>>& contacts, Body_counts& counts) {
   std::vector<Vector<D>> normals;
   for (std::uint32_t v = 0; v < targets.size(); ++v) {
     if (body.try_move_in_region(v, targets[v], counts)) continue;
@@ -44,7 +44,7 @@ void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Bod
         break;
       }
       counts.held += !stop(body, v, target, *contact, options.sweep, counts);
-      normals.push_back(contact->contact.normal);
+      normals.push_back(contact->normal);
       const Point<D>& position = body.positions[v];
       const Vector<D> left = slide<D>(targets[v] - position, normals);
       if (!(length(left) > 0)) break;
@@ -55,8 +55,8 @@ void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Bod
 }
 
 template void move_each(Body_state<2>&, std::span<const Point<2>>, const Body_options&,
-                        std::vector<Body_contact<2>>&, Body_counts&);
+                        std::vector<Contact<2>>&, Body_counts&);
 template void move_each(Body_state<3>&, std::span<const Point<3>>, const Body_options&,
-                        std::vector<Body_contact<3>>&, Body_counts&);
+                        std::vector<Contact<3>>&, Body_counts&);
 
 }  // namespace cellwalk::detail

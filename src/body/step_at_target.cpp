@@ -7,17 +7,6 @@
 #include "vertex_move.h"
 
 namespace cellwalk::detail {
-namespace {
-
-/// The wall that is touched, as walks report walls.
-template <int D>
-std::optional<Wall_contact<D>> touched_wall(const std::optional<Contact<D>>& touch) {
-  if (!touch) return {};
-  return Wall_contact<D>{touch->rounded_time(), touch->point,  touch->normal, touch->kind,
-                         touch->facet,          touch->corner, touch->cell};
-}
-
-}  // namespace
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
@@ -30,7 +19,8 @@ template <int D>
     if (body_.try_move_in_region(v, targets[v], counts_) ||
         (may_be_certified && try_certified_move(v, targets[v])))
       continue;
-    Rejected_move<D> answer = try_to_move(v, targets[v]);
+    Tried_move<D> tried = try_to_move(v, targets[v]);
+    const Rejected_move<D>& answer = tried.answer;
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
@@ -38,8 +28,8 @@ template <int D>
       if (answer.stays()) report.contacts.push_back(first_contact(answer, targets[v]));
       continue;
     }
-    locate_wall(answer, targets[v]);
-    report.blocked.push_back(answer);
+    report.blocked.push_back(std::move(tried.answer));
+    locate_wall(report.blocked.back(), tried.met, targets[v]);
   }
 }
 
@@ -49,18 +39,28 @@ const Corner& Target_step<D>::first_blocked(const Rejected_move<D>& blocked) con
   return body_.topology.corners_of(blocked.vertex)[static_cast<std::size_t>(std::countr_zero(blocked.edges))];
 }
 
-/// Where the wall is that keeps a vertex from moving, which walks and searches of chains left out.
+/// Completes the contact of a vertex that stays: walks and searches of chains left out where the wall is.
 template <int D>
-void Target_step<D>::locate_wall(Rejected_move<D>& blocked, const Point<D>& target) const {
-  if (blocked.is_vertex_blocked)
-    locate_contact(snapshot(), body_.positions[blocked.vertex], target, *blocked.contact);
-  else if (blocked.contact)
-    locate_contact(snapshot(), target, body_.positions[first_blocked(blocked).other], *blocked.contact);
+void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
+                                 const Point<D>& target) const {
+  if (!answer.stays()) return;
+  const std::uint32_t v = answer.vertex;
+  const Corner* edge = answer.is_vertex_blocked ? nullptr : &first_blocked(answer);
+  const Body_feature body = edge ? Body_feature::edge : Body_feature::vertex;
+  if (met) {
+    const Point<D>&from = edge ? target : body_.positions[v],
+          &to = edge ? body_.positions[edge->other] : target;
+    locate_contact(snapshot(), from, to, *met);
+    answer.contact.emplace(to_contact(*met, Exact_time(met->time), body));
+  }
+  answer.contact->body = body;
+  answer.contact->vertex = v;
+  answer.contact->feature = edge ? edge->edge : v;
 }
 
 /// The contact of a vertex that stays.
 template <int D>
-Body_contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
+Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
   const std::uint32_t vertex = blocked.vertex;
   Sweep_options segments = sweep_;
   segments.sweep = Sweep::three_segments;
@@ -72,11 +72,13 @@ Body_contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, c
   }
   // It touched a wall where it started.
   const Particle<D>& from = body_.particles[vertex];
-  const auto meeting = [&](const Point<D>& q, std::uint32_t edge) -> Body_contact<D> {
+  const auto meeting = [&](const Point<D>& q, std::uint32_t edge) {
     Contact<D> contact =
         closed_meeting<D>(snapshot(), from.cell, {from.position, target, q}, counts_.edges).value();
     if (blocked.is_vertex_blocked) contact.body = Body_feature::vertex;
-    return {contact, vertex, contact.body == Body_feature::vertex ? vertex : edge};
+    contact.vertex = vertex;
+    contact.feature = contact.body == Body_feature::vertex ? vertex : edge;
+    return contact;
   };
   if (blocked.is_vertex_blocked) return meeting(from.position, 0);
   const Corner& corner = first_blocked(blocked);
@@ -109,7 +111,8 @@ bool Target_step<D>::touches_wall() {
   return false;
 }
 
-/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves outside of regions.
+/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves
+/// outside of regions.
 template <int D>
 bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& target) {
   body_.refresh_vertex(vertex, counts_);
@@ -118,18 +121,7 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
   const Particle<D> to{target, from.cell, D, from.aimed};
   const bool is_inside = body_.region.holds_way(vertex, target);
   const auto corners = body_.topology.corners_of(vertex);
-  // What is given up here is counted where it is decided.
-  Edge_counts& edges = counts_.edges;
-  const auto give_up = [&edges, all = edges.edges, same_cell = edges.same_cell,
-                        convex_pair = edges.convex_pair, same_chain = edges.same_chain,
-                        chain_facets = edges.chain_facets] {
-    edges.edges = all;
-    edges.same_cell = same_cell;
-    edges.convex_pair = convex_pair;
-    edges.same_chain = same_chain;
-    edges.chain_facets = chain_facets;
-    return false;
-  };
+  Edge_proofs proofs;       // the edges of a move that is not made here are counted where it is decided
   std::uint64_t stale = 0;  // edges whose chain is left to be found when it is asked for
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
@@ -137,9 +129,9 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
       body_.refresh_vertex(corner.other, counts_);
       const Particle<D>& q = body_.particles[corner.other];
       if (sweep_.sweep == Sweep::three_segments) {
-        if (!is_certified_free(to, q)) return give_up();
-      } else if (!is_certified_free(from, to, q)) {
-        if (!refresh_certified_chain(from, to, corner)) return give_up();
+        if (!is_certified_free(to, q, proofs)) return false;
+      } else if (!is_certified_free(from, to, q, proofs)) {
+        if (!refresh_certified_chain(from, to, corner, proofs)) return false;
         continue;
       }
     }
@@ -147,6 +139,7 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
   }
   for (std::size_t i = 0; i < corners.size(); ++i)
     if (stale >> i & 1) body_.region.mark_edge(corners[i].edge, true);
+  proofs.add_to(counts_.edges);
   body_.are_faces_swept = false;
   body_.particles[vertex] = to;
   body_.place(vertex, target);
@@ -155,46 +148,46 @@ bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& ta
 
 /// True if an edge certainly meets no wall where it is.
 template <int D>
-inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q) {
-  Edge_counts& edges = counts_.edges;
+template <class Counts>
+inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs) {
   if (sweep_.certificates.same_cell && q.cell == p.cell)
-    ++edges.same_cell;
+    ++proofs.same_cell;
   else if (sweep_.certificates.convex_pair && snapshot().convex_passage(p.cell, q.cell) != Half_facet::none)
-    ++edges.convex_pair;
-  else if (certain_end(snapshot(), p, q.position, edges.walk) != q.cell)
+    ++proofs.convex_pair;
+  else if (certain_end(snapshot(), p, q.position, counts_.edges.walk) != q.cell)
     return false;
-  ++edges.edges;
+  ++proofs.edges;
   return true;
 }
 
-/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a convex union, and
-/// ends inside of them, so that there is but one chain from one to the other.
+/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a
+/// convex union, and ends inside of them, so that there is but one chain from one to the other.
 template <int D>
+template <class Counts>
 inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
-                                              const Particle<D>& q) {
+                                              const Particle<D>& q, Counts& proofs) {
   if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
-  Edge_counts& edges = counts_.edges;
   if (sweep_.certificates.same_cell && q.cell == to.cell)
-    ++edges.same_cell;
+    ++proofs.same_cell;
   else if (sweep_.certificates.convex_pair && q.cell != to.cell &&
            snapshot().convex_passage(to.cell, q.cell) != Half_facet::none)
-    ++edges.convex_pair;
+    ++proofs.convex_pair;
   else
     return false;
-  ++edges.edges;
+  ++proofs.edges;
   return true;
 }
 
-/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept then, and not stale.
+/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept
+/// then, and not stale.
 template <int D>
 bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Particle<D>& to,
-                                             const Corner& corner) {
+                                             const Corner& corner, Edge_proofs& proofs) {
   if (!sweep_.certificates.same_chain) return false;
-  Edge_counts& edges = counts_.edges;
   const Particle<D>& q = body_.particles[corner.other];
   const auto finds = [&](const Particle<D>& p, Chain& chain) {
     const Particle<D>&start = corner.is_reversed ? q : p, &end = corner.is_reversed ? p : q;
-    return certain_end(snapshot(), start, end.position, edges.walk, &chain) == end.cell;
+    return certain_end(snapshot(), start, end.position, counts_.edges.walk, &chain) == end.cell;
   };
   Chain chain;
   if (!finds(to, chain)) return false;
@@ -205,16 +198,17 @@ bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Part
     body_.region.mark_edge(corner.edge, false);
   }
   if (chain != kept) return false;
-  ++edges.edges;
-  ++edges.same_chain;
-  edges.chain_facets += chain.size();
+  ++proofs.edges;
+  ++proofs.same_chain;
+  proofs.chain_facets += chain.size();
   return true;
 }
 
 /// Moves a vertex, or leaves it where it is.
 template <int D>
-Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
-  Rejected_move<D> answer;
+Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
+  Tried_move<D> tried;
+  Rejected_move<D>& answer = tried.answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = body_.region.holds_way(vertex, target);
@@ -223,7 +217,8 @@ Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D
   Particle<D> to = from;
   Move_scratch& scratch = body_.scratch;
   scratch.clear_walk();
-  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked for.
+  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked
+  // for.
   const bool needs_way = sweep_.sweep != Sweep::three_segments;
   const std::uint64_t signs_before = signs();
   Walk_options recorded;
@@ -234,18 +229,16 @@ Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D
   }
   if (const Walk_result<D> walked = cellwalk::move(snapshot(), to, target, counts_.edges.walk, recorded);
       walked.contact) {
-    answer.is_vertex_blocked = true;
-    answer.contact = walked.contact;
-    return answer;
+    answer.is_vertex_blocked = tried.keep(walked.contact);
+    return tried;
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
   const bool is_apart = body_.is_apart && signs() == signs_before;
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =
             closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
-      answer.is_vertex_blocked = true;
-      answer.contact = touched_wall(touch);
-      return answer;
+      answer.is_vertex_blocked = tried.keep(touch);
+      return tried;
     }
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
   const auto corners = body_.topology.corners_of(vertex);
@@ -255,26 +248,26 @@ Rejected_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D
     const bool is_in_region = is_inside && !body_.region.is_outside(corners[i].other);
     moved.is_stale = !needs_way || is_in_region;
     if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, answer)
-                                  : meets_at_end(path, corners[i], answer);
+    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, tried)
+                                  : meets_at_end(path, corners[i], tried);
     if (is_met) answer.edges |= std::uint64_t{1} << i;
   }
-  if (answer.stays()) return answer;
+  if (answer.stays()) return tried;
   body_.are_faces_swept = false;
   body_.commit(vertex, to, scratch.chains);
-  return answer;
+  return tried;
 }
 
 /// True if the edge of a corner meets a wall where its vertex goes.
 template <int D>
-bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner,
-                                  Rejected_move<D>& answer) {
+bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
   Edge_counts& edges = counts_.edges;
-  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p is inside of a cell.
+  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p
+  // is inside of a cell.
   const bool stops = sweep_.touch == Touch::stop;
-  if (is_certified_free(path.to, q)) {
+  if (is_certified_free(path.to, q, edges)) {
     if (!stops || (body_.is_apart && path.to.dimension == D)) return false;
   } else {
     ++edges.edges;
@@ -286,25 +279,19 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corn
   const bool is_plain = body_.is_apart && signs() == signs_before;
   if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
   // Where a wall is passed in its inside, no other way helps.
-  std::optional<Wall_contact<D>> contact = walked.contact;
-  if (!contact || contact->kind != Contact_kind::facet) {
-    if (stops)
-      contact = touched_wall(closed_meeting<D>(snapshot(), path.to.cell,
-                                               {path.to.position, q.position, path.to.position}, edges));
-    else
-      contact = find_any_chain(snapshot(), path.to, q, edges.walk).contact;
-  }
-  if (contact && !answer.contact) answer.contact = contact;
-  return contact.has_value();
+  if (walked.contact && walked.contact->kind == Contact_kind::facet) return tried.keep(walked.contact);
+  if (!stops) return tried.keep(find_any_chain(snapshot(), path.to, q, edges.walk).contact);
+  return tried.keep(
+      closed_meeting<D>(snapshot(), path.to.cell, {path.to.position, q.position, path.to.position}, edges));
 }
 
 /// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
 template <int D>
 bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                                        Moved_chain& moved, Rejected_move<D>& answer) {
+                                        Moved_chain& moved, Tried_move<D>& tried) {
   body_.refresh_vertex(corner.other, counts_);
   const Particle<D>& q = body_.particles[corner.other];
-  if (is_certified_free(path.from, path.to, q)) {
+  if (is_certified_free(path.from, path.to, q, counts_.edges)) {
     moved.is_stale = true;
     return false;
   }
@@ -322,7 +309,7 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
     moved.chain = std::move(free->chain);
     return false;
   }
-  answer.swept_edges |= std::uint64_t{1} << number;
+  tried.answer.swept_edges |= std::uint64_t{1} << number;
   const std::uint64_t signs_before = signs();
   Chain_result<D> anew = find_chain(snapshot(), path.to, q, edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
@@ -331,16 +318,13 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
   if (stops && !is_crossed) {
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      anew.contact = touched_wall(meeting(path.to.cell, {path.to.position, q.position, path.to.position}));
-      if (!anew.contact) anew = find_any_chain(snapshot(), path.to, q, edges.walk);
+      if (tried.keep(meeting(path.to.cell, {path.to.position, q.position, path.to.position}))) return true;
+      anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {
     anew = find_any_chain(snapshot(), path.to, q, edges.walk);
   }
-  if (anew.contact) {
-    if (!answer.contact) answer.contact = anew.contact;
-    return true;
-  }
+  if (tried.keep(anew.contact)) return true;
   moved.chain = std::move(anew.chain);
   return false;
 }

@@ -1,16 +1,48 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide, and what meets a wall
-// stays where it is.
+// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide,
+// and what meets a wall stays where it is.
 #ifndef CELLWALK_BODY_STEP_AT_TARGET_H
 #define CELLWALK_BODY_STEP_AT_TARGET_H
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "body_state.h"
 
 namespace cellwalk::detail {
+
+/// What came of the move of a vertex. The wall in the way is one that is touched, `answer.contact`, or one
+/// that a walk met: that is not located yet.
+template <int D>
+struct Tried_move {
+  Rejected_move<D> answer;
+  std::optional<Wall_contact<D>> met;
+
+  /// Keeps the first wall. True if there is one.
+  bool keep(const std::optional<Wall_contact<D>>& wall) {
+    if (wall && !met && !answer.contact) met = wall;
+    return wall.has_value();
+  }
+  bool keep(const std::optional<Contact<D>>& touch) {
+    if (touch && !met && !answer.contact) answer.contact = touch;
+    return touch.has_value();
+  }
+};
+
+/// How edges were proved free: the counts of an attempt, which are added once it succeeds.
+struct Edge_proofs {
+  std::uint64_t edges = 0, same_cell = 0, convex_pair = 0, same_chain = 0, chain_facets = 0;
+
+  void add_to(Edge_counts& counts) const {
+    counts.edges += edges;
+    counts.same_cell += same_cell;
+    counts.convex_pair += convex_pair;
+    counts.same_chain += same_chain;
+    counts.chain_facets += chain_facets;
+  }
+};
 
 template <int D>
 class Target_step {
@@ -27,16 +59,22 @@ class Target_step {
   void find_out_if_apart();
   bool touches_wall();
   bool try_certified_move(std::uint32_t vertex, const Point<D>& target);
-  Rejected_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
-  bool is_certified_free(const Particle<D>& p, const Particle<D>& q);
-  bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q);
-  bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner);
-  bool meets_at_end(const Vertex_path<D>& path, const Corner& corner, Rejected_move<D>& answer);
+  Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
+  // They count in Edge_counts, or in the Edge_proofs of an attempt; walks always count in the former.
+  template <class Counts>
+  bool is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs);
+  template <class Counts>
+  bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
+                         Counts& proofs);
+  bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
+                               Edge_proofs& proofs);
+  bool meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried);
   bool sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                          Moved_chain& moved, Rejected_move<D>& answer);
+                          Moved_chain& moved, Tried_move<D>& tried);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
-  void locate_wall(Rejected_move<D>& blocked, const Point<D>& target) const;
-  Body_contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
+  void locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
+                   const Point<D>& target) const;
+  Contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
 
   Body_state<D>& body_;
   const Sweep_options& sweep_;

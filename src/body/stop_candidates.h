@@ -9,9 +9,10 @@
 
 namespace cellwalk::detail {
 
-/// Offers positions to `try_at` until it returns true: the exact point p(s) with each coordinate rounded up or down,
-/// towards p first; these points shifted along the normal by 1, 2, 4 .. 1024 ulp of the largest coordinate, at the origin of p's; then
-/// p(s (1 - 2^-k)) for k = 20 .. 1. s is the time of the contact. False if it never does.
+/// Offers positions to `try_at` until it returns true: the exact point p(s) with each coordinate rounded up
+/// or down, towards p first; these points shifted along the normal by 1, 2, 4 .. 1024 ulp of the largest
+/// coordinate, at the origin of p's; then p(s (1 - 2^-k)) for k = 20 .. 1. s is the time of the contact.
+/// False if it never does.
 /// \pre the contact is not at time 0
 template <int D>
 bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,

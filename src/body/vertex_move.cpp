@@ -6,7 +6,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first edge.
+/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first
+/// edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {
   if (const auto order = a.time <=> b.time; order != 0) return order < 0;
@@ -16,14 +17,14 @@ bool meets_before(const Contact<D>& a, const Contact<D>& b) {
 }  // namespace
 
 template <int D>
-std::optional<Body_contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                        const Point<D>& target, const Sweep_options& options,
-                                        Body_counts& counts, bool any) {
+std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                   const Point<D>& target, const Sweep_options& options, Body_counts& counts,
+                                   bool any) {
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) take_up_faces(body, counts);
   if (target == body.positions[vertex]) return {};
   Particle<D> to;
-  if (const auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
+  if (auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
   body.are_faces_swept &= options.sweep == Sweep::faces;
   body.is_apart = false;
   for (const auto& [face, supporting_walls] : scratch.supporting_walls)
@@ -33,9 +34,9 @@ std::optional<Body_contact<D>> try_move(Body_state<D>& body, Move_scratch& scrat
 }
 
 template <int D>
-std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                            const Point<D>& target, const Sweep_options& options,
-                                            Body_counts& counts, bool any, Particle<D>& to) {
+std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                       const Point<D>& target, const Sweep_options& options,
+                                       Body_counts& counts, bool any, Particle<D>& to) {
   const Snapshot<D>& snapshot = *body.snapshot;
   const auto corners = body.topology.corners_of(vertex);
   body.refresh_vertex(vertex, counts);
@@ -45,16 +46,19 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
   scratch.clear_walk();
   const Walk_result<D> walked =
       cellwalk::move(snapshot, to, target, counts.edges.walk,
-                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed});
+                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed, !any});
   to.position = target;
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
-  std::optional<Body_contact<D>> first;
+  std::optional<Contact<D>> first;
+  const auto keep = [&](const Contact<D>& contact, std::uint32_t feature) {
+    first = contact;
+    first->vertex = vertex;
+    first->feature = feature;
+  };
   if (walked.contact)
-    first = {vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex,
-             vertex};
+    keep(vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex);
   else if (options.touch == Touch::stop)
-    if (const auto touch = first_touch(snapshot, from, target, counts.edges))
-      first = {*touch, vertex, vertex};
+    if (const auto touch = first_touch(snapshot, from, target, counts.edges)) keep(*touch, vertex);
   if (any && first) return first;
 
   scratch.chains.resize(corners.size());
@@ -62,9 +66,8 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
     const Corner& corner = corners[i];
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
                                              body.seen_from(corner), options, counts.edges);
-    if (swept.contact && (!first || meets_before(*swept.contact, first->contact))) {
-      const bool is_edge = swept.contact->body == Body_feature::edge;
-      first = {*swept.contact, vertex, is_edge ? corner.edge : vertex};
+    if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
+      keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
       if (any) return first;
     }
     Moved_chain& moved = scratch.chains[i];
@@ -78,13 +81,12 @@ std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& s
   return first;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template std::optional<Body_contact<D>> try_move(Body_state<D>&, Move_scratch&, std::uint32_t,            \
-                                                   const Point<D>&, const Sweep_options&, Body_counts&,     \
-                                                   bool);                                                   \
-  template std::optional<Body_contact<D>> find_contact(Body_state<D>&, Move_scratch&, std::uint32_t,        \
-                                                       const Point<D>&, const Sweep_options&, Body_counts&, \
-                                                       bool, Particle<D>&);
+#define CELLWALK_INSTANTIATE(D)                                                                              \
+  template std::optional<Contact<D>> try_move(Body_state<D>&, Move_scratch&, std::uint32_t, const Point<D>&, \
+                                              const Sweep_options&, Body_counts&, bool);                     \
+  template std::optional<Contact<D>> find_contact(Body_state<D>&, Move_scratch&, std::uint32_t,              \
+                                                  const Point<D>&, const Sweep_options&, Body_counts&, bool, \
+                                                  Particle<D>&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

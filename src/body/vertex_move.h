@@ -12,22 +12,24 @@
 
 namespace cellwalk::detail {
 
-/// Moves a vertex to a target, or leaves everything as it is and returns the first contact, with `any` set some contact.
+/// Moves a vertex to a target, or leaves everything as it is and returns the first contact; with `any` set
+/// some contact, which need not have a place.
 template <int D>
-std::optional<Body_contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                        const Point<D>& target, const Sweep_options& options,
-                                        Body_counts& counts, bool any = false);
+std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                   const Point<D>& target, const Sweep_options& options, Body_counts& counts,
+                                   bool any = false);
 
-/// Only looks for it. If there is none, the scratch holds what the move takes to be made, and `to` the vertex at its target.
+/// Only looks for it. If there is none, the scratch holds what the move takes to be made, and `to` the vertex
+/// at its target.
 template <int D>
-std::optional<Body_contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                            const Point<D>& target, const Sweep_options& options,
-                                            Body_counts& counts, bool any, Particle<D>& to);
+std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                       const Point<D>& target, const Sweep_options& options,
+                                       Body_counts& counts, bool any, Particle<D>& to);
 
 /// Moves vertex by vertex by Edge_rule::swept, those that the region holds without a test.
 template <int D>
 void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
-               std::vector<Body_contact<D>>& contacts, Body_counts& counts);
+               std::vector<Contact<D>>& contacts, Body_counts& counts);
 
 }  // namespace cellwalk::detail
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk check ENV: certifies an environment, its map included, and says what it holds.
+// cellwalk check ENV: certifies an environment, including its map, and reports its content.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

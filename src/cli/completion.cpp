@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk completion SHELL: a script that completes command lines, made of the commands and options that there are.
+// cellwalk completion SHELL: a script that completes command lines, made from the commands and options of the
+// program. CLI11 makes no such scripts.
 #include <fmt/format.h>
 
 #include <memory>
@@ -13,7 +14,7 @@ namespace {
 
 enum class Shell { bash, zsh, fish };
 
-/// A command with the words that lead to it.
+/// A command with its path of words.
 struct Known_command {
   std::string path;  ///< such as /generate/hexes; empty: the program itself
   const CLI::App* app;
@@ -32,7 +33,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
-/// What an option can be followed by, where that is one of a few words.
+/// The values of an option, if it has a fixed set of them.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return type.find('|') == std::string::npos ? std::vector<std::string>{} : CLI::detail::split(type, '|');

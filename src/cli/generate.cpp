@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk generate KIND ... -o ENV.ovm: environments that need no file.
+// cellwalk generate KIND ... -o ENV.ovm: environments made without a file.
 #include <cellwalk/internal/io/numbers.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/generators.h>
@@ -77,7 +77,7 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
     chosen = [options, name] {
       Outputs outputs({});
       const Files files{outputs.file(options->environment), outputs.file(options->json)};
-      std::visit([&](auto&& soup) { write_environment(std::move(soup), *options, outputs, files); },
+      std::visit([&](auto soup) { write_environment(std::move(soup), *options, outputs, files); },
                  generate(name, options->values));
     };
   });

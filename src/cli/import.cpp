@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk import MESH -o ENV.ovm: any mesh becomes a certified environment, and every change is reported.
+// cellwalk import MESH -o ENV.ovm: converts any mesh to a certified environment, and reports every change.
 #include <cellwalk/io/ovm.h>
 
 #include <fmt/format.h>
@@ -25,9 +25,9 @@ struct Options {
   Import_options import;
 };
 
-constexpr double least_size = std::numeric_limits<double>::denorm_min();  // what is greater than 0
+constexpr double least_size = std::numeric_limits<double>::denorm_min();  // anything greater than 0
 
-/// A finite number not below a bound.
+/// A finite number that is not below a bound.
 auto number_from(double least, const char* bound) {
   return [least, bound](const std::string& text) {
     double value = 0;
@@ -36,7 +36,7 @@ auto number_from(double least, const char* bound) {
   };
 }
 
-/// Those of the meshers this build has.
+/// Adds the options of the meshers in this build.
 void add_mesher_options(CLI::App& command, Mesher_options& options) {
   if (!mesher_parts().meshing) return;
   add_choice(

@@ -22,7 +22,7 @@ namespace {
 using cellwalk::Error;
 using cellwalk::Error_code;
 
-/// Files half written go when the program is interrupted.
+/// Removes unfinished files when the program is interrupted.
 void discard_and_stop(int signal) {
   cellwalk::io::discard_unfinished_files();
   std::signal(signal, SIG_DFL);
@@ -31,24 +31,24 @@ void discard_and_stop(int signal) {
 
 constexpr std::size_t longest_name = 255;  // bytes that Linux allows
 
-/// A word, or the beginning of one that is too long to be read in a line.
+/// A word, or the beginning of one that is too long for a line.
 std::string shortened(std::string_view word, std::size_t longest = 100) {
   constexpr std::size_t shown = 40;  // bytes
   if (word.size() <= longest) return std::string(word);
   return fmt::format("{}...", word.substr(0, shown));
 }
 
-/// What is wrong with a command line can quote it: long words are quoted shortened. Names of files can be longer.
+/// A message with long words of the command line shortened. File names may be longer.
 std::string with_short_words(std::string message, std::span<char* const> words, Error_code code) {
   const auto shorten = [&](std::string_view word) {
     const std::string brief = code == Error_code::usage ? shortened(word) : shortened(word, longest_name);
     if (brief.size() == word.size()) return;
-    for (std::size_t at = 0; (at = message.find(word, at)) != message.npos; at += brief.size())
+    for (std::size_t at = 0; (at = message.find(word, at)) != std::string::npos; at += brief.size())
       message.replace(at, word.size(), brief);
   };
   for (const std::string_view word : words) {
     shorten(word);
-    shorten(word.substr(std::min(word.find('=') + 1, word.size())));  // what --option=VALUE gives
+    shorten(word.substr(std::min(word.find('=') + 1, word.size())));  // the value of --option=VALUE
   }
   return message;
 }
@@ -59,7 +59,7 @@ int fail(Error_code code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-/// What is wrong with a command line. A word that no command knows explains more than what is missing because of it.
+/// The error in a command line. An unknown word explains more than an argument that is missing because of it.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = app.remaining(true);
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
@@ -68,7 +68,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   return message + "; see cellwalk --help";
 }
 
-/// No command takes an empty word, which a script makes of a variable that is not set. Empty: there is none.
+/// Refuses empty words, which come from unset variables of scripts; no command accepts one. Returns an empty
+/// text if there is none.
 std::string empty_word(std::span<char* const> words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string_view word = words[i];
@@ -101,7 +102,7 @@ int run(const cellwalk::cli::Action& action, std::span<char* const> words) {
 int main(int argc, char** argv) {
   using namespace cellwalk::cli;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, discard_and_stop);
-  // A reader that goes away and a limit of file sizes are errors of writing, after which nothing is left behind.
+  // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   if (const std::string problem = empty_word(words); !problem.empty())

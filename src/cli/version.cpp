@@ -19,11 +19,11 @@
 namespace cellwalk::cli {
 namespace {
 
-/// A part of the program that a build may lack, or that comes in versions.
+/// A part of the program that a build may lack, or that has versions.
 struct Part {
   std::string_view name;
   bool present;
-  std::string version;  ///< empty if absent, or if it has none of its own
+  std::string version;  ///< empty if it is absent, or has none of its own
   std::string_view purpose;
 };
 
@@ -57,7 +57,7 @@ nlohmann::ordered_json as_json() {
         {"version", part.version.empty() ? nullptr : nlohmann::ordered_json(part.version)},
         {"purpose", part.purpose}};
   nlohmann::ordered_json json = machine_json();
-  json.erase("cpu");  // of the machine, not of the program
+  json.erase("cpu");  // a property of the machine, not of the program
   json["parts"] = all;
   return json;
 }
@@ -73,7 +73,7 @@ void add_version(CLI::App& app) {
   CLI::Option* const version = app.set_version_flag(
       "--version",
       [json, &app] {
-        // CLI11 asks before it looks at what it did not understand.
+        // CLI11 calls this before it checks for unknown arguments.
         if (const auto unknown = app.remaining(true); !unknown.empty())
           throw Error(Error_code::usage, unknown.front() + " is not known here; see cellwalk --help");
         if (json->count() == 0) return as_text();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk view DIR -o run.html: one page that replays a run in a browser, without network.
+// cellwalk view DIR -o run.html: one page that replays a run in a browser, without a network.
 #include <cellwalk/internal/io/recording_file.h>
 
 #include <fmt/core.h>
@@ -40,7 +40,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-/// JSON within a script element: nothing in it may end the element.
+/// JSON within a script element, without text that could end the element.
 std::string embedded(const nlohmann::ordered_json& value) {
   std::string text;
   for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))
@@ -48,7 +48,7 @@ std::string embedded(const nlohmann::ordered_json& value) {
   return text;
 }
 
-/// The page, with each piece of data in the place of its mark.
+/// The page, with each piece of data in place of its mark.
 std::string page_of(const Run_results& results) {
   std::string page;
   std::string_view rest = viewer_page;

@@ -15,10 +15,7 @@ constexpr double head_length = 0.35;  // of an arrow
 constexpr double head_radius = 2.6;   // in radii of its shaft
 constexpr Vector<3> out_of_plane{0, 0, 1};
 
-Vector<3> unit(const Vector<3>& v) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : Vector<3>{0, 0, 1};
-}
+Vector<3> unit(const Vector<3>& v) { return normalized(v, out_of_plane); }
 
 /// A unit vector orthogonal to the unit vector `axis`.
 Vector<3> orthogonal(const Vector<3>& axis) {
@@ -40,7 +37,7 @@ struct Cross_section {
   std::array<Vector<3>, tube_sides> directions;
 };
 
-/// Directions round `axis`, the first one next to `start`.
+/// Directions around `axis`, the first one closest to `start`.
 Cross_section make_ring(const Vector<3>& axis, const Vector<3>& start) {
   const Vector<3> u = unit(start - dot(start, axis) * axis), v = cross(axis, u);
   Cross_section ring;
@@ -51,7 +48,7 @@ Cross_section make_ring(const Vector<3>& axis, const Vector<3>& start) {
   return ring;
 }
 
-/// The side of a cone or cylinder between two rings. `slope` leans the normals along the axis a to b.
+/// The side of a cone or cylinder between two rings. `slope` inclines the normals along the axis from a to b.
 void add_side(Drawing& drawing, const Point<3>& a, double radius_a, const Cross_section& ring_a,
               const Point<3>& b, double radius_b, const Cross_section& ring_b, std::uint32_t material) {
   const Vector<3> axis = unit(b - a);

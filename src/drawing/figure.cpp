@@ -15,7 +15,7 @@ constexpr Colour white{1, 1, 1}, ink{0.10, 0.12, 0.15};
 // Pixels.
 constexpr int margin = 14, title_height = 40, legend_row_height = 34, swatch_width = 46;
 constexpr double title_size = 16, label_size = 15, legend_text_size = 13;
-constexpr double halo = 2.2;  // white round a label, so that it can be read on lines
+constexpr double halo = 2.2;  // white around a label, so that it can be read on lines
 constexpr int halo_directions = 16;
 constexpr double circle = 6.283185307179586;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The renderer: bands of rows, each with a depth buffer for opaque triangles and a list of fragments per sample for
-// translucent ones, which are sorted by depth before they are blended.
+// The renderer: bands of rows, each with a depth buffer for opaque triangles and a list of fragments per
+// sample for translucent ones, which are sorted by depth before they are blended. Not by VTK, which is
+// optional here: pictures of a scene are equal in every build and need no graphics driver.
 #include <cellwalk/internal/drawing/picture.h>
 #include <cellwalk/kernel/error.h>
 
@@ -19,7 +20,7 @@ using detail::Projected;
 constexpr int subpixel = 256;    // corners are snapped to this fraction of a sample: exact edge functions
 constexpr int band_pixels = 16;  // rows of pixels drawn at once: bounds the memory of the fragment lists
 constexpr double opaque_from = 0.995;
-constexpr double rim_power = 2.5;           // how fast the rim fades away from the outline
+constexpr double rim_power = 2.5;           // the rate at which the rim fades from the outline
 constexpr double caption_size = 0.019;      // capitals' height in picture heights
 constexpr double largest_projection = 1e6;  // samples; a corner further off is not drawn
 
@@ -48,7 +49,7 @@ struct Lights {
   Vec3 key, fill;
 };
 
-/// The look of a point of a surface whose unit normal n faces the eye.
+/// The colour of a point of a surface whose unit normal n faces the eye.
 Fragment shade(const Material& material, Vec3 n, Vec3 eye, const Lights& lights, float near) {
   Fragment f{near,
              static_cast<float>(material.colour.red),
@@ -129,7 +130,7 @@ void Band::fill(const Screen_triangle& t, const Material& material, const Lights
         const std::size_t a = v[(i + 1) % 3], b = v[(i + 2) % 3];
         const std::int64_t dx = t.x[b] - t.x[a], dy = t.y[b] - t.y[a];
         const std::int64_t e = dx * (py - t.y[a]) - dy * (px - t.x[a]);
-        // A sample on a common edge belongs to one of its two triangles: no seams, no double layers.
+        // A sample on a common edge belongs to exactly one of its two triangles.
         inside = e > 0 || (e == 0 && (dy > 0 || (dy == 0 && dx < 0)));
         weight[i] = static_cast<float>(static_cast<double>(e) / static_cast<double>(area));
       }
@@ -182,7 +183,7 @@ void check(const Picture_options& options) {
 
 std::uint8_t to_byte(float c) { return static_cast<std::uint8_t>(std::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
-/// Triangles in samples, in drawing order; those too far off the picture to be snapped are left out.
+/// Triangles in samples, in drawing order, without those too far off the picture to be snapped.
 std::vector<Screen_triangle> project(const Drawing& drawing, const Picture_view& view, int samples) {
   std::vector<Screen_triangle> result;
   result.reserve(drawing.triangles.size());
@@ -237,7 +238,7 @@ Image render(const Drawing& drawing, const Picture_options& options) {
   for (int b = 0; b < bands; ++b) {
     const int first = b * band_pixels, rows = std::min(band_pixels, options.height - first);
     Band band(options.width * samples, first * samples, rows * samples);
-    for (const bool opaque : {true, false})  // opaque first: what they hide is not collected
+    for (const bool opaque : {true, false})  // opaque first, so that fragments behind them are not collected
       for (const std::uint32_t i : in_band[static_cast<std::size_t>(b)])
         if (is_opaque(triangles[i]) == opaque)
           band.fill(triangles[i], drawing.materials[triangles[i].material], lights, opaque,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// PNG, the little of it that a picture needs: one colour type, zlib for the rest.
+// PNG with one colour type: a few lines with zlib, which is needed anyway, instead of a dependency on libpng.
 #include <cellwalk/internal/drawing/picture.h>
 #include <cellwalk/kernel/error.h>
 
@@ -22,7 +22,7 @@ void append_chunk(std::string& out, const std::string& type, const std::string& 
                                                       static_cast<uInt>(body.size()))));
 }
 
-/// A row as differences from the row above (filter type 2, Up): smooth pictures compress well.
+/// A row as differences from the row above (filter type 2, Up); smooth pictures compress well.
 void append_row(std::string& out, const std::uint8_t* row, const std::uint8_t* above, std::size_t size) {
   out += '\2';
   for (std::size_t i = 0; i < size; ++i)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A stroke font, so that captions need neither a font file nor a library.
 //
-// A glyph is an advance width and strokes separated by ';'. A stroke is a run of points, two hexadecimal digits each:
-// x, and y counted up from the descender line (baseline 3, lower-case height 9, capitals c). '~' rounds the corners.
+// A glyph is an advance width and strokes separated by ';'. A stroke is a run of points, two hexadecimal
+// digits each: x, and y counted up from the descender line (baseline 3, lower-case height 9, capitals c). '~'
+// rounds the corners.
 #include <cellwalk/internal/drawing/picture.h>
 
 #include <algorithm>

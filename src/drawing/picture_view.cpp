@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "picture_view.h"
 
+#include <cellwalk/internal/kernel/box.h>
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -8,23 +10,16 @@
 namespace cellwalk::drawing::detail {
 namespace {
 
-constexpr double margin = 0.06;         // of the smaller side of the picture, left free all round
-constexpr double caption_strip = 0.05;  // of the height, kept free below for the caption
-constexpr double tilt = 0.35;           // of an automatic view, so that depth can be seen
+constexpr double margin = 0.06;         // left free on all sides, of the smaller side of the picture
+constexpr double caption_strip = 0.05;  // left free at the bottom for the caption, of the height
+constexpr double tilt = 0.35;           // of an automatic view, to show the depth
 
-struct Box {
-  Point<3> low, high;
-};
+using Box = cellwalk::detail::Box<3>;
 
 Box box_of(const Drawing& drawing) {
-  constexpr double big = std::numeric_limits<double>::infinity();
-  Box box{{big, big, big}, {-big, -big, -big}};
+  Box box;
   for (const Picture_triangle& t : drawing.triangles)
-    for (const Point<3>& p : t.corners)
-      for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] = std::min(box.low[i], p[i]);
-        box.high[i] = std::max(box.high[i], p[i]);
-      }
+    for (const Point<3>& p : t.corners) box.extend(p);
   return box;
 }
 
@@ -33,8 +28,6 @@ Vector<3> unit_axis(std::size_t i) {
   e[i] = 1;
   return e;
 }
-
-Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
 
 }  // namespace
 
@@ -52,15 +45,16 @@ Picture_view::Picture_view(const Drawing& drawing, const Picture_options& option
 
   const Camera& camera = options.camera;
   if (length(camera.toward) > 0) {
-    toward_ = unit(camera.toward);
+    toward_ = normalized(camera.toward);
   } else {
     toward_ = unit_axis(order[2]);
-    if (!flat) toward_ = unit(toward_ + tilt * unit_axis(order[1]) - (0.4 * tilt) * unit_axis(order[0]));
+    if (!flat)
+      toward_ = normalized(toward_ + tilt * unit_axis(order[1]) - (0.4 * tilt) * unit_axis(order[0]));
   }
   Vector<3> up = length(camera.up) > 0 ? camera.up : unit_axis(order[1]);
   if (length(cross(up, toward_)) < 1e-6 * length(up)) up = unit_axis(order[0]);
   if (length(cross(up, toward_)) < 1e-6 * length(up)) up = unit_axis(order[2]);
-  right_ = unit(cross(up, toward_));
+  right_ = normalized(cross(up, toward_));
   up_ = cross(toward_, right_);
 
   // The box seen in the frame of the view gives the centre, all corners give the distance.
@@ -109,7 +103,7 @@ Projected Picture_view::project(const Point<3>& p) const {
 }
 
 Vector<3> Picture_view::toward_eye(const Point<3>& p) const {
-  return is_perspective() ? unit(centre_ + distance_ * toward_ - p) : toward_;
+  return is_perspective() ? normalized(centre_ + distance_ * toward_ - p) : toward_;
 }
 
 }  // namespace cellwalk::drawing::detail

@@ -7,8 +7,9 @@
 
 namespace cellwalk::drawing::detail {
 
-/// A point on the picture: pixels from the upper left, and the reciprocal of its distance from the eye (parallel
-/// projection: minus the distance). Larger `near` is nearer; it is linear on the picture for flat triangles.
+/// A point in the picture: pixels from the upper left, and the reciprocal of its distance from the eye
+/// (parallel projection: minus the distance). Points with larger `near` are nearer; `near` is linear in the
+/// picture over a flat triangle.
 struct Projected {
   double x, y, near;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edits of an environment. Each first finds out whether the result would be certified, then changes map and snapshot.
+// Edits of an environment. Each first checks whether the result would be certified, then changes map and
+// snapshot.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/flatten.h>
@@ -24,8 +25,8 @@ void check_finite(const Point<D>& position) {
     throw Error(Error_code::input, "the new position is not finite: correct its coordinates");
 }
 
-/// True if p lies strictly inside facet i of the cell: on the inner side of its plane, and not in it.
-/// \pre the first D vertices of the loop span the facet, as Snapshot has them
+/// True if p lies strictly on the inner side of the plane of facet i.
+/// \pre the first D vertices of the loop span the facet, as in a Snapshot
 bool is_strictly_inside(const Cell_view<2>& cell, std::size_t i, const Point<2>& p) {
   Predicate_counts counts;
   const auto loop = cell.loop(i);
@@ -38,7 +39,8 @@ bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>&
   return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), p) < 0;
 }
 
-/// Keeps an index of the boundary true. Where memory runs out there is none, and it is made anew when it is needed.
+/// Updates the index of the boundary. If memory runs out, the index is dropped, and rebuilt when it is
+/// needed.
 template <int D>
 void follow(std::unique_ptr<detail::Boundary_index<D>>& index,
             std::span<const typename detail::Boundary_index<D>::Entry> old,
@@ -101,8 +103,8 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
                                                  std::to_string(snapshot_.index(c)) + " would be wrong, " +
                                                  describe(check));
   }
-  // Every sign is affine in the position of the point, so that the cells stay sound all along the way from where it
-  // was, and the angles round inner ridges with them. Only the boundary may run into other cells.
+  // Every sign is affine in the position of the point, so the cells stay sound on the whole path from the old
+  // position, as do the angles around inner ridges. Only the boundary may enter other cells.
   if (on_boundary) check_moved_boundary(point, star);
 }
 
@@ -111,7 +113,7 @@ void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector
   std::vector<Half_facet> near = boundary_->meeting(detail::box_of(snapshot_, star));
   detail::certify_boundary_of_star<D>(snapshot_, star, near);
   if (allow_duplicates_) return;
-  // In the place of an inner vertex the star would overlap the cells of that.
+  // At the position of an inner vertex, the star would overlap the cells of that vertex.
   const auto points = snapshot_.points();
   for (const Half_facet f : near)
     for (const std::uint32_t p : snapshot_.loop(f))
@@ -168,8 +170,8 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
                                                  std::to_string(i) + " is in the way");
     facets.push_back(storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))]);
   }
-  // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive: nothing is left
-  // to check.
+  // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive:
+  // nothing is left to check.
   const std::uint32_t point = snapshot_.add_point(position);
   insert_vertex_in_cell<D>(storage, facets, point, position);
   const Flat_cells<D> flat = flatten_cells<D>(storage, facets);

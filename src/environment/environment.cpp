@@ -24,7 +24,7 @@ Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_repo
   if (soup.cell_count() == 0)
     throw Error(Error_code::input, "there are no cells: an environment needs at least one");
   clean_points(soup, options.duplicates, report);
-  if (report.merged_points) check_soup(soup);  // merging may have put a vertex into a facet twice
+  if (report.merged_points) check_soup(soup);  // after merging, a facet may have a vertex twice
   report.flipped = flip_if_inverted(soup);
   if (!options.split) return soup;
   std::vector<std::uint32_t> origin;
@@ -64,7 +64,7 @@ Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& opt
     environment.snapshot_ = Snapshot<D>::compile(flat.soup, flat.gluing, &slots);
     assign_half_facets<D>(storage, flat.darts, slots, environment.snapshot_.half_facet_slots());
   } else {
-    // Flattening the map would give back just this soup.
+    // Flattening the map would return exactly this soup.
     environment.snapshot_ = Snapshot<D>::compile(soup, gluing);
   }
   done.certificate = cellwalk::certify(environment.snapshot_, environment.allow_duplicates_);
@@ -99,7 +99,8 @@ Cell_soup<D> Environment<D>::soup() const {
       soup.add_facet(loop, snapshot_.is_impassable(f));
       ++facet;
       if constexpr (D == 2) {
-        // The snapshot may hold the edges of a cell in any order, a soup holds them in their order round it.
+        // The snapshot may store the edges of a cell in any order; a soup stores them in order around the
+        // cell.
         for (std::size_t j = 0; j < n; ++j)
           if (snapshot_.loop(snapshot_.half_facet(c, j))[0] == loop[1]) facet = j;
       }

@@ -10,17 +10,11 @@
 #include <string>
 #include <utility>
 
+#include "environment/soup/describe_place.h"
 #include "environment/soup/parallel.h"
 
 namespace cellwalk {
 namespace {
-
-template <int D>
-std::string place(const Point<D>& p) {
-  std::string text = "(";
-  for (int i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
-  return text + ")";
-}
 
 /// Points that some cell uses, in order. \throw Error(input) if one of them is not finite
 template <int D>
@@ -38,7 +32,7 @@ std::vector<std::uint32_t> used_points(const Cell_soup<D>& soup) {
   return used;
 }
 
-/// Pairs (point, the lowest point in the same place) for points of equal coordinates, sorted.
+/// Pairs (point, lowest point at the same position) for points of equal coordinates, sorted.
 template <int D>
 std::vector<std::pair<std::uint32_t, std::uint32_t>> find_duplicates(const std::vector<Point<D>>& points,
                                                                      std::vector<std::uint32_t> used) {
@@ -107,7 +101,7 @@ void clean_points(Cell_soup<D>& soup, Duplicate_vertices duplicates, Build_repor
   if (!equal.empty() && duplicates == Duplicate_vertices::refuse)
     throw Error(Error_code::not_certified, "points " + std::to_string(equal[0].second) + " and " +
                                                std::to_string(equal[0].first) + " lie in the same place " +
-                                               place<D>(soup.points[equal[0].first]) +
+                                               detail::describe_place(soup.points[equal[0].first]) +
                                                ": merge them, or keep duplicate vertices");
   report.unused_points = soup.points.size() - used.size();
   report.merged_points = equal.size();

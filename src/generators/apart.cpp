@@ -7,11 +7,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Most numbers of [0,n) no two of which are neighbours.
+/// The largest size of a set of numbers in [0,n) no two of which are neighbours.
 std::uint64_t most_apart(std::uint64_t n) { return (n + 1) / 2; }
 
-/// `count` numbers of [0,n), no two of them neighbours, every such set equally likely; ascending.
-/// Closing up the gap after each number maps these sets onto the subsets of [0, n-count+1).
+/// `count` numbers in [0,n), no two of them neighbours, with equal probability for every such set; ascending.
+/// Closing the gap after each number maps these sets onto the subsets of [0, n-count+1).
 std::vector<std::uint32_t> numbers_apart(std::uint32_t n, std::uint64_t count, Random& random) {
   const std::uint64_t range = n - count + 1;
   std::vector<std::uint32_t> chosen;
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> numbers_apart(std::uint32_t n, std::uint64_t count, R
   return chosen;
 }
 
-/// Spreads `count` cells over random parts apart along the last of `Axes` axes, and so on downwards. A part
+/// Spreads `count` cells over random parts that lie apart along the last of `Axes` axes, recursively. A part
 /// (a layer, a row) starts at cell `first`.
 template <int D, int Axes>
 void spread(const std::array<std::uint32_t, D>& cells, std::uint64_t count, std::uint64_t first,
@@ -37,7 +37,7 @@ void spread(const std::array<std::uint32_t, D>& cells, std::uint64_t count, std:
       stride *= cells[a];
       capacity *= most_apart(cells[a]);
     }
-    // Between the fewest parts that hold them and the most that fit: leaves freedom along every axis.
+    // Between the fewest parts that can contain them and the most that fit: leaves freedom along every axis.
     const std::uint64_t fewest = (count + capacity - 1) / capacity;
     const std::uint64_t parts = std::min((fewest + most_apart(n) + 1) / 2, count);
     std::vector<std::uint64_t> share(parts, count / parts);
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> draw(const std::array<std::uint32_t, D>& cells, std::
     const std::uint32_t cell = order[i];
     if (taken[cell]) continue;
     chosen.push_back(cell);
-    // Blocks the neighbours axis by axis: the box of cells round it.
+    // Blocks the neighbours axis by axis: the box of cells around it.
     std::array<std::uint32_t, D> low, high;
     std::uint32_t rest = cell;
     for (int a = 0; a < D; ++a) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Random cells of a grid that touch each other nowhere.
+// Random cells of a grid that do not touch each other.
 #ifndef CELLWALK_GENERATORS_APART_H
 #define CELLWALK_GENERATORS_APART_H
 

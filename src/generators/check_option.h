@@ -7,7 +7,7 @@
 
 namespace cellwalk::detail {
 
-/// \throw Error(usage) with the message unless it holds
+/// \throw Error(usage) with the message if the condition does not hold
 inline void check_option(bool holds, const char* message) {
   if (!holds) throw Error(Error_code::usage, message);
 }

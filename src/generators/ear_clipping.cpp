@@ -15,9 +15,9 @@ int turn(std::span<const Point<2>> points, std::uint32_t a, std::uint32_t b, std
   return Exact::orientation(counts, points[a], points[b], points[c]);
 }
 
-/// True if the triangle a, b, c of consecutive vertices can be cut off: it turns left, and no other vertex touches it.
-/// Copies of its own corners, at the ends of a bridge, do not count: an edge from one into the triangle would have to
-/// end in it or cross the edge across.
+/// True if the triangle a, b, c of consecutive vertices can be cut off: it turns left, and no other vertex
+/// touches it. Copies of its own corners, at the ends of a bridge, do not count: an edge from one into the
+/// triangle would have to end in it or cross the opposite edge.
 bool is_ear(std::span<const Point<2>> points, const Polygon_indices& polygon, std::uint32_t a,
             std::uint32_t b, std::uint32_t c) {
   if (turn(points, a, b, c) <= 0) return false;
@@ -35,7 +35,7 @@ bool meet(std::span<const Point<2>> points, std::uint32_t a, std::uint32_t b, st
             cb = turn(points, c, d, b);
   if (ac * ad > 0 || ca * cb > 0) return false;
   if (ac != 0 || ad != 0) return true;
-  // All on one line: they meet if their boxes do.
+  // Collinear segments meet if their boxes do.
   for (int i = 0; i < 2; ++i) {
     const auto [low, high] = std::minmax(points[a][i], points[b][i]);
     const auto [from, to] = std::minmax(points[c][i], points[d][i]);
@@ -44,7 +44,7 @@ bool meet(std::span<const Point<2>> points, std::uint32_t a, std::uint32_t b, st
   return true;
 }
 
-/// True if the segment meets no edge of the polygon but at its own ends.
+/// True if the segment meets no edge of the polygon except at its own ends.
 bool is_clear(std::span<const Point<2>> points, const Polygon_indices& polygon, std::uint32_t a,
               std::uint32_t b) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {

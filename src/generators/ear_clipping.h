@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Triangles of small polygons of the plane, by exact ear clipping.
+// Triangulation of small 2D polygons by exact ear clipping. Not by CGAL's triangulations, which are GPL.
 #ifndef CELLWALK_GENERATORS_EAR_CLIPPING_H
 #define CELLWALK_GENERATORS_EAR_CLIPPING_H
 
@@ -12,9 +12,10 @@
 
 namespace cellwalk::detail {
 
-using Polygon_indices = std::vector<std::uint32_t>;  ///< points in order round a polygon
+using Polygon_indices = std::vector<std::uint32_t>;  ///< points in order around a polygon
 
-/// Cuts a polygon into triangles without adding points; every vertex on its rim, collinear ones too, is one of theirs.
+/// Cuts a polygon into triangles without adding points; every vertex on its boundary, collinear ones
+/// included, is a vertex of a triangle.
 /// \pre a simple polygon, counterclockwise, which may touch itself along a bridge
 /// Cost: cubic.
 std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point<2>> points,

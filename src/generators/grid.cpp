@@ -156,7 +156,7 @@ Cell_soup<3> tetrahedral_grid(const Simplex_grid_options<3>& options) {
   for (std::uint32_t iz = 0; iz < nz; ++iz)
     for (std::uint32_t iy = 0; iy < ny; ++iy)
       for (std::uint32_t ix = 0; ix < nx; ++ix) {
-        // One tetrahedron for each order of the axes on the way from the lowest to the highest corner.
+        // One tetrahedron for each order of the axes on the path from the lowest to the highest corner.
         const std::uint32_t o = ix + y * iy + z * iz;
         add_tetrahedron(soup, o, o + x, o + x + y, o + top);
         add_tetrahedron(soup, o, o + y, o + y + z, o + top);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The lattice is the body-centred cubic one: the points of integer coordinates that are all even (corners) or all odd
-// (centres). Each tetrahedron has two centres that are neighbours along an axis and two corners that are neighbours
-// along another: the twelve round a centre for its three higher neighbours.
+// The lattice is the body-centred cubic one: the points of integer coordinates that are all even (corners) or
+// all odd (centres). Each tetrahedron has two centres that are neighbours along an axis and two corners that
+// are neighbours along another: twelve around a centre for its three higher neighbours.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -19,11 +19,11 @@ namespace {
 
 using Node = std::array<int, 3>;  // lattice coordinates
 
-/// Fractions of an edge within which a cut moves the lattice point onto the surface: those for which Labelle and
-/// Shewchuk prove dihedral angles above 10.7 degrees. Long edges join points of the same kind.
+/// Fractions of an edge within which a cut moves the lattice point onto the surface: those for which Labelle
+/// and Shewchuk prove dihedral angles above 10.7 degrees. Long edges join points of the same kind.
 constexpr double snap_long = 0.24999, snap_short = 0.41189;
 
-/// Secant steps towards a cut. What is left of the error only makes the surface less smooth.
+/// Secant steps towards a cut. The remaining error only makes the surface less smooth.
 constexpr int cut_steps = 4;
 
 constexpr double most_nodes = 1e9;
@@ -35,7 +35,7 @@ class Stuffing {
       throw Error(Error_code::usage, "implicit shape: the cell size must be positive");
     double nodes = 1;
     for (int i = 0; i < 3; ++i) {
-      // A ring of cubes all round, so that no tetrahedron of the shape is missing at the rim.
+      // A ring of cubes around the box, so that no tetrahedron of the shape is missing at its rim.
       const double cubes = std::ceil((shape.high[i] - shape.low[i]) / shape.cell_size) + 2;
       if (!(cubes > 2 && (nodes *= cubes + 1) <= most_nodes))
         throw Error(Error_code::usage,
@@ -122,7 +122,8 @@ class Stuffing {
       });
   }
 
-  /// Where the surface cuts the edge from a to b, as a fraction: the Illinois method, which keeps the root between.
+  /// The fraction at which the surface cuts the edge from a to b, by the Illinois method, which keeps the
+  /// root bracketed.
   double cut(const Node& na, const Node& nb, double da, double db) const {
     const Point<3> a = lattice_position(na), b = lattice_position(nb);
     double ta = 0, tb = 1, t = 0.5;
@@ -139,7 +140,7 @@ class Stuffing {
     return t;
   }
 
-  /// Moves each lattice point that a cut comes close to onto the nearest such cut.
+  /// Moves each lattice point that is close to a cut onto the nearest such cut.
   void snap() {
     for (int parity : {0, 1})
       for_each_node(parity, [&](const Node& n) {
@@ -150,7 +151,7 @@ class Stuffing {
           const Node m{n[0] + d[0], n[1] + d[1], n[2] + d[2]};
           if (!is_node(m)) continue;
           const std::size_t b = index(m);
-          if (!is_cut(a, b)) continue;  // a point snapped before has depth 0: its edges are cut no more
+          if (!is_cut(a, b)) continue;  // a snapped point has depth 0, and its edges are not cut again
           const double t = cuts_.at(edge(a, b)).fraction, from_a = a < b ? t : 1 - t;
           const bool is_long = (d[0] & 1) == 0;
           const double distance = from_a * (is_long ? 2 : std::sqrt(3.0));
@@ -197,7 +198,7 @@ class Stuffing {
       next[axis] += 2;
       if (!is_node(next)) continue;
       const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-      // The square of corners between the two centres, in order round it.
+      // The square of corners between the two centres, in order around it.
       std::array<Node, 4> square;
       for (int i = 0; i < 4; ++i) {
         square[i] = centre;
@@ -209,8 +210,8 @@ class Stuffing {
     }
   }
 
-  /// The part of a lattice tetrahedron that lies inside. Where the surface leaves a quadrangle of a facet, it is cut from
-  /// its inner point of lower index: both neighbours do the same.
+  /// Adds the part of a lattice tetrahedron that lies inside. If the surface leaves a quadrangle of a facet,
+  /// it is cut from its inner point of lower index, as in the neighbour.
   void add_inside(std::array<Node, 4> nodes) {
     // Inner points by index, then those on the surface, then outer ones.
     const auto rank = [this](const Node& n) {
@@ -223,7 +224,7 @@ class Stuffing {
       return rank(m) != rank(n) ? rank(m) < rank(n) : index(m) < index(n);
     });
     const auto& [p, q, r, s] = nodes;
-    // The end of the inside towards node n, seen from the inner point `from`.
+    // The end of the inner part towards node n, seen from the inner point `from`.
     const auto end = [&](const Node& from, const Node& n) {
       return rank(n) == 2 ? cut_vertex(from, n) : vertex(n);
     };
@@ -254,7 +255,7 @@ class Stuffing {
     }
   }
 
-  /// An array, because its initialiser makes new points in the order written; arguments would in any order.
+  /// An array, since its initialiser makes new points in the order written; arguments have no order.
   void add(const std::array<std::uint32_t, 4>& tetrahedron) {
     const auto [a, b, c, d] = tetrahedron;
     Predicate_counts counts;

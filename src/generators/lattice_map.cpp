@@ -12,7 +12,7 @@ namespace {
 /// Exponent of the lowest bit set in x.
 /// \pre x is finite and not 0
 int lowest_bit(double x) {
-  int exponent;
+  int exponent = 0;
   auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   exponent -= 53;
   for (; mantissa % 2 == 0; mantissa /= 2) ++exponent;
@@ -28,7 +28,7 @@ double largest_coordinate(const Lattice_map<D>& map, const std::array<std::uint3
 }
 
 /// True if no partial sum of coordinate `row` is rounded: all are multiples of one power of two, and below
-/// 2^52 of it.
+/// 2^52 times it.
 template <int D>
 bool is_exact(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& extent, int binary_places,
               int row) {
@@ -39,7 +39,7 @@ bool is_exact(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& ext
   return unit >= -1022 && largest_coordinate<D>(map, extent, row) <= std::ldexp(1.0, unit + 52);
 }
 
-/// The axis that coordinate `row` depends on, or -1 if there are several or none.
+/// The axis on which coordinate `row` depends, or -1 if there are several or none.
 template <int D>
 int only_axis(const Lattice_map<D>& map, int row) {
   int axis = -1;

@@ -98,7 +98,7 @@ Lattice_builder<D>::Lattice_builder(const Lattice_world_options<D>& options)
   if (options.slit_share > 0) draw_slits();
 }
 
-/// Rectangles of squares (2D: rows of edges) that begin at random ones.
+/// Rectangles of squares (2D: rows of edges) that begin at random squares.
 template <int D>
 void Lattice_builder<D>::draw_slits() {
   Random random(scramble(options_.seed + 1));

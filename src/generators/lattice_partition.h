@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How the cubes of a lattice world are grouped and cut.
+// The grouping and cutting of the cubes of a lattice world.
 #ifndef CELLWALK_GENERATORS_LATTICE_PARTITION_H
 #define CELLWALK_GENERATORS_LATTICE_PARTITION_H
 
@@ -19,7 +19,7 @@ template <int D>
 struct Lattice_box {
   std::array<std::uint32_t, D> low, size;
   Lattice_shape shape;
-  int axis;  ///< prisms: the axis they stand along
+  int axis;  ///< of prisms
 };
 
 template <int D>
@@ -38,7 +38,7 @@ struct Lattice_partition {
 template <int D>
 Lattice_partition<D> make_lattice_partition(const Lattice_world_options<D>& options);
 
-/// Collects the cells of a lattice world. Points are named by twice their lattice coordinates, so that
+/// Collects the cells of a lattice world. The name of a point is twice its lattice coordinates, so that
 /// centres of cubes have integer names as well.
 template <int D>
 class Lattice_builder {
@@ -47,12 +47,12 @@ class Lattice_builder {
 
   explicit Lattice_builder(const Lattice_world_options<D>& options);
 
-  /// Starts a cell; false if it is to be left out.
+  /// Starts a cell; false if it is to be omitted.
   bool begin_cell();
   void add_facet(const std::vector<Name>& loop);
   void end_cell();
 
-  /// The world; slits are opened.
+  /// Returns the world, with its slits opened.
   Cell_soup<D> take();
 
  private:

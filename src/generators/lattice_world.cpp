@@ -18,8 +18,8 @@ using Loop3 = std::vector<Cube>;
 /// The name of a lattice point: twice its coordinates.
 Cube name(const Cube& k) { return {2 * k[0], 2 * k[1], 2 * k[2]}; }
 
-/// Draws the facets of a 3D world. A side of a box is made of lattice squares; what a square is cut into or
-/// merged with depends only on the square and the two boxes next to it, so that both see the same facets.
+/// Determines the facets of a 3D world. A side of a box consists of lattice squares; the cut or the merging
+/// of a square depends only on the square and the two boxes next to it, so that both have the same facets.
 class Facets {
  public:
   Facets(const Lattice_partition<3>& partition, const Lattice_world_options<3>& options)
@@ -42,8 +42,8 @@ class Facets {
   }
 
  private:
-  /// The index of the box across the square, or one that no box has where there is none. Low and high ends of
-  /// the world differ, so that every side of it is a contact of its own.
+  /// The index of the box across the square, or an index of no box if there is none. Low and high ends of the
+  /// world differ, so that every side of the world is a contact of its own.
   std::uint32_t across(const Cube& inside, int axis, bool high) const {
     const auto outside = static_cast<std::uint32_t>(partition_.boxes.size()) + 2 * axis + high;
     Cube next = inside;
@@ -52,7 +52,7 @@ class Facets {
     return partition_.box_of[partition_.cube(next)];
   }
 
-  /// True if the box needs its squares across `axis` cut along their diagonals.
+  /// True if the box needs its squares across `axis` to be cut along their diagonals.
   bool wants_cut(std::uint32_t box, int axis) const {
     if (box >= partition_.boxes.size()) return false;
     const auto& b = partition_.boxes[box];
@@ -80,7 +80,7 @@ class Facets {
       for (int a : {b, c}) {
         if (rows && a == c) continue;
         if (!grow_contact(inside, box, other, axis, high, a, size[a]))
-          return;  // drawn from its lowest square
+          return;  // it belongs to the facet of its lowest square
       }
     }
     add_rectangle(inside, size, axis, high, loops, false);
@@ -164,7 +164,7 @@ void add_simplices(Lattice_builder<3>& builder, const Lattice_box<3>& box) {
     }
 }
 
-/// Two prisms that stand along an axis, cut apart along the diagonals of their ends.
+/// Adds two prisms along an axis, separated along the diagonals of their ends.
 void add_prisms(Lattice_builder<3>& builder, const Facets& facets, const Lattice_box<3>& box) {
   const int a = box.axis, b = (a + 1) % 3, c = (a + 2) % 3;
   const auto low = facets.side(box, a, false), high = facets.side(box, a, true);
@@ -185,7 +185,7 @@ void add_prisms(Lattice_builder<3>& builder, const Facets& facets, const Lattice
   }
 }
 
-/// A pyramid over each facet, with its apex in the centre.
+/// Adds a pyramid over each facet, with its apex in the centre.
 void add_star(Lattice_builder<3>& builder, const Facets& facets, const Lattice_box<3>& box) {
   Cube apex = name(box.low);
   for (auto& x : apex) ++x;

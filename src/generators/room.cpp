@@ -19,10 +19,10 @@ namespace {
 
 using detail::check_option;
 
-/// Squares that an obstacle has for itself along each axis.
+/// The size of the block of an obstacle along each axis, in squares.
 constexpr std::uint32_t block_size = 3;
 
-/// Directions all round in order, each about 64 long: integers, so that every machine has the same.
+/// Directions in order of their angle, each about 64 long: integers, so that every machine has the same.
 constexpr std::array<std::array<int, 2>, 24> directions{
     {{64, 0},    {62, 17},   {55, 32},  {45, 45},  {32, 55},  {17, 62},   {0, 64},    {-17, 62},
      {-32, 55},  {-45, 45},  {-55, 32}, {-62, 17}, {-64, 0},  {-62, -17}, {-55, -32}, {-45, -45},
@@ -55,7 +55,7 @@ class Rooms {
   std::uint32_t corner(std::uint32_t x, std::uint32_t y) const { return x + (size_[0] + 1) * y; }
   std::size_t square(std::uint32_t x, std::uint32_t y) const { return x + std::size_t{size_[0]} * y; }
 
-  /// Walls across an axis, each with a door at a random place.
+  /// Adds walls across an axis, each with a door at a random place.
   void add_walls(int axis) {
     const int along = 1 - axis;
     const std::uint32_t length = options_.room_size[along];
@@ -101,7 +101,8 @@ class Rooms {
     return true;
   }
 
-  /// A polygon that is star-shaped about the middle of the block, and the triangles between it and the block's rim.
+  /// Adds a polygon that is star-shaped about the middle of the block, and the triangles between it and the
+  /// boundary of the block.
   void add_obstacle(std::uint32_t x, std::uint32_t y) {
     const Point<2> middle{x + block_size / 2.0, y + block_size / 2.0};
     detail::Polygon_indices inner;
@@ -122,7 +123,8 @@ class Rooms {
       for (const auto& t : detail::clip_ears(points_, inner)) add_cell(t, true);
   }
 
-  /// 3 to 9 directions, ascending, no two neighbours half a turn or more apart, so that the middle lies inside.
+  /// 3 to 9 directions, ascending, no two neighbours half a turn or more apart, so that the middle lies
+  /// inside.
   std::vector<int> choose_directions() {
     const int turn = static_cast<int>(directions.size());
     for (;;) {
@@ -141,12 +143,12 @@ class Rooms {
   void add_cell(std::span<const std::uint32_t> polygon, bool solid) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      soup_.add_facet({a, b}, solid || walls_.count(std::minmax(a, b)) > 0);
+      soup_.add_facet({a, b}, solid || walls_.contains(std::minmax(a, b)));
     }
     soup_.end_cell(solid);
   }
 
-  /// Numbers the points in use and gives them their places.
+  /// Numbers the points in use and computes their positions.
   void place_points() {
     std::vector<std::uint32_t> number(points_.size(), 0);
     for (std::uint32_t v : soup_.vertices) number[v] = 1;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint32_t on_boundary = 0xffffffffu;
 
-/// Sets that are joined one by one. The least member of each names it.
+/// Disjoint sets, joined pairwise. Each is named by its least member, unlike those of Boost, which are named
+/// by rank.
 class Disjoint_sets {
  public:
   explicit Disjoint_sets(std::size_t n) : parent_(n) {
@@ -51,8 +52,8 @@ std::vector<std::uint32_t> pair_up(const Cell_soup<D>& soup) {
   return opposite;
 }
 
-/// Joins the corners of cells at each vertex across the facets for which `passes` holds. A corner is a place of soup.vertices; those of one cell at
-/// one vertex are joined from the start.
+/// Joins the corners of cells at each vertex across the facets for which `passes` holds. A corner is an entry
+/// of soup.vertices; those of one cell at one vertex are joined from the start.
 template <int D, class Passes>
 Disjoint_sets join_corners(const Cell_soup<D>& soup, const std::vector<std::uint32_t>& opposite,
                            const Passes& passes) {
@@ -73,7 +74,7 @@ Disjoint_sets join_corners(const Cell_soup<D>& soup, const std::vector<std::uint
   return corners;
 }
 
-/// A point strictly inside a facet, if doubles hold one of those that are tried.
+/// A point strictly inside a facet, if one of those tried is exact in doubles.
 template <int D>
 std::optional<Point<D>> inner_point(const Cell_soup<D>& soup, std::span<const std::uint32_t> loop) {
   Predicate_counts counts;
@@ -95,7 +96,7 @@ std::optional<Point<D>> inner_point(const Cell_soup<D>& soup, std::span<const st
   }
 }
 
-/// Appends a facet cut about a point inside it.
+/// Appends a facet cut around a point inside it.
 template <int D>
 void add_cut_facet(Cell_soup<D>& soup, std::span<const std::uint32_t> loop, std::uint32_t inside) {
   if constexpr (D == 2) {
@@ -113,13 +114,13 @@ bool have_equal_vertices(const Cell_soup<D>& soup, std::uint32_t f, std::uint32_
                              soup.facet(g).end());
 }
 
-/// Gives each group of corners that slits part a vertex of its own.
+/// Gives each group of corners that slits separate a vertex of its own.
 template <int D>
 void part_vertices(Cell_soup<D>& soup, const std::vector<std::uint32_t>& opposite,
                    const std::vector<std::uint8_t>& is_parted) {
   Disjoint_sets whole = join_corners(soup, opposite, [](std::uint32_t) { return true; });
   Disjoint_sets parts = join_corners(soup, opposite, [&](std::uint32_t f) { return !is_parted[f]; });
-  std::map<std::uint32_t, std::uint32_t> copy_of;  // per part that is not the first of its whole
+  std::map<std::uint32_t, std::uint32_t> copy_of;  // of each part except the first of its whole
   for (std::uint32_t i = 0; i < soup.vertices.size(); ++i) {
     const std::uint32_t part = parts.find(i);
     if (part == whole.find(i)) continue;  // both are named by their least corner
@@ -139,7 +140,7 @@ void open_slits(Cell_soup<D>& soup, std::span<const std::uint8_t> is_slit) {
     is_parted[f] = opposite[f] != on_boundary && (is_slit[f] || is_slit[opposite[f]]);
   part_vertices(soup, opposite, is_parted);
 
-  // Of each facet the new point in it, if it is to be cut.
+  // For each facet that is to be cut, the new point in it.
   std::vector<std::uint32_t> inside(soup.facet_count(), on_boundary);
   for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
     const std::uint32_t g = opposite[f];

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Only + - * / and sqrt are used here: they are rounded alike everywhere, other functions of the library are not.
+// Only + - * / and sqrt are used here: they are rounded in the same way everywhere, unlike other functions of
+// the standard library.
 #include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 
@@ -14,11 +16,11 @@
 namespace cellwalk {
 namespace {
 
+using detail::Box;
 using detail::check_option;
+using detail::with_all_coordinates;
 
 constexpr int segments_per_tube = 10;
-
-Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
 
 /// The point at t of the quadratic curve through a and c that heads for b.
 Point<3> on_curve(const Point<3>& a, const Point<3>& b, const Point<3>& c, double t) {
@@ -37,7 +39,7 @@ Tube make_tube(const Point<3>& a, const Point<3>& b, const Point<3>& c, double f
   return tube;
 }
 
-/// How deep p lies in a tube: positive inside.
+/// The depth of p in a tube: positive inside.
 double depth_in(const Tube& tube, const Point<3>& p) {
   double depth = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < tube.points.size(); ++i) {
@@ -49,55 +51,50 @@ double depth_in(const Tube& tube, const Point<3>& p) {
   return depth;
 }
 
-/// The larger of two depths, rounded off where they differ by less than `width`.
+/// The larger of two depths, smoothed if they differ by less than `width`.
 double smooth_max(double a, double b, double width) {
   const double h = std::max(0.0, 1 - std::abs(a - b) / width);
   return std::max(a, b) + h * h * width / 4;
 }
 
-/// A box round a tube.
-struct Box {
-  Point<3> low, high;
-
-  double squared_distance(const Point<3>& p) const {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double d = std::max({0.0, low[i] - p[i], p[i] - high[i]});
-      sum += d * d;
-    }
-    return sum;
+double squared_distance(const Box<3>& box, const Point<3>& p) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double d = std::max({0.0, box.low[i] - p[i], p[i] - box.high[i]});
+    sum += d * d;
   }
-};
+  return sum;
+}
 
-Box box_of(const Tube& tube) {
-  Box box{tube.points[0], tube.points[0]};
-  for (std::size_t i = 0; i < tube.points.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], tube.points[i][k] - tube.radii[i]);
-      box.high[k] = std::max(box.high[k], tube.points[i][k] + tube.radii[i]);
-    }
+Box<3> box_of(const Tube& tube) {
+  Box<3> box;
+  for (std::size_t i = 0; i < tube.points.size(); ++i) {
+    const Vector<3> radius = with_all_coordinates<3>(tube.radii[i]);
+    box.extend({tube.points[i] - radius, tube.points[i] + radius});
+  }
   return box;
 }
 
-/// The union of tubes, rounded off where they meet over a width of `blend`.
+/// The union of tubes, blended over a width of `blend` where they meet.
 Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cell_size) {
-  std::vector<Box> boxes;
+  std::vector<Box<3>> boxes;
+  boxes.reserve(tubes.size());
   for (const Tube& tube : tubes) boxes.push_back(box_of(tube));
   Implicit_shape shape;
   shape.cell_size = cell_size;
   shape.low = boxes[0].low, shape.high = boxes[0].high;
-  for (const Box& box : boxes)
+  for (const Box<3>& box : boxes)
     for (int k = 0; k < 3; ++k) {
-      // Rounding off adds up to blend / 4 at a place where two tubes meet, and a little more for a third one.
+      // Blending adds up to blend / 4 at a place where two tubes meet, and a little more for a third one.
       shape.low[k] = std::min(shape.low[k], box.low[k] - blend / 2);
       shape.high[k] = std::max(shape.high[k], box.high[k] + blend / 2);
     }
-  // Far from all tubes only the sign counts. A tube is left out where it would change neither sign nor blend.
+  // Far from all tubes only the sign counts. A tube is skipped if it would change neither sign nor blend.
   const double far = -2 * (blend + cell_size);
   shape.depth = [&, far](const Point<3>& p) {
     double depth = far;
     for (std::size_t i = 0; i < tubes.size(); ++i)
-      if (boxes[i].squared_distance(p) < far * far) depth = smooth_max(depth, depth_in(tubes[i], p), blend);
+      if (squared_distance(boxes[i], p) < far * far) depth = smooth_max(depth, depth_in(tubes[i], p), blend);
     return depth;
   };
   return fill_implicit(shape);
@@ -117,7 +114,7 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
   Random random(options.seed);
   struct Bud {
     Point<3> start;
-    Vector<3> direction, side;  // of the fork it comes from
+    Vector<3> direction, side;  // of the fork from which it comes
     double length, radius;
     int parent, generation;
   };
@@ -129,19 +126,19 @@ std::vector<Tube> vessel_tubes(const Vessel_options& options) {
     const Vector<3> across = cross(bud.direction, bud.side);
     const double bend = options.curvature * random.real(-1, 1), sway = options.curvature * random.real(-1, 1);
     const Point<3> middle = bud.start + (bud.length / 2) * bud.direction;
-    const Vector<3> end_direction = unit(bud.direction + (bend * bud.side + sway * across));
+    const Vector<3> end_direction = normalized(bud.direction + (bend * bud.side + sway * across));
     const Point<3> end = middle + (bud.length / 2) * end_direction;
     const int index = static_cast<int>(tubes.size());
     tubes.push_back(make_tube(bud.start, middle, end, bud.radius, 0.9 * bud.radius, bud.parent));
     if (bud.generation == options.generations) continue;
-    // Forks lie in planes about square to each other, as they do in lungs and brains. Two branches of radius 0.8 have
-    // about the cross-section that Murray's law asks for.
-    const Vector<3> new_side = unit(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
-    const Vector<3> side = unit(new_side - dot(new_side, end_direction) * end_direction);
+    // Successive forks lie in planes that are about perpendicular, as in lungs and brains. Two branches of
+    // radius 0.8 have about the cross-section of Murray's law.
+    const Vector<3> new_side = normalized(cross(end_direction, bud.side) + random.real(-0.4, 0.4) * bud.side);
+    const Vector<3> side = normalized(new_side - dot(new_side, end_direction) * end_direction);
     for (double sign : {-1.0, 1.0}) {
       const double lean = random.real(0.55, 0.95);  // tangent of the angle between branch and parent
-      const Vector<3> direction = unit(end_direction + sign * lean * side);
-      const Vector<3> next_side = unit(side - dot(side, direction) * direction);
+      const Vector<3> direction = normalized(end_direction + sign * lean * side);
+      const Vector<3> next_side = normalized(side - dot(side, direction) * direction);
       buds.push_back({end, direction, next_side, bud.length * random.real(0.72, 0.9),
                       bud.radius * random.real(0.78, 0.86), index, bud.generation + 1});
     }
@@ -167,7 +164,7 @@ Tube bulging_tube_line(const Bulge_options& o) {
   check_option(o.bend >= 0 && o.bend <= 1, "tube: the bend must lie in [0,1]");
   check_option(o.radius > 0 && std::isfinite(o.radius), "tube: the radius must be positive");
   const double half = o.length * o.radius / 2;
-  // The curve rises to half the height of the point it heads for.
+  // The curve rises to half the height of its control point.
   return make_tube({-half, 0, 0}, {0, 0, 4 * o.bend * half}, {half, 0, 0}, o.radius, o.radius, -1);
 }
 

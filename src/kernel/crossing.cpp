@@ -24,8 +24,8 @@ Twofold_vector<D> differences(const Point<D>& x, const Point<D>& y) {
   return d;
 }
 
-/// Between these, products of three differences and of their low parts neither overflow nor lose a bit to underflow
-/// that matters: the largest of them is 2^-450 at least, and what underflows 2^-900 at most.
+/// Between these, products of three differences and of their low parts neither overflow nor lose a bit to
+/// underflow that matters: the largest of them is 2^-450 at least, and what underflows 2^-900 at most.
 constexpr double least_difference = 0x1p-150, largest_difference = 0x1p150;
 
 template <int D>
@@ -61,9 +61,9 @@ Twofold_normal<3> normal_of(const std::array<Point<3>, 3>& plane) {
   return normal;
 }
 
-/// The errors of an orientation are less than this share of the sum of the sizes of its terms. In 3D a term has two
-/// products and three sums, hence at most 2 * 7 + 3 * 3 = 23 units, in 2D 7 + 3; the rest covers terms of higher order and
-/// that the sizes are computed in doubles.
+/// The errors of an orientation are less than this share of the sum of the sizes of its terms. In 3D a term
+/// has two products and three sums, hence at most 2 * 7 + 3 * 3 = 23 units, in 2D 7 + 3; the rest covers
+/// terms of higher order and that the sizes are computed in doubles.
 constexpr double orientation_share = 32 * detail::twofold_unit;
 
 template <int D>

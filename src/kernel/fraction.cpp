@@ -9,7 +9,7 @@ namespace cellwalk {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Beyond these, a number or a quotient as a double may be far off, or not a number.
+/// Beyond these bounds, the double of a number or a quotient may be far off, or not a number.
 constexpr double smallest_double = 1e-290, largest_double = 1e+290;
 
 bool is_close(double x) { return std::abs(x) > smallest_double && std::abs(x) < largest_double; }

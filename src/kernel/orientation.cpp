@@ -25,8 +25,8 @@ int orientation_in(const Point<3>& p, const Point<3>& q, const Point<3>& r, cons
                            P(s[0], s[1], s[2]));
 }
 
-/// True if the points agree in a coordinate, or two of them are one: the orientation is 0. What rests in walls along the axes
-/// asks for little else.
+/// True if the points agree in a coordinate, or two of them coincide: then the orientation is 0. This is the
+/// common case of bodies at walls that are parallel to the axes.
 template <std::size_t D, class... Others>
 bool is_plainly_zero(const std::array<double, D>& p, const Others&... others) {
   for (std::size_t k = 0; k < D; ++k)

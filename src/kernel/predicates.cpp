@@ -15,7 +15,7 @@ namespace {
 
 Point<2> drop(const Point<3>& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
-/// Sign of an orientation where the filter is certain, 0 where it is not.
+/// The sign of an orientation if the filter decides it, otherwise 0.
 int filtered_sign(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
   const auto d = detail::determinant<double>(p, q, r);
   const double bound = detail::orientation_error * d.magnitude;
@@ -23,7 +23,7 @@ int filtered_sign(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
   return d.value > bound ? 1 : d.value < -bound ? -1 : 0;
 }
 
-/// Plane or line value at x, in any ordered field.
+/// The value of a plane or line function at x, in any ordered field.
 template <class T>
 T value(const Point<2>& u, const Point<2>& v, const Point<2>& x) {
   const T ux(u[0]), uy(u[1]);
@@ -53,10 +53,10 @@ std::array<T, 3> normal(const Point<3>& u, const Point<3>& v, const Point<3>& w)
   return {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
 }
 
-/// Components so wide, as a share of the largest, are computed again, with more care.
+/// Components with a larger error, relative to the largest, are recomputed by intervals, then exactly.
 constexpr double normal_width = 0x1p-49;
 
-/// Between these the squares of components neither overflow nor lose anything.
+/// Between these bounds the squares of components neither overflow nor lose digits.
 constexpr double least_plain = 0x1p-300, largest_plain = 0x1p300;
 
 /// Scaled to length 1; 0 stays 0.
@@ -75,7 +75,7 @@ std::array<double, D> normalized(std::array<double, D> n) {
   return n;
 }
 
-/// A normal in doubles, and by how much, as a share of the largest component, its components may be wrong: products of
+/// A normal in doubles, and the error bound of its components relative to the largest: products of
 /// differences are off by less than four roundings of each term.
 inline std::pair<Vector<2>, double> plain_normal(const Point<2>& u, const Point<2>& v) {
   const Vector<2> n = normal<double>(u, v);
@@ -98,7 +98,8 @@ inline std::pair<Vector<3>, double> plain_normal(const Point<3>& u, const Point<
 
 using Interval = CGAL::Interval_nt<false>;
 
-/// The rounding mode is set once for all operations. Not to be inlined: nothing else may be computed in that mode.
+/// The rounding mode is set once for all operations. Not to be inlined, so that nothing else is computed in
+/// that mode.
 template <class... P>
 [[gnu::noinline]] std::array<Interval, sizeof...(P)> interval_normal(const P&... points) {
   const Interval::Protector protector;
@@ -138,7 +139,7 @@ int displaced_side(const Point<2>& p, const Point<2>& q) {
 }
 
 int displaced_side(const Point<3>& p, const Point<3>& q, const Point<3>& r) {
-  // The components of (q - p) x (r - p) are the areas of the triangle seen along the axes.
+  // The components of (q - p) x (r - p) are the areas of the triangle projected along the axes.
   Predicate_counts counts;
   for (int axis = 0; axis < 3; ++axis)
     if (const int sign = Exact::orientation(counts, drop(p, axis), drop(q, axis), drop(r, axis)); sign != 0)
@@ -171,7 +172,7 @@ template bool on_segment<3>(const Point<3>&, const Point<3>&, const Point<3>&);
 bool in_convex_polygon(std::span<const Point<3>> polygon, const Point<3>& x) {
   Predicate_counts counts;
   for (int axis = 0; axis < 3; ++axis) {
-    // Dropping a coordinate is one to one on the plane if the projected polygon has an area.
+    // The projection along an axis is one-to-one on the plane if the projected polygon has a positive area.
     const int turn =
         Exact::orientation(counts, drop(polygon[0], axis), drop(polygon[1], axis), drop(polygon[2], axis));
     if (turn == 0) continue;

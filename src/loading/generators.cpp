@@ -112,7 +112,7 @@ Any_soup room(const Generator_values& values) {
 
 const Generator_option seed_option{"seed", "What is random follows from it", {1}, false, true};
 
-/// What every lattice takes, and some more.
+/// The options of every lattice, and further ones.
 std::vector<Generator_option> lattice_options(int dimension, double cells,
                                               std::vector<Generator_option> more) {
   const std::size_t axes = static_cast<std::size_t>(dimension);
@@ -184,7 +184,7 @@ std::string names_of(const auto& entries) {
   return names;
 }
 
-/// The numbers of one option: as given, one repeated for every axis, or what stands there.
+/// The numbers of one option: those given, one repeated for every axis, or the default.
 std::vector<double> complete(const Generator_option& option, const Generator_values& values) {
   const auto given = values.find(option.name);
   if (given == values.end()) return option.initial;

@@ -23,7 +23,7 @@ nlohmann::ordered_json to_json(const Surface_report& surface) {
           {"volume", surface.volume}};
 }
 
-/// What was put right on each surface.
+/// The corrections of each surface.
 template <class Report>
 void add_surfaces(const Report& report, Meshed<3>& meshed) {
   meshed.report["surface"] = to_json(report.surface);

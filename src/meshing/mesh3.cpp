@@ -48,18 +48,19 @@ using Triangle_traits =
 #endif
 using Triangle_tree = CGAL::AABB_tree<Triangle_traits>;
 
-/// More cells or facets than this are not begun: they take an hour, and some tens of gigabytes.
+/// The largest number of cells or facets: more take an hour, and some tens of gigabytes.
 constexpr double most_elements = 1e8;
-/// Of the diagonal. Near edges of the surface, facets are about as small as their distance to it is to be: a million in a row.
+/// The least distance, as a fraction of the diagonal. Near edges of the surface, facets are about as small as
+/// the distance: a million in a row.
 constexpr double least_distance = 0x1p-20;
 
-/// What is to be filled, and its boundary.
+/// The region to be filled, and its boundary.
 struct Extent {
   double diagonal = 0, volume = 0, area = 0;
 };
 
 void check_least(const char* what, double value, double least, const std::string& why) {
-  constexpr double room_to_round = 1.05;  // two digits are shown
+  constexpr double room_to_round = 1.05;  // since two digits are shown
   if (value < least)
     throw Error(Error_code::usage,
                 fmt::format("Mesh_3: a {} of {:g} is too small for a surface {}: give at least {:.2g}", what,
@@ -68,7 +69,8 @@ void check_least(const char* what, double value, double least, const std::string
 
 /// Refuses sizes at which meshing would not end.
 void check_sizes(const Mesh3_options& options, double cell, double facet, const Extent& extent) {
-  // The largest tetrahedron in a sphere of radius r has volume 8/(9 sqrt 3) r^3, the largest triangle in a circle area 3 sqrt(3)/4 r^2.
+  // The largest tetrahedron in a sphere of radius r has volume 8/(9 sqrt 3) r^3, the largest triangle in a
+  // circle area 3 sqrt(3)/4 r^2.
   constexpr double tetrahedron = 0.5133, triangle = 1.2991;
   check_least("cell size", cell, std::cbrt(extent.volume / (tetrahedron * most_elements)),
               fmt::format("that holds a volume of {:g}", extent.volume));
@@ -178,15 +180,15 @@ Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>&
   const auto surfaces =
       detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
   const Criteria bounds = criteria(options, extent_of(surfaces, r));
-  // A point is inside where a ray from it crosses the surfaces an odd number of times: obstacles are left out.
+  // A point is inside if a ray from it crosses the surfaces an odd number of times, so obstacles are omitted.
   Surface_mesh mesh;
   for (const auto& s : surfaces) detail::append(mesh, s);
-  // Mesh_3 draws from the generator of the domain and from the thread's default one.
+  // Mesh_3 uses the random generator of the domain and the thread's default one.
   CGAL::Random random(0);
   CGAL::get_default_random() = CGAL::Random(0);
   const Domain domain(mesh, &random);
-  // Without perturber and exuder: the order in which they work depends on addresses, and the mesh would change from
-  // run to run. They remove slivers, which cost a walk nothing.
+  // Without perturber and exuder, whose order of work depends on addresses, so that the mesh would change
+  // from run to run. They remove slivers, which do not affect a walk.
   namespace P = CGAL::parameters;
   const Complex complex = CGAL::make_mesh_3<Complex>(domain, bounds, P::no_perturb(), P::no_exude());
   Cell_soup<3> soup = collect(complex);

@@ -19,13 +19,13 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using detail::Surface_mesh;
 using Face = Surface_mesh::Face_index;
 
-/// Remembers which polygon each triangle was cut from.
+/// Records the polygon from which each triangle was cut.
 struct Source_visitor : PMP::Triangulate_faces::Default_visitor<Surface_mesh> {
   Surface_mesh::Property_map<Face, std::uint32_t>* source;
   std::uint32_t current = 0;
 
   void before_subface_creations(Face polygon) { current = (*source)[polygon]; }
-  void after_subface_created(Face triangle) { (*source)[triangle] = current; }
+  void after_subface_created(Face triangle) const { (*source)[triangle] = current; }
 };
 
 std::vector<std::uint32_t> loop_of(const Surface_mesh& mesh, Face face) {
@@ -70,6 +70,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Su
   std::vector<std::pair<Face, Face>> found;
   PMP::self_intersections(mesh, std::back_inserter(found));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  pairs.reserve(found.size());
   for (const auto& [f, g] : found) pairs.push_back(std::minmax(std::uint32_t{f}, std::uint32_t{g}));
   std::sort(pairs.begin(), pairs.end());
   return pairs;

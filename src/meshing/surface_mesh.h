@@ -22,11 +22,11 @@ using Surface_mesh = CGAL::Surface_mesh<Mesh_kernel::Point_3>;
 /// \pre the surface is an oriented manifold
 void append(Surface_mesh& mesh, const Surface_soup& surface);
 
-/// Pairs of faces that meet elsewhere than in an edge or vertex they share, each pair ascending, all in order.
+/// Pairs of faces that meet elsewhere than in a common edge or vertex, each pair ascending, all in order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Surface_mesh& mesh);
 
-/// The surface and then its obstacles, each of them checked, and that they do not meet. Messages call the obstacles by their names,
-/// those without one by their number.
+/// Checks the surface, then its obstacles, and that they do not meet. Messages refer to obstacles by their
+/// names, or by their numbers if they have none.
 /// \throw Error(input)
 std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                                       const std::vector<std::string>& obstacle_names,

@@ -23,7 +23,7 @@ std::string counted(std::size_t n, const std::string& thing) {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// An edge as a facet has it.
+/// The use of an edge by a facet.
 struct Edge_use {
   std::uint32_t low, high;  ///< its points
   std::uint32_t facet;
@@ -48,11 +48,11 @@ std::vector<Edge_use> sorted_edge_uses(const Surface_soup& soup) {
   return uses;
 }
 
-/// Edges that not exactly two facets share.
+/// Refuses edges that are not shared by exactly two facets.
 void check_edges(const Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name) {
   std::size_t open = 0, crowded = 0;
   std::optional<Edge_use> first_open, first_crowded;
-  for (std::size_t i = 0, j; i < uses.size(); i = j) {
+  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
     for (j = i; j < uses.size() && uses[j].same_edge(uses[i]);) ++j;
     if (j - i == 1 && open++ == 0) first_open = uses[i];
     if (j - i > 2 && crowded++ == 0) first_crowded = uses[i];
@@ -69,7 +69,7 @@ void check_edges(const Traced_surface& surface, const std::vector<Edge_use>& use
                      ", the first " + between(*first_crowded) + "; separate the sheets that meet there");
 }
 
-/// Facets given twice: they bound nothing.
+/// Refuses repeated facets, which bound nothing.
 void check_repeated_facets(const Traced_surface& surface, const std::string& name) {
   std::map<std::vector<std::uint32_t>, std::uint32_t> facets;
   for (std::uint32_t f = 0; f < surface.soup.facets.size(); ++f) {
@@ -110,12 +110,13 @@ void check_degenerate_facets(const Traced_surface& surface, const std::string& n
                      ": its vertices lie on one line; collapse its shortest edge or flip its longest");
 }
 
-/// Turns facets so that every edge runs in opposite directions in its two facets; of each component the fewer.
+/// Reverses facets so that every edge runs in opposite directions in its two facets: of each component the
+/// smaller part.
 void orient(Traced_surface& surface, const std::vector<Edge_use>& uses, const std::string& name,
             Surface_report& report) {
   const std::size_t facets = surface.soup.facets.size();
   std::vector<std::vector<std::pair<std::uint32_t, bool>>> neighbours(
-      facets);  // facet, and whether they agree
+      facets);  // the facet, and whether they agree
   for (std::size_t i = 0; i < uses.size(); i += 2) {
     const bool agree = uses[i].forward != uses[i + 1].forward;
     neighbours[uses[i].facet].push_back({uses[i + 1].facet, agree});
@@ -153,7 +154,7 @@ void orient(Traced_surface& surface, const std::vector<Edge_use>& uses, const st
   }
 }
 
-/// Vertices at which several fans of facets meet.
+/// Refuses vertices at which several fans of facets meet.
 void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& uses,
                     const std::string& name) {
   const auto& facets = surface.soup.facets;
@@ -166,7 +167,7 @@ void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& 
     while (root[c] != c) c = root[c] = root[root[c]];
     return c;
   };
-  // The facets of an edge are neighbours round both of its points.
+  // The facets of an edge are neighbours around both of its points.
   const auto corner_at = [&](const Edge_use& use, std::uint32_t point) {
     const auto& loop = facets[use.facet];
     const bool here = (use.forward ? use.low : use.high) == point;
@@ -191,7 +192,8 @@ void check_vertices(const Traced_surface& surface, const std::vector<Edge_use>& 
                      "; pull the sheets apart there");
 }
 
-/// New number of each point: points of equal coordinates get the same one. Numbers follow the first of each place.
+/// The new number of each point; points of equal coordinates get the same one. Numbers are in the order of
+/// the first point at each position.
 std::vector<std::uint32_t> merged_numbers(const std::vector<Point<3>>& points) {
   std::vector<std::uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The combinatorial half of checking a surface: points, edges, orientation.
+// The combinatorial half of checking a surface: points, edges, orientation. Not by CGAL's
+// orient_polygon_soup(), which duplicates points of surfaces that are not manifold instead of refusing them.
 #ifndef CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 #define CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 
@@ -12,10 +13,10 @@
 
 namespace cellwalk::detail {
 
-/// A surface under repair, with where its parts come from.
+/// A surface during its correction, with the origins of its parts.
 struct Traced_surface {
   Surface_soup soup;
-  std::vector<std::uint32_t> input_point;  ///< per point: the first of its place in the input
+  std::vector<std::uint32_t> input_point;  ///< per point: the first one at its position in the input
   std::vector<std::uint32_t> input_facet;  ///< per facet
 };
 
@@ -23,7 +24,8 @@ struct Traced_surface {
 /// \throw Error(input) if the surface is empty or malformed
 Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_report& report);
 
-/// Checks that the surface is closed, manifold and not degenerate, and turns facets so that neighbours agree.
+/// Checks that the surface is closed, manifold and not degenerate, and reverses facets so that neighbours
+/// agree.
 /// \throw Error(input)
 void make_oriented_manifold(Traced_surface& surface, const std::string& name, Surface_report& report);
 

@@ -27,7 +27,7 @@ void check_disjoint(const std::vector<Surface_soup>& surfaces, const std::vector
                                        " of facets intersect; move it, or join the surfaces beforehand");
 }
 
-/// How many points of `points` the closed surface encloses.
+/// The number of points in `points` that the closed surface encloses.
 std::size_t enclosed(const Surface_soup& surface, const Surface_soup& points) {
   Surface_mesh mesh;
   append(mesh, surface);

@@ -33,7 +33,7 @@ bool has_tetgen() { return true; }
 
 namespace {
 
-/// Sends the standard output to nowhere while it lives: TetGen prints to it even when told to be quiet.
+/// Suppresses the standard output during its lifetime, since TetGen prints to it even with Q.
 class Quiet {
  public:
   Quiet() {
@@ -59,7 +59,7 @@ class Quiet {
   int saved_;
 };
 
-/// What the numbers mean that TetGen throws (terminatetetgen in tetgen.h).
+/// The meaning of the numbers that TetGen throws (terminatetetgen in tetgen.h).
 const char* meaning(int code) {
   switch (code) {
     case 1:
@@ -79,7 +79,7 @@ const char* meaning(int code) {
   }
 }
 
-/// p: a surface is given; Y: no points are added on it; n: tell neighbours; Q: little output.
+/// p: a surface is given; Y: no points are added on it; n: report neighbours; Q: little output.
 std::string switches(const Tetrahedralize_options& options) {
   std::string text = "pYnQ";
   if (options.quality > 0) text += fmt::format("q{:.6f}", options.quality);
@@ -89,7 +89,8 @@ std::string switches(const Tetrahedralize_options& options) {
   return text;
 }
 
-/// Gmsh's library has classes of TetGen's names but another layout. If it is found first, memory is overwritten.
+/// Gmsh's library has classes of TetGen's names but another layout. If it is found first, memory is
+/// overwritten.
 void expect_one_tetgen() {
   void* const entry = dlsym(RTLD_DEFAULT, "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_");
   void* const inside = dlsym(RTLD_DEFAULT, "_ZN10tetgenmesh10inittablesEv");
@@ -101,7 +102,7 @@ void expect_one_tetgen() {
                                                inside_library.dli_fname, entry_library.dli_fname));
 }
 
-/// Hands the surfaces over. TetGen's structure frees what is put into it with delete[].
+/// Copies the surfaces. TetGen's structure frees its arrays with delete[].
 void fill(tetgenio& in, const std::vector<Surface_soup>& surfaces) {
   in.firstnumber = 0;
   for (const auto& s : surfaces) {

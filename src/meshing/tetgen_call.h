@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TetGen behind a plain interface.
+// A plain interface of TetGen.
 #ifndef CELLWALK_MESHING_TETGEN_CALL_H
 #define CELLWALK_MESHING_TETGEN_CALL_H
 
@@ -11,7 +11,7 @@
 
 namespace cellwalk::detail {
 
-/// Everything inside the hull of the surfaces, cut into tetrahedra along them.
+/// The tetrahedra inside the hull of the surfaces, which conform to them.
 struct Tetgen_result {
   std::vector<Point<3>> points;  ///< those of the surfaces in order, then added ones
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
@@ -19,7 +19,7 @@ struct Tetgen_result {
 };
 
 /// Runs TetGen on surfaces that do not meet.
-/// \throw Error(usage) where the library was built without TetGen; Error(not_certified) if TetGen gives up
+/// \throw Error(usage) if the library was built without TetGen; Error(not_certified) if TetGen fails
 Tetgen_result call_tetgen(const std::vector<Surface_soup>& surfaces, const Tetrahedralize_options& options);
 
 }  // namespace cellwalk::detail

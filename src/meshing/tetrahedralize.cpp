@@ -53,7 +53,7 @@ Owners owners_of(const std::vector<Surface_soup>& surfaces) {
               "TetGen did not keep the surface; simplify it where it is very fine, or try Mesh_3");
 }
 
-/// Checks that every triangle of the surfaces is a facet of the mesh, with its points where they were.
+/// Checks that every triangle of the surfaces is a facet of the mesh, with its points unchanged.
 void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surfaces, const Owners& owners) {
   std::size_t point = 0;
   for (const auto& s : surfaces)
@@ -65,8 +65,8 @@ void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surf
   if (!missing.empty()) lost_surface();
 }
 
-/// Which surfaces enclose each tetrahedron: an odd number of their triangles lie between it and the outside.
-/// Regions are flooded inwards from the hull; each crossing of a surface changes that surface's bit.
+/// The surfaces that enclose each tetrahedron: an odd number of their triangles lie between it and the
+/// outside. Regions are flooded inwards from the hull; crossing a surface flips the bit of that surface.
 class Sides {
  public:
   Sides(const Tetgen_result& mesh, const Owners& owners, std::size_t surfaces)
@@ -152,10 +152,10 @@ Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_
         number[v] = static_cast<std::uint32_t>(soup.points.size());
         soup.points.push_back(mesh.points[v]);
       }
-    // The facets as add_tetrahedron would make them, each with its wall.
+    // The facets in the order of add_tetrahedron(), each with its wall.
     for (const Triangle& f : {Triangle{t[0], t[2], t[1]}, Triangle{t[0], t[1], t[3]},
                               Triangle{t[1], t[2], t[3]}, Triangle{t[2], t[0], t[3]}}) {
-      const bool wall = owners.count(sorted(f)) > 0;
+      const bool wall = owners.contains(sorted(f));
       report.boundary_facets += wall && !in_obstacle;
       soup.add_facet({number[f[0]], number[f[1]], number[f[2]]}, wall || in_obstacle);
     }

@@ -25,7 +25,7 @@ using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, K
 using Face_base =
     CGAL::Triangulation_face_base_with_info_2<Region, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Triangulation =
+using Planar_triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel,
                                                CGAL::Triangulation_data_structure_2<Vertex_base, Face_base>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
@@ -44,7 +44,7 @@ bool cross(const Planar_domain& domain, const Segment& s, const Segment& t) {
   return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
 }
 
-/// The first earlier segment that segment `last` crosses.
+/// Refuses the first crossing of segment `last` with an earlier one.
 [[noreturn]] void refuse_crossing(const Planar_domain& domain, std::size_t last) {
   for (std::size_t i = 0; i < last; ++i)
     if (cross(domain, domain.segments[i], domain.segments[last]))
@@ -54,13 +54,13 @@ bool cross(const Planar_domain& domain, const Segment& s, const Segment& t) {
 }
 
 /// The triangulation of all segments.
-Triangulation constrain(const Planar_domain& domain, Triangulate_report& report) {
+Planar_triangulation constrain(const Planar_domain& domain, Triangulate_report& report) {
   if (domain.segments.empty()) refuse("it has no segments; give its boundary");
   for (std::size_t v = 0; v < domain.points.size(); ++v)
     if (!is_finite(domain.points[v])) refuse("point " + std::to_string(v) + " is not finite");
 
-  Triangulation triangulation;
-  std::vector<Triangulation::Vertex_handle> vertices(domain.points.size());
+  Planar_triangulation triangulation;
+  std::vector<Planar_triangulation::Vertex_handle> vertices(domain.points.size());
   std::map<Point<2>, std::uint32_t> places;
   const auto vertex = [&](std::uint32_t v) {
     if (vertices[v] == nullptr) {
@@ -86,7 +86,7 @@ Triangulation constrain(const Planar_domain& domain, Triangulate_report& report)
     }
     try {
       triangulation.insert_constraint(vertices[a], vertices[b]);
-    } catch (const Triangulation::Intersection_of_constraints_exception&) {
+    } catch (const Planar_triangulation::Intersection_of_constraints_exception&) {
       refuse_crossing(domain, i);
     }
   }
@@ -96,9 +96,9 @@ Triangulation constrain(const Planar_domain& domain, Triangulate_report& report)
   return triangulation;
 }
 
-/// Marks all faces joined with a face through edges that are no segments.
-void mark(Triangulation::Face_handle start, Region region) {
-  std::vector<Triangulation::Face_handle> stack{start};
+/// Marks all faces connected with a face through edges that are not segments.
+void mark(Planar_triangulation::Face_handle start, Region region) {
+  std::vector<Planar_triangulation::Face_handle> stack{start};
   start->info() = region;
   while (!stack.empty()) {
     const auto face = stack.back();
@@ -112,22 +112,24 @@ void mark(Triangulation::Face_handle start, Region region) {
   }
 }
 
-void mark_holes(Triangulation& triangulation, const Planar_domain& domain, Triangulate_report& report) {
+void mark_holes(Planar_triangulation& triangulation, const Planar_domain& domain,
+                Triangulate_report& report) {
   for (std::size_t h = 0; h < domain.holes.size(); ++h) {
     if (!is_finite(domain.holes[h])) refuse("the point of hole " + std::to_string(h) + " is not finite");
-    Triangulation::Locate_type type;
+    Planar_triangulation::Locate_type type{};
     int i = 0;
     const auto face = triangulation.locate({domain.holes[h][0], domain.holes[h][1]}, type, i);
-    if (type == Triangulation::VERTEX || (type == Triangulation::EDGE && face->is_constrained(i)))
+    if (type == Planar_triangulation::VERTEX ||
+        (type == Planar_triangulation::EDGE && face->is_constrained(i)))
       refuse("the point of hole " + std::to_string(h) + " lies on a segment; move it inside the hole");
-    if (type == Triangulation::OUTSIDE_CONVEX_HULL || face->info() == Region::outside)
+    if (type == Planar_triangulation::OUTSIDE_CONVEX_HULL || face->info() == Region::outside)
       ++report.outer_holes;
     else if (face->info() == Region::inside)
       mark(face, Region::hole);
   }
 }
 
-Cell_soup<2> collect(Triangulation& triangulation, bool keep_holes, Triangulate_report& report) {
+Cell_soup<2> collect(Planar_triangulation& triangulation, bool keep_holes, Triangulate_report& report) {
   Cell_soup<2> soup;
   std::size_t free_cells = 0;
   const auto is_kept = [&](Region region) {
@@ -165,7 +167,7 @@ Cell_soup<2> triangulate(const Planar_domain& domain, const Triangulate_options&
   Triangulate_report own;
   Triangulate_report& r = report ? *report : own;
   r = {};
-  Triangulation triangulation = constrain(domain, r);
+  Planar_triangulation triangulation = constrain(domain, r);
   for (const auto& v : triangulation.finite_vertex_handles()) v->info() = unnumbered;
   for (const auto& face : triangulation.all_face_handles()) face->info() = Region::inside;
   mark(triangulation.infinite_face(), Region::outside);

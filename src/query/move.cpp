@@ -21,10 +21,11 @@ Motion_status to_status(Walk_status status) {
 template <class Kernel, int D>
 Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& to,
                     const Move_options& options, Edge_counts& counts) {
+  const bool stops = options.touch == Touch::stop;
   const Walk_result<D> result =
-      walk<Kernel>(snapshot, particle, to, counts.walk, {options.strategy, nullptr, nullptr});
+      walk<Kernel>(snapshot, particle, to, counts.walk, {options.strategy, nullptr, nullptr, !stops});
   Answer<D> answer{to_status(result.status), result.cells, result.cell, {}};
-  if (options.touch == Touch::stop) {
+  if (stops) {
     answer.contact = first_touch(snapshot, particle, to, counts);
     if (answer.contact) {
       answer.status = Motion_status::contact;

@@ -31,7 +31,7 @@ void check(const Body_parts<D>& parts) {
   for (std::size_t i = 0; i < parts.segments.size(); ++i) check_indices("segment", i, parts.segments[i]);
 }
 
-/// Collects what becomes of the parts.
+/// Collects the parts of a body.
 template <int D>
 class Maker {
  public:
@@ -76,10 +76,10 @@ class Maker {
       made_.body.faces.push_back(t);
   }
 
-  /// Keeps the first of the triangles that have the same corners.
+  /// Keeps the first of triangles with the same corners.
   void drop_repeated_faces() {
     std::vector<Triangle>& faces = made_.body.faces;
-    std::vector<std::pair<Triangle, std::size_t>> sorted;  // corners in order, place
+    std::vector<std::pair<Triangle, std::size_t>> sorted;  // corners in order, position
     sorted.reserve(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
       Triangle t = faces[i];

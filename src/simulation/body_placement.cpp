@@ -45,7 +45,7 @@ template <int D>
 void World<D>::place_body(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator) {
   Body_placement<D> placement = start.placement;
   if (start.guided) placement.position = start.guided->path.front();
-  Body<D> body(snapshot_, locator, transformed(shape, placement));
+  Body<D> body(*snapshot_, locator, transformed(shape, placement));
   if (start.guided)
     bodies_.emplace_back(Rigid_body<D>(std::move(body), *start.guided, start.spin));
   else
@@ -55,7 +55,7 @@ void World<D>::place_body(const Body_start<D>& start, const Body_soup<D>& shape,
 template <int D>
 void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shape,
                             const Locator<D>& locator) {
-  const detail::Free_space<D> space(snapshot_);
+  const detail::Free_space<D> space(*snapshot_);
   if (space.is_empty()) throw Error(Error_code::usage, "the environment has no free cell");
   Random random(start.cloud->seed);
   Body_placement<D> placement = start.placement;
@@ -64,7 +64,7 @@ void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shap
       placement.position = space.draw(random).position;
       const Body_soup<D> placed = transformed(shape, placement);
       try {
-        Body<D> body(snapshot_, locator, placed);
+        Body<D> body(*snapshot_, locator, placed);
         const Vector<D> velocity = start.cloud->speed * detail::random_direction<D>(random);
         bodies_.push_back(throw_body(std::move(body), start, velocity));
         return true;

@@ -9,8 +9,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds change by more
-/// than this share of the fastest.
+/// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds
+/// change by more than this share of the fastest.
 constexpr int impulse_passes = 32;
 constexpr double settled = 1e-9;
 
@@ -44,14 +44,14 @@ std::array<double, 3> weights_in(const Point<3>& x, const Point<3>& a, const Poi
 }
 
 template <int D>
-Place<D> place_of(const Body<D>& body, const Body_contact<D>& met, const Rigid_frame<D>& frame) {
+Place<D> place_of(const Body<D>& body, const Contact<D>& met, const Rigid_frame<D>& frame) {
   const auto x = body.positions();
   Place<D> place;
-  if (met.contact.body == Body_feature::edge) {
+  if (met.body == Body_feature::edge) {
     const auto [u, v] = body.edges()[met.feature];
     const Vector<D> edge = x[v] - x[u];
     const double square = dot(edge, edge);
-    const double t = square > 0 ? std::clamp(dot(met.contact.point - x[u], edge) / square, 0.0, 1.0) : 0.5;
+    const double t = square > 0 ? std::clamp(dot(met.point - x[u], edge) / square, 0.0, 1.0) : 0.5;
     place.vertices = {u, v};
     place.weights = {1 - t, t};
     place.count = 2;
@@ -60,10 +60,10 @@ Place<D> place_of(const Body<D>& body, const Body_contact<D>& met, const Rigid_f
     place.weights = {1};
     place.count = 1;
     if constexpr (D == 3)
-      if (met.contact.body == Body_feature::face) {
+      if (met.body == Body_feature::face) {
         place.vertices = body.faces()[met.feature];
         const auto& [a, b, c] = place.vertices;
-        place.weights = weights_in(met.contact.point, x[a], x[b], x[c]);
+        place.weights = weights_in(met.point, x[a], x[b], x[c]);
         place.count = 3;
       }
   }
@@ -71,7 +71,7 @@ Place<D> place_of(const Body<D>& body, const Body_contact<D>& met, const Rigid_f
     place.arm = place.arm + place.weights[k] * frame.arm(x[place.vertices[k]]);
     place.squares += place.weights[k] * place.weights[k];
   }
-  place.normal = met.contact.normal;
+  place.normal = met.normal;
   return place;
 }
 
@@ -147,14 +147,14 @@ void rub(const Place<D>& place, double friction, Impulses<D>& impulses) {
 }  // namespace
 
 template <int D>
-void answer_contacts(const Body<D>& body, std::span<const Body_contact<D>> contacts, const Answer& answer,
+void answer_contacts(const Body<D>& body, std::span<const Contact<D>> contacts, const Answer& answer,
                      std::span<const Vector<D>> reached, std::span<Vector<D>> velocities) {
   if (contacts.empty()) return;
   const auto positions = body.positions();
   const Rigid_frame<D> frame(positions);
   std::vector<Place<D>> places;
   places.reserve(contacts.size());
-  for (const Body_contact<D>& met : contacts) places.push_back(place_of<D>(body, met, frame));
+  for (const Contact<D>& met : contacts) places.push_back(place_of<D>(body, met, frame));
   const auto see = [&](std::span<const Vector<D>> seen) {
     for (Place<D>& place : places) place.velocity = place.mean(seen);
   };
@@ -176,9 +176,9 @@ void answer_contacts(const Body<D>& body, std::span<const Body_contact<D>> conta
   impulses.apply(positions, velocities);
 }
 
-template void answer_contacts<2>(const Body<2>&, std::span<const Body_contact<2>>, const Answer&,
+template void answer_contacts<2>(const Body<2>&, std::span<const Contact<2>>, const Answer&,
                                  std::span<const Vector<2>>, std::span<Vector<2>>);
-template void answer_contacts<3>(const Body<3>&, std::span<const Body_contact<3>>, const Answer&,
+template void answer_contacts<3>(const Body<3>&, std::span<const Contact<3>>, const Answer&,
                                  std::span<const Vector<3>>, std::span<Vector<3>>);
 
 }  // namespace cellwalk::detail

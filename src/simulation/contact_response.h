@@ -22,20 +22,21 @@ struct Answer {
 
 /// Changes velocities so that nothing that met a wall goes on into it.
 ///
-/// Each contact is an impulse at the place where the body met the wall: with mobility a P + (1 - a) I, a the stiffness and P the
-/// projection on rigid motions. First the impulses are found, none of them pulling, after which no place goes into its wall
-/// (projected Gauss-Seidel); then friction acts where there is one; then places that bounce get their share of the impulse once
-/// more (Moreau's rule). For a rigid body (a = 1) without friction that keeps all energy with restitution 1, whatever the
-/// contacts. A deformable one may gain a little from what deforms it: the caller limits that.
+/// Each contact is an impulse at the place where the body met the wall: with mobility a P + (1 - a) I, a the
+/// stiffness and P the projection on rigid motions. First the impulses are found, none of them pulling, after
+/// which no place goes into its wall (projected Gauss-Seidel); then friction acts where there is one; then
+/// places that bounce get their share of the impulse once more (Moreau's rule). For a rigid body (a = 1)
+/// without friction that keeps all energy with restitution 1, whatever the contacts. A deformable one may
+/// gain a little from what deforms it: the caller limits that.
 /// \pre contacts are of this body, velocities are finite
 /// Cost: some us, and 50 ns a contact and pass.
 template <int D>
-void answer_contacts(const Body<D>& body, std::span<const Body_contact<D>> contacts, const Answer& answer,
+void answer_contacts(const Body<D>& body, std::span<const Contact<D>> contacts, const Answer& answer,
                      std::span<const Vector<D>> reached, std::span<Vector<D>> velocities);
 
-extern template void answer_contacts<2>(const Body<2>&, std::span<const Body_contact<2>>, const Answer&,
+extern template void answer_contacts<2>(const Body<2>&, std::span<const Contact<2>>, const Answer&,
                                         std::span<const Vector<2>>, std::span<Vector<2>>);
-extern template void answer_contacts<3>(const Body<3>&, std::span<const Body_contact<3>>, const Answer&,
+extern template void answer_contacts<3>(const Body<3>&, std::span<const Contact<3>>, const Answer&,
                                         std::span<const Vector<3>>, std::span<Vector<3>>);
 
 }  // namespace cellwalk::detail

@@ -80,9 +80,10 @@ void Deformable<D>::limit(double most) {
 
 /// Where the body would be without walls, and the velocities that take it there. False if that is not finite.
 ///
-/// The motion of the whole keeps its momenta, and is followed along its arc. The rest y of the shape and its velocity u, seen
-/// from the goals and from the whole, become y' = (1 - a) y + (1 - a^2) h u and u' = (y' - y) / h, a being the stiffness: stable
-/// for all a and h; with a = 1 there is no deformation after a step, as a tends to 0 nothing is lost.
+/// The motion of the whole keeps its momenta, and is followed along its arc. The rest y of the shape and its
+/// velocity u, seen from the goals and from the whole, become y' = (1 - a) y + (1 - a^2) h u and u' = (y' -
+/// y) / h, a being the stiffness: stable for all a and h; with a = 1 there is no deformation after a step, as
+/// a tends to 0 nothing is lost.
 template <int D>
 bool Deformable<D>::predict(double dt) {
   const double stiffness = matching_.material().stiffness, kept = 1 - stiffness * stiffness;
@@ -123,7 +124,7 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     stored_ = 0;
     return;
   }
-  const std::vector<Body_contact<D>>& contacts = report.contacts;
+  const std::vector<Contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   std::ranges::copy(body_.positions(), moved_.begin());
   body_.step(targets_, conditions.body, report, counts);

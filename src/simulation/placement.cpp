@@ -26,12 +26,22 @@ Particle<D> place(const Locator<D>& locator, const Point<D>& position, const std
   return {position, location.cell, location.dimension, 0};
 }
 
+/// A particle in a cell, at a point that may lie on its boundary: a walk to where it is finds the dimension
+/// of its place.
+template <int D>
+Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Point<D>& position,
+                        Walk_counts& counts) {
+  Particle<D> particle{position, cell, static_cast<std::uint16_t>(D), 0};
+  move<Exact>(snapshot, particle, position, counts);
+  return particle;
+}
+
 }  // namespace
 
 template <int D>
 World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes,
                 const Body_options& options)
-    : snapshot_(snapshot), epoch_(snapshot.epoch()), scene_(scene), shapes_(std::move(shapes)) {
+    : snapshot_(&snapshot), epoch_(snapshot.epoch()), scene_(scene), shapes_(std::move(shapes)) {
   const Locator<D> locator(snapshot);
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const std::string key = fmt::format("particles[{}]", i);
@@ -49,14 +59,12 @@ World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<
 
 template <int D>
 void World<D>::place_cloud(const Particle_cloud& cloud, const std::string& key) {
-  const detail::Free_space<D> space(snapshot_);
+  const detail::Free_space<D> space(*snapshot_);
   if (space.is_empty()) throw Error(Error_code::usage, key + ": the environment has no free cell");
   Random random(cloud.seed);
   for (std::uint32_t placed = 0; placed < cloud.count; ++placed) {
     const auto [p, cell] = space.draw(random);
-    Particle<D> particle{p, cell, static_cast<std::uint16_t>(D), 0};
-    move<Exact>(snapshot_, particle, p, counts_);  // finds the dimension, should the point lie on a facet
-    particles_.push_back(particle);
+    particles_.push_back(particle_in(*snapshot_, cell, p, counts_));
     velocities_.push_back(cloud.speed * detail::random_direction<D>(random));
   }
 }
@@ -72,15 +80,16 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
     }
     const std::string key = fmt::format("catheter.path[{}]", i);
     const Particle<D> next = place(locator, catheter.path[i], key);
-    const std::vector<Point<D>> route = find_route(snapshot_, here, next, counts_);
+    const std::vector<Point<D>> route = find_route(*snapshot_, here, next, counts_);
     if (route.empty())
       throw Error(Error_code::outside,
-                  fmt::format("{}: walls cut it off from the way point before; move it or open a wall", key));
+                  fmt::format("{}: walls cut it off from the waypoint before; move it or open a wall", key));
     way.insert(way.end(), route.begin() + 1, route.end());
     here = next;
   }
-  Body<D> body(snapshot_, locator, Rod<D>::at_entry(catheter));
-  bodies_.emplace_back(Rod<D>(snapshot_, std::move(body), catheter, std::move(way)));
+  Body<D> body(*snapshot_, locator, Rod<D>::at_entry(catheter));
+  bodies_.emplace_back(Rod<D>(*snapshot_, std::move(body), catheter, std::move(way)));
+  entry_of_.push_back({});
 }
 
 template World<2>::World(const Snapshot<2>&, const Scene<2>&, std::vector<Body_soup<2>>, const Body_options&);

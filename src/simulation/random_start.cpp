@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "random_start.h"
 
+#include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/walk/particle.h>
 
 #include <algorithm>
@@ -9,19 +10,10 @@ namespace cellwalk::detail {
 namespace {
 
 template <int D>
-struct Cell_box {
-  Point<D> low, high;
-};
-
-template <int D>
-Cell_box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
+Box<D> box_of(const Snapshot<D>& snapshot, Cell c) {
   const Cell_view<D> view = snapshot.view(c);
-  Cell_box<D> box{view.point(0), view.point(0)};
-  for (std::size_t i = 1; i < view.vertex_count(); ++i)
-    for (std::size_t d = 0; d < D; ++d) {
-      box.low[d] = std::min(box.low[d], view.point(i)[d]);
-      box.high[d] = std::max(box.high[d], view.point(i)[d]);
-    }
+  Box<D> box;
+  for (std::size_t i = 0; i < view.vertex_count(); ++i) box.extend(view.point(i));
   return box;
 }
 
@@ -32,7 +24,7 @@ Free_space<D>::Free_space(const Snapshot<D>& snapshot) : snapshot_(snapshot) {
   for (std::uint32_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
     if (c == Cell::none || snapshot.is_solid(c)) continue;
-    const Cell_box<D> box = box_of(snapshot, c);
+    const Box<D> box = box_of(snapshot, c);
     double volume = 1;
     for (std::size_t d = 0; d < D; ++d) volume *= box.high[d] - box.low[d];
     cells_.push_back(i);
@@ -47,7 +39,7 @@ typename Free_space<D>::Place Free_space<D>::draw(Random& random) const {
     const auto at =
         static_cast<std::size_t>(std::upper_bound(sum_.begin(), sum_.end(), drawn) - sum_.begin());
     const Cell c = snapshot_.cell(cells_[std::min(at, cells_.size() - 1)]);
-    const Cell_box<D> box = box_of(snapshot_, c);
+    const Box<D> box = box_of(snapshot_, c);
     Point<D> p;
     for (std::size_t d = 0; d < D; ++d) p[d] = random.real(box.low[d], box.high[d]);
     if (in_closure(snapshot_, c, p)) return {p, c};

@@ -11,8 +11,8 @@
 
 namespace cellwalk::detail {
 
-/// Draws points uniformly from free space, whatever the shapes of its cells: a cell by the size of its box, a point of the
-/// box, and both again unless the point lies in the cell.
+/// Draws points uniformly from free space, whatever the shapes of its cells: a cell by the size of its box, a
+/// point of the box, and both again unless the point lies in the cell.
 template <int D>
 class Free_space {
  public:
@@ -21,7 +21,8 @@ class Free_space {
     Cell cell;
   };
 
-  /// Refers to the snapshot, which must outlive it. Cost: a look at every cell.
+  /// Refers to the snapshot, which must outlive it.
+  /// Cost: a look at every cell.
   explicit Free_space(const Snapshot<D>& snapshot);
 
   bool is_empty() const { return cells_.empty(); }

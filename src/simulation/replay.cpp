@@ -12,7 +12,7 @@ namespace cellwalk {
 
 Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
                const Replay_options& options)
-    : trace_(&trace) {
+    : snapshot_(&snapshot), trace_(&trace) {
   if (options.sweep == Sweep::faces)
     throw Error(Error_code::usage,
                 "bodies of a trace have no faces: replay it by three_segments or triangle");
@@ -48,9 +48,8 @@ void Replay::note(std::uint32_t body, const Rejected_move<3>& blocked) {
   counts_.triangle_hits += count(blocked.swept_edges);
   counts_.rounds += count(blocked.swept_edges & ~blocked.edges);
   if (blocked.contact)
-    contacts_.push_back({steps_done_, body, blocked.vertex,
-                         blocked.is_vertex_blocked ? Body_feature::vertex : Body_feature::edge,
-                         *blocked.contact});
+    contacts_.push_back(
+        {steps_done_ + 1, 0, *blocked.contact, snapshot_->index(blocked.contact->cell), body});
 }
 
 void Replay::validate() {

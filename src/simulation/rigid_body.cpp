@@ -91,12 +91,12 @@ void Rigid_body<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     std::ranges::copy(body_.positions(), targets_.begin());
     return;
   }
-  const std::vector<Body_contact<D>>& contacts = report.contacts;
+  const std::vector<Contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   body_.step(targets_, conditions.body, report, counts);
   if (guide_) return;
   for (std::size_t i = first; i < contacts.size(); ++i) {
-    const Vector<D>& normal = contacts[i].contact.normal;
+    const Vector<D>& normal = contacts[i].normal;
     const double into = dot(velocity_, normal);
     if (!(into < 0)) continue;
     const Vector<D> along = velocity_ - into * normal;

@@ -48,8 +48,8 @@ Axis_rotation<2>::Axis_rotation(const Spin<2>& angle);
 template <>
 Axis_rotation<3>::Axis_rotation(const Spin<3>& angle);
 
-/// Centre and inertia of vertices where they stand. Where these are flat, straight or one point, turns that move none of them
-/// have no inertia, and nothing turns that way.
+/// Centre and inertia of vertices where they stand. Where these are flat, straight or one point, turns that
+/// move none of them have no inertia, and nothing turns that way.
 template <int D>
 class Rigid_frame {
  public:

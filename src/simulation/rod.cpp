@@ -11,8 +11,8 @@
 namespace cellwalk {
 namespace {
 
-/// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that has been pushed
-/// together by so much.
+/// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that
+/// has been pushed together by so much.
 constexpr double most_stretched = 0.5, most_compressed = 1;
 /// In steps of the advance: what was pushed together may come out this fast.
 constexpr double fastest = 2;
@@ -34,17 +34,18 @@ Body_soup<D> Rod<D>::at_entry(const Catheter<D>& catheter) {
 }
 
 template <int D>
-Rod<D>::Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter, std::vector<Point<D>> way)
-    : snapshot_(&snapshot), body_(std::move(body)), catheter_(catheter), way_(std::move(way)) {
+Rod<D>::Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter,
+            std::vector<Point<D>> waypoints)
+    : snapshot_(&snapshot), body_(std::move(body)), catheter_(catheter), waypoints_(std::move(waypoints)) {
   Vector<D> first{};
   first[0] = 1;
-  direction_ = detail::unit(way_[1] - way_[0], first);
+  direction_ = normalized(waypoints_[1] - waypoints_[0], first);
   heading_ = direction_;
 }
 
 template <int D>
 detail::Rod_state<D> Rod<D>::state() const {
-  return {way_.front(), direction_, catheter_.spacing, inside_};
+  return {waypoints_.front(), direction_, catheter_.spacing, inside_};
 }
 
 /// How much of the rod lies between the entry and a vertex, as it is bent now.
@@ -53,7 +54,7 @@ double Rod<D>::along(std::size_t vertex) const {
   const auto x = body_.positions();
   double sum = 0;
   for (std::size_t i = vertex; i + 1 < x.size(); ++i) sum += length(x[i] - x[i + 1]);
-  return sum + length(x.back() - way_.front());
+  return sum + length(x.back() - waypoints_.front());
 }
 
 template <int D>
@@ -71,18 +72,18 @@ bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   return walk<Exact>(*snapshot_, body_.particles()[0], x, counts.edges.walk).status == Walk_status::arrived;
 }
 
-/// Walls may keep the tip off a way point. It counts as passed where the tip is no further than a spacing from it, or nearer to the
-/// next one than it is with that in sight. A tip that is not bent towards way points goes past them: there it counts when the tip is
-/// beside it, the last one only if it is in sight.
+/// Walls may keep the tip off a waypoint. It counts as passed if the tip is within a spacing of it, or nearer
+/// to the next one than it is and has that in sight. A tip that is not bent towards waypoints passes them
+/// when it comes beside them, the last one only if it is in sight.
 template <int D>
-void Rod<D>::pass_way_points(Body_counts& counts) {
-  for (; next_ < way_.size(); ++next_) {
-    const Point<D>& aim = way_[next_];
+void Rod<D>::pass_waypoints(Body_counts& counts) {
+  for (; next_ < waypoints_.size(); ++next_) {
+    const Point<D>& aim = waypoints_[next_];
     if (length(aim - tip()) <= catheter_.spacing) continue;
-    const bool is_last = next_ + 1 == way_.size();
-    const Point<D>& after = is_last ? aim : way_[next_ + 1];
+    const bool is_last = next_ + 1 == waypoints_.size();
+    const Point<D>& after = is_last ? aim : waypoints_[next_ + 1];
     if (catheter_.steering != Steering::tip) {
-      const bool is_past = dot(tip() - aim, after - way_[next_ - 1]) >= 0;
+      const bool is_past = dot(tip() - aim, after - waypoints_[next_ - 1]) >= 0;
       if (!is_past || (is_last && !sees(aim, counts))) return;
     } else if (is_last || !(length(after - tip()) < length(after - aim)) || !sees(after, counts)) {
       return;
@@ -99,9 +100,9 @@ void Rod<D>::aim() {
     twist_ += catheter_.twist;
     return;
   }
-  if (next_ == way_.size()) return;
+  if (next_ == waypoints_.size()) return;
   if (catheter_.steering == Steering::tip) {
-    heading_ = detail::unit(way_[next_] - tip(), end);
+    heading_ = normalized(waypoints_[next_] - tip(), end);
     return;
   }
   // The curve as it is seen from where it begins.
@@ -109,7 +110,7 @@ void Rod<D>::aim() {
   const auto across = detail::curve_directions<D>(state(), twist_ * radians, x);
   const auto bends = static_cast<std::size_t>(catheter_.tip_length / catheter_.spacing);
   const std::size_t begin = std::min({bends, across.size() - 1, x.size() - 1});
-  const Vector<D> axis = state().tangent(x, begin), towards = way_[next_] - x[begin];
+  const Vector<D> axis = state().tangent(x, begin), towards = waypoints_[next_] - x[begin];
   double turn = 0;
   if constexpr (D == 3) {
     turn = angle_about(axis, across[begin], towards) / radians;
@@ -134,7 +135,7 @@ detail::Natural_bend<D> Rod<D>::bend() const {
 
 template <int D>
 void Rod<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
-  pass_way_points(counts);
+  pass_waypoints(counts);
   const detail::Rod_state<D> before = state();
   const double twist_before = twist_ * radians;
   aim();

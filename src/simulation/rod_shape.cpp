@@ -8,7 +8,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the steps that follow.
+/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the
+/// steps that follow.
 constexpr int relaxation_passes = 12;
 
 /// Takes a vector across one direction to one across another, by the least rotation.
@@ -40,7 +41,7 @@ Vector<3> base_direction(const Vector<3>& guide, double twist) {
     if (std::abs(guide[k]) < std::abs(guide[least])) least = k;
   Vector<3> axis{};
   axis[least] = 1;
-  const Vector<3> across = unit(axis - dot(axis, guide) * guide, axis);
+  const Vector<3> across = normalized(axis - dot(axis, guide) * guide, axis);
   return std::cos(twist) * across + std::sin(twist) * cross(guide, across);
 }
 
@@ -65,7 +66,7 @@ double Rod_state<D>::rest_before(std::size_t vertices, std::size_t i) const {
 
 template <int D>
 Vector<D> Rod_state<D>::tangent(std::span<const Point<D>> vertices, std::size_t i) const {
-  return i < vertices.size() && has_entered(i) ? unit(vertices[i] - before(vertices, i), direction)
+  return i < vertices.size() && has_entered(i) ? normalized(vertices[i] - before(vertices, i), direction)
                                                : direction;
 }
 
@@ -85,7 +86,7 @@ void push_along(const Rod_state<D>& state, const Vector<D>& heading, double most
     const double place = at[i] + std::clamp(state.rest(i) - at[i], 0.0, most);
     std::size_t k = i;  // the vertex before which the place is
     while (k > 0 && at[k - 1] <= place) --k;
-    const Vector<D> towards = k == 0 ? heading : unit(before[k - 1] - before[k], heading);
+    const Vector<D> towards = k == 0 ? heading : normalized(before[k - 1] - before[k], heading);
     vertices[i] = before[k] + (place - at[k]) * towards;
   }
 }
@@ -112,7 +113,8 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
   std::size_t last = 1;  // the first vertex, from the tip on, that is straight by nature
   while (last < count && bend.angle(last, state.spacing) > 0) ++last;
   if (last < 2) return;
-  // What bends each vertex beside its nature, before. It stays where it is while vertices go on by part of a link.
+  // What bends each vertex beside its nature, before. It stays where it is while vertices go on by part of a
+  // link.
   const std::vector<Vector<D>> across = curve_directions<D>(before, twist_before, old);
   std::vector<Vector<D>> excess(last + 1, Vector<D>{});
   // At the entry the guide holds the rod straight.
@@ -127,7 +129,7 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
   Vector<D> side = curve_directions<D>(state, bend.twist, vertices)[last];
   for (std::size_t i = last; i > 0; --i) {
     const Vector<D> from_walls = (1 - share) * excess[i] + share * excess[i - 1];
-    const Vector<D> next = unit(bent(tangent, side, natural(i, count)) + from_walls, tangent);
+    const Vector<D> next = normalized(bent(tangent, side, natural(i, count)) + from_walls, tangent);
     side = transported(side, tangent, next);
     tangent = next;
     vertices[i - 1] = state.before(vertices, i - 1) +
@@ -154,7 +156,7 @@ void relax(const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Poi
     const double la = rest(i), lb = rest(i + 1), t = la / (la + lb);
     Vector<D> off = (1 - t) * a + t * b - m;
     if (const double angle = i + 1 < count ? bend.angle(i + 1, state.spacing) : 0; angle > 0) {
-      const Vector<D> inwards = bent(across[i + 1], -1.0 * unit(m - b, state.direction), angle / 2);
+      const Vector<D> inwards = bent(across[i + 1], -1.0 * normalized(m - b, state.direction), angle / 2);
       off = off - (2 * la * lb / (la + lb) * std::sin(angle / 2)) * inwards;
     }
     const double sum = weight(i) * (1 - t) * (1 - t) + weight(i + 2) * t * t + weight(i + 1);

@@ -12,8 +12,8 @@
 
 namespace cellwalk::detail {
 
-/// A rod in its guide. Vertex i, the tip being 0, has `inside - i * spacing` of the rod between itself and the entry. It leaves the
-/// entry once that is long enough to have a direction.
+/// A rod in its guide. Vertex i, the tip being 0, has `inside - i * spacing` of the rod between itself and
+/// the entry. It leaves the entry once that is long enough to have a direction.
 template <int D>
 struct Rod_state {
   Point<D> entry{};
@@ -33,8 +33,8 @@ struct Rod_state {
   Vector<D> tangent(std::span<const Point<D>> vertices, std::size_t i) const;
 };
 
-/// Moves the vertices that are inside along the chain, towards the tip, until they have as much rod behind them as they should, but by
-/// no more than `most`. Beyond the tip the chain goes on along `heading`.
+/// Moves the vertices that are inside along the chain, towards the tip, until they have as much rod behind
+/// them as they should, but by no more than `most`. Beyond the tip the chain goes on along `heading`.
 template <int D>
 void push_along(const Rod_state<D>& state, const Vector<D>& heading, double most,
                 std::span<Point<D>> vertices);
@@ -55,8 +55,8 @@ struct Natural_bend {
   }
 };
 
-/// Takes the natural curve of the tip along with it, turned as the base is now: what else bends the rod there stays where it is, as
-/// walls do. `old` are the vertices as they were before they were pushed and turned.
+/// Takes the natural curve of the tip along with it, turned as the base is now: what else bends the rod there
+/// stays where it is, as walls do. `old` are the vertices as they were before they were pushed and turned.
 template <int D>
 void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const Point<D>> old,
               const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Point<D>> vertices);
@@ -65,19 +65,12 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
 template <int D>
 void relax(const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Point<D>> vertices);
 
-/// The direction in which the rod is curved at each vertex inside and at the entry, as the base is turned: unit vectors across the
-/// rod, taken along it from the guide without a twist (in the plane: to the left, longer or shorter as the turned curve is seen
-/// from above).
+/// The direction in which the rod is curved at each vertex inside and at the entry, as the base is turned:
+/// unit vectors across the rod, taken along it from the guide without a twist (in the plane: to the left,
+/// longer or shorter as the turned curve is seen from above).
 template <int D>
 std::vector<Vector<D>> curve_directions(const Rod_state<D>& state, double twist,
                                         std::span<const Point<D>> vertices);
-
-/// A unit vector, or the one given instead where the length is 0.
-template <std::size_t D>
-std::array<double, D> unit(const std::array<double, D>& v, const std::array<double, D>& otherwise) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : otherwise;
-}
 
 extern template struct Rod_state<2>;
 extern template struct Rod_state<3>;

@@ -101,7 +101,8 @@ std::vector<Point<D>> find_route(const Snapshot<D>& snapshot, const Particle<D>&
     while (reach + stride < points.size() && in_sight(reach + stride)) reach += stride, stride *= 2;
     for (; stride > 0; stride /= 2)
       if (reach + stride < points.size() && in_sight(reach + stride)) reach += stride;
-    // A rounded centre of a sliver may lie just outside its cell; the walk from there starts at the last good place.
+    // A rounded centre of a sliver may lie just outside its cell; the walk from there starts at the last good
+    // place.
     move<Exact>(snapshot, here, points[reach], counts);
     if (points[reach] != route.back()) route.push_back(points[reach]);
     next = reach + 1;

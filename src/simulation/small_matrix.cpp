@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Two-sided Jacobi rotations add and multiply single numbers in a fixed order. Without vectorisation, so do Eigen's products of
-// small matrices; with it, the order of sums would depend on the instruction set.
+// Two-sided Jacobi rotations add and multiply single numbers in a fixed order. Without vectorisation, so do
+// Eigen's products of small matrices; with it, the order of sums would depend on the instruction set.
 #define EIGEN_DONT_VECTORIZE
 
 #include "small_matrix.h"

@@ -17,17 +17,19 @@ struct Pseudo_inverse {
   int rank = 0;
 };
 
-/// The pseudo-inverse of a symmetric matrix without negative eigenvalues, and its rank. What is below `least_share` of the
-/// largest eigenvalue counts as zero. \pre finite
+/// The pseudo-inverse of a symmetric matrix without negative eigenvalues, and its rank. What is below
+/// `least_share` of the largest eigenvalue counts as zero.
+/// \pre finite
 template <int N>
 Pseudo_inverse<N> pseudo_inverse(const Matrix<N>& moments);
 
-/// Eigenvalues are squares of lengths: a shape is flat where it is thinner than 1e-6 of its size. Rounding of a flat shape
-/// that is turned makes eigenvalues of about 1e-16.
+/// Eigenvalues are squares of lengths: a shape is flat where it is thinner than 1e-6 of its size. Rounding of
+/// a flat shape that is turned makes eigenvalues of about 1e-16.
 constexpr double least_share = 1e-12;
 
-/// U V^T of the singular value decomposition, with the direction of the least singular value turned round where that is a
-/// reflection. \pre finite
+/// U V^T of the singular value decomposition, with the direction of the least singular value turned round
+/// where that is a reflection.
+/// \pre finite
 template <int N>
 Matrix<N> rotation_of(const Matrix<N>& matrix);
 

@@ -9,7 +9,7 @@
 namespace cellwalk {
 template <int D>
 void World<D>::check_epoch() const {
-  snapshot_.check_epoch(epoch_, "this World was made: make a new one");
+  snapshot_->check_epoch(epoch_, "this World was made: make a new one");
 }
 
 template <int D>
@@ -26,7 +26,7 @@ void World<D>::record_contacts(std::size_t particle) {
   for (Contact<D>& met : timed_contacts_) {
     met.normal = met.normal + Vector<D>{};  // no negative zeros for readers of tables
     contacts_.push_back(
-        {steps_done_, static_cast<std::uint32_t>(particle), met, snapshot_.index(met.cell), {}});
+        {steps_done_, static_cast<std::uint32_t>(particle), met, snapshot_->index(met.cell), {}});
   }
   timed_contacts_.clear();
 }
@@ -38,12 +38,13 @@ void World<D>::step_free() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
     velocities_[i] =
-        (1 / dt) * advance(snapshot_, particles_[i], displacement, response, timed_contacts_, counts_);
+        (1 / dt) * advance(*snapshot_, particles_[i], displacement, response, timed_contacts_, counts_);
     record_contacts(i);
   }
 }
 
-/// Nothing that moves meets anything else that moves, so all bodies may move at the same time; contacts are reported in their order.
+/// Nothing that moves meets anything else that moves, so all bodies may move at the same time; contacts are
+/// reported in their order.
 template <int D>
 void World<D>::step_bodies() {
   constexpr std::size_t bodies_at_once = 8;
@@ -56,11 +57,9 @@ void World<D>::step_bodies() {
                       }
                     });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-    for (const Body_contact<D>& met : body_steps_[i].report.contacts) {
-      Contact<D> contact = met.contact;
-      contact.normal = contact.normal + Vector<D>{};
-      contacts_.push_back(
-          {steps_done_, 0, contact, snapshot_.index(contact.cell), Body_hit{i, met.vertex, met.feature}});
+    for (Contact<D> met : body_steps_[i].report.contacts) {
+      met.normal = met.normal + Vector<D>{};
+      contacts_.push_back({steps_done_, 0, met, snapshot_->index(met.cell), i});
     }
 }
 
@@ -81,7 +80,7 @@ void World<D>::validate() {
   check_epoch();
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle<D>& p = particles_[i];
-    if (p.cell != Cell::none && !snapshot_.is_solid(p.cell) && in_closure(snapshot_, p.cell, p.position))
+    if (p.cell != Cell::none && !snapshot_->is_solid(p.cell) && in_closure(*snapshot_, p.cell, p.position))
       continue;
     throw Error(Error_code::other,
                 fmt::format("particle {} is not in the closure of its cell after step {} (position {})", i,
@@ -100,7 +99,9 @@ void World<D>::validate() {
 
 template <int D>
 const Rod<D>* World<D>::catheter() const {
-  return scene_.catheter ? bodies_.back().template as<Rod<D>>() : nullptr;
+  for (const Moving_body<D>& moving : bodies_)
+    if (const auto* rod = moving.template as<Rod<D>>()) return rod;
+  return nullptr;
 }
 
 // What the header defines too, for programs that do not inline it.

@@ -21,7 +21,7 @@ class Boundary_run {
   /// The number of facets in whose plane the line lies.
   std::size_t facet_count() const { return facets_.size(); }
 
-  /// The ridge or vertex that the start lies on.
+  /// The ridge or vertex on which the start lies.
   Exit at_start() const {
     for (const std::size_t i : facets_) {
       const Facet_feature feature = lowest_feature(cell_, i, a_);
@@ -76,7 +76,8 @@ class Boundary_run {
     }
   }
 
-  /// True if the line, which lies in the plane of facet i, has the ends of a ridge of it on different sides.
+  /// True if the ends of a ridge of facet i, whose plane contains the line, lie on different sides of the
+  /// line.
   bool crosses(std::size_t i, std::size_t k) const {
     std::size_t off = 0;
     while (side<Exact>(cell_, i, cell_.point(off), counts_) == 0) ++off;
@@ -87,7 +88,8 @@ class Boundary_run {
     return sign(corner(i, k)) * sign(corner(i, k + 1)) < 0;
   }
 
-  /// The same as place_of(); a ridge may also be the one that the motion starts on and runs along.
+  /// The same as place_of(), but the ridge may also be the one on which the motion starts and along which it
+  /// runs.
   Fraction place_of_passed(const Exit& passed) const {
     const Point<D>&u = cell_.points[passed.u], &v = cell_.points[passed.v];
     const bool runs_along =
@@ -95,7 +97,7 @@ class Boundary_run {
     return runs_along ? Fraction(0) : place_of(passed);
   }
 
-  /// Where the line passes a ridge or vertex: 0 at a, 1 at b.
+  /// The parameter at which the line passes a ridge or vertex: 0 at a, 1 at b.
   Fraction place_of(const Exit& place) const {
     if (place.kind == Exit::vertex) {
       const Point<D>& x = cell_.points[place.u];

@@ -22,7 +22,7 @@ namespace bgi = boost::geometry::index;
 /// Rounds outward: boxes may be larger than their cells, never smaller.
 float down(double x) {
   const auto f = static_cast<float>(x);
-  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 float up(double x) { return -down(-x); }
 
@@ -61,7 +61,7 @@ struct Locator<D>::Index {
   }
 
   const Snapshot<D>& snapshot;
-  std::uint64_t geometry_epoch;  ///< that the boxes are of
+  std::uint64_t geometry_epoch;  ///< of the boxes
   Tree tree;
 };
 
@@ -79,12 +79,12 @@ namespace {
 
 constexpr std::size_t no_side = ~std::size_t{0};
 
-/// A cell whose closure holds a point.
+/// A cell whose closure contains a point.
 template <int D>
 struct Found {
   Cell cell;
-  std::vector<std::size_t> facets;  ///< those whose planes hold the point
-  std::size_t side = no_side;       ///< the class of those linked with it there
+  std::vector<std::size_t> facets;  ///< those whose planes contain the point
+  std::size_t side = no_side;       ///< its class of linked cells
 };
 
 /// Finds the sides: classes of cells linked at p. All cells that contain p are given.
@@ -107,7 +107,7 @@ void find_sides(const Snapshot<D>& s, std::vector<Found<D>>& found, const Point<
   }
 }
 
-/// What the order of sides goes by: whether the point lies there once it is displaced, then the corners of the first cell.
+/// The key of the order of sides: whether the displaced point lies there, then the corners of the first cell.
 template <int D>
 struct Side_rank {
   std::size_t side;
@@ -138,7 +138,7 @@ std::vector<Side_rank<D>> ordered_sides(const Snapshot<D>& s, const std::vector<
   return ranks;
 }
 
-/// Of the lowest cell of the complex on which p, a point of the closed cell, lies.
+/// The dimension of the lowest cell of the complex that contains p, a point of the closed cell.
 template <int D>
 std::uint16_t dimension_at(const Snapshot<D>& s, Cell c, const Point<D>& p) {
   const Cell_view<D> cell = s.view(c);

@@ -14,7 +14,7 @@ bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point) {
     if constexpr (D == 2) {
       if (Exact::orientation(counts, view.point(loop[0]), view.point(loop[1]), point) < 0) return false;
     } else {
-      // Every triangle of the fan, since the first three vertices may lie on one line.
+      // Every triangle of the fan, since the first three vertices may be collinear.
       for (std::size_t i = 1; i + 1 < loop.size(); ++i)
         if (Exact::orientation(counts, view.point(loop[0]), view.point(loop[i]), view.point(loop[i + 1]),
                                point) > 0)

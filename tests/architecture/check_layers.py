@@ -53,6 +53,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
 MAX_LINES = 400
+# clang-format breaks neither comments nor literals.
+MAX_COLUMNS = int(re.search(r"^ColumnLimit: (\d+)$", (HERE / ".clang-format").read_text(encoding="utf-8"), re.MULTILINE)[1])
 SOURCES = {".h", ".cpp"}
 FORM_FOLDERS = ["include", "src", "tests", "experiments", "examples", "python", "scripts", "cmake"]
 FORM_SUFFIXES = SOURCES | {".py", ".pyi", ".sh", ".cmake", ".txt"}
@@ -256,6 +258,9 @@ def check_form(root):
                 yield f"{name}:{MAX_LINES + 1}: has {len(lines)} lines: name its parts and split it"
             if not any("SPDX-License-Identifier: " in line for line in lines[:2]):
                 yield f"{name}:1: lacks its SPDX-License-Identifier"
+            for number, line in enumerate(lines if path.suffix in SOURCES else [], 1):
+                if len(line) > MAX_COLUMNS:
+                    yield f"{name}:{number}: has {len(line)} columns, more than the {MAX_COLUMNS} of .clang-format: break it"
 
 
 def check_installed(root, graph):

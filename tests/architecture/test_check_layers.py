@@ -234,6 +234,11 @@ class Planted(unittest.TestCase):
         self.write("experiments/long.cpp", SPDX + "int a;\n" * check_layers.MAX_LINES)
         self.assert_caught("experiments/long.cpp:401", "has 401 lines")
 
+    def test_wide_line(self):
+        widest = "// " + "x" * (check_layers.MAX_COLUMNS - 3)
+        self.write("tests/walk/wide.cpp", f"{SPDX}{widest}\n{widest}x\n")
+        self.assert_caught("tests/walk/wide.cpp:3", f"has {check_layers.MAX_COLUMNS + 1} columns")
+
     def test_missing_licence_line(self):
         self.write("scripts/run.sh", "#!/bin/sh\necho\n")
         self.assert_caught("scripts/run.sh:1", "SPDX")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All walls of a snapshot as closed sets, against which segments and triangles are held in rational arithmetic, one by one.
+// All walls of a snapshot as closed sets, against which segments and triangles are held in rational
+// arithmetic, one by one.
 #ifndef CELLWALK_TESTS_BODY_CLOSED_WALLS_H
 #define CELLWALK_TESTS_BODY_CLOSED_WALLS_H
 

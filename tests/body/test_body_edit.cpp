@@ -229,7 +229,8 @@ TEST(BodyEdit, AWallThatAppearsInABodyIsRefusedUntilItGoes) {
 }
 
 TEST(BodyEdit, AVertexInAWallKeepsItsSide) {
-  // A membrane between two squares, and two bodies that stand in it, one from each side. Some corner of the world is moved.
+  // A membrane between two squares, and two bodies that stand in it, one from each side. Some corner of the
+  // world is moved.
   Environment<2> environment = Environment<2>::build(square_grid({.cells = {2, 1}}));
   const Snapshot<2>& snapshot = environment.snapshot();
   environment.set_impassable(middle_facet(snapshot), true);

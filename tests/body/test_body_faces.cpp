@@ -16,8 +16,8 @@
 namespace cellwalk::test {
 namespace {
 
-/// A box above and a box below the plane y = 0, x from 0 to 2. From x = 1 on they share a facet. Before it each has walls of its own,
-/// one and two: a slit.
+/// A box above and a box below the plane y = 0, x from 0 to 2. From x = 1 on they share a facet. Before it
+/// each has walls of its own, one and two: a slit.
 Snapshot<3> beside_a_slit() {
   Cell_soup<3> soup;
   const std::vector<Point<2>> outline{{0, 0}, {0.5, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}, {2, -1}, {0, -1}};
@@ -40,7 +40,7 @@ Snapshot<3> beside_a_slit() {
   return compile(soup);
 }
 
-TEST(Body_faces, ASlitIsMetFromBothSides) {
+TEST(BodyFaces, ASlitIsMetFromBothSides) {
   const Snapshot<3> snapshot = beside_a_slit();
   for (const double side : {1.0, -1.0}) {
     const double y = 0.25 * side;
@@ -108,8 +108,9 @@ struct Strip {
   Step_report<3> report;
 };
 
-/// Round a corner, nearly all the way without tests: particles and chains are where they were. Then faces are asked about.
-TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
+/// Round a corner, nearly all the way without tests: particles and chains are where they were. Then faces are
+/// asked about.
+TEST(BodyFaces, AreRegisteredWhereTheBodyIs) {
   const Snapshot<3> snapshot = round_a_corner();
   Strip strip(snapshot, {10, 1.7, 1.5});
   for (int k = 0; k < 85; ++k) strip.step({-0.1, 0, 0});
@@ -124,8 +125,9 @@ TEST(Body_faces, AreRegisteredWhereTheBodyIs) {
   EXPECT_NO_THROW(strip.body.validate());
 }
 
-/// Whatever sweep comes after whatever other, and whether or not everything is caught up with in between: the same.
-TEST(Body_faces, AnyOrderOfSweepsIsTheSame) {
+/// Whatever sweep comes after whatever other, and whether or not everything is caught up with in between: the
+/// same.
+TEST(BodyFaces, AnyOrderOfSweepsIsTheSame) {
   const Snapshot<3> snapshot = round_a_corner();
   Random random(5);
   int steps = 0, with_faces = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a body was asked before must not show in what it answers now: sweeps, policies, regions free of walls, registering and checking in
-// any order against the same moves without regions, registered after each, and against a body made anew where it stands.
+// What a body was asked before must not show in what it answers now: sweeps, policies, regions free of walls,
+// registering and checking in any order against the same moves without regions, registered after each, and
+// against a body made anew where it stands.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/gluing.h>
 
@@ -42,11 +43,10 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
   const auto &of_a = a.report.contacts, &of_b = b.report.contacts;
   if (of_a.size() != of_b.size()) return "the number of contacts";
   for (std::size_t i = 0; i < of_a.size(); ++i) {
-    const Contact<D>&x = of_a[i].contact, &y = of_b[i].contact;
-    if (of_a[i].vertex != of_b[i].vertex) return "the vertex of a contact";
+    const Contact<D>&x = of_a[i], &y = of_b[i];
+    if (x.vertex != y.vertex) return "the vertex of a contact";
     if (x.time != y.time) return "the time of a contact";
-    if (x.body != y.body || x.kind != y.kind || of_a[i].feature != of_b[i].feature)
-      return "the feature of a contact";
+    if (x.body != y.body || x.kind != y.kind || x.feature != y.feature) return "the feature of a contact";
   }
   const auto equal = [](const Rejected_move<D>& x, const Rejected_move<D>& y) {
     return x.vertex == y.vertex && x.is_vertex_blocked == y.is_vertex_blocked && x.edges == y.edges &&
@@ -238,7 +238,8 @@ class Interleaving {
     return true;
   }
 
-  /// A body without faces that is registered where this one stands; in general position only, where there is one way to do it.
+  /// A body without faces that is registered where this one stands; in general position only, where there is
+  /// one way to do it.
   std::optional<Body<D>> made_anew(const Body<D>& body) {
     if (!generic_ || random().below(3) > 0) return {};
     Body_soup<D> soup;

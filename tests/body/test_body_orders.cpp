@@ -166,14 +166,14 @@ class Body_in_orders {
     }
   }
 
-  std::string difference(const std::vector<Body_contact<D>>& some, const std::vector<Body_contact<D>>& others,
+  std::string difference(const std::vector<Contact<D>>& some, const std::vector<Contact<D>>& others,
                          std::size_t order) const {
     if (some.size() != others.size()) return ": as many contacts";
     for (std::size_t c = 0; c < some.size(); ++c) {
-      const Contact<D>&x = some[c].contact, &y = others[c].contact;
+      const Contact<D>&x = some[c], &y = others[c];
       if (some[c].vertex != others[c].vertex) return ": the vertex of a contact";
       if (x.time != y.time) return ": the time of a contact";
-      if (x.body != y.body || some[c].feature != others[c].feature) return ": what of the body is met";
+      if (x.body != y.body || x.feature != y.feature) return ": what of the body is met";
       if (x.kind != y.kind ||
           oracle::feature_of(worlds_[0]->snapshot, x) != oracle::feature_of(worlds_[order]->snapshot, y))
         return ": what it meets";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies by the rule of traces among closed walls: a vertex stays if one meets its way or one of its edges where it goes. Where
-// nothing touches a wall, what may not pass it is what meets it, so the same judge tells of either Touch.
+// Bodies by the rule of traces among closed walls: a vertex stays if one meets its way or one of its edges
+// where it goes. Where nothing touches a wall, what may not pass it is what meets it, so the same judge tells
+// of either Touch.
 #include <cellwalk/body/body.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
@@ -48,7 +49,8 @@ struct Rejected_seen {
   }
 };
 
-/// Bodies of all sorts among solid cells and membranes, all on one lattice: coarse, so that much touches, or so fine that nothing does.
+/// Bodies of all sorts among solid cells and membranes, all on one lattice: coarse, so that much touches, or
+/// so fine that nothing does.
 template <int D>
 class Rejection {
  public:
@@ -158,21 +160,20 @@ class Rejection {
     return answer;
   }
 
-  /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that time.
-  bool is_contact(const Body_contact<D>& met, const std::vector<Point<D>>& positions,
-                  const Point<D>& target) const {
-    const Contact<D>& c = met.contact;
-    const Point<D>& from = positions[met.vertex];
+  /// A contact names a wall and its point lies there: on the way of the vertex, or on an edge of it at that
+  /// time.
+  bool is_contact(const Contact<D>& c, const std::vector<Point<D>>& positions, const Point<D>& target) const {
+    const Point<D>& from = positions[c.vertex];
     const Point<D> there = from + c.rounded_time() * (target - from);
     bool is_there = false;
     if (c.body == Body_feature::vertex) {
       is_there = length(c.point - there) < 1e-6;
     } else if (c.body == Body_feature::edge) {
-      const auto& [u, v] = edges_[met.feature];
-      const Vector<D> along = positions[u == met.vertex ? v : u] - there;
+      const auto& [u, v] = edges_[c.feature];
+      const Vector<D> along = positions[u == c.vertex ? v : u] - there;
       const double share =
           std::clamp(dot(c.point - there, along) / std::max(1e-300, dot(along, along)), 0.0, 1.0);
-      is_there = (u == met.vertex || v == met.vertex) && length(there + share * along - c.point) < 1e-6;
+      is_there = (u == c.vertex || v == c.vertex) && length(there + share * along - c.point) < 1e-6;
     }
     return is_there && snapshot_.is_impassable(c.facet) && std::abs(length(c.normal) - 1) < 1e-9;
   }
@@ -270,12 +271,12 @@ void expect_rejections(Touch touch, bool is_coarse) {
   }
 }
 
-TEST(Body_reject, AmongWallsThatNothingTouches2) { expect_rejections<2>(Touch::pass, false); }
-TEST(Body_reject, AmongWallsThatNothingTouches3) { expect_rejections<3>(Touch::pass, false); }
-TEST(Body_reject, WhatPassesNothingTouchesNothing2) { expect_rejections<2>(Touch::stop, false); }
-TEST(Body_reject, WhatPassesNothingTouchesNothing3) { expect_rejections<3>(Touch::stop, false); }
-TEST(Body_reject, TouchesAreInTheWay2) { expect_rejections<2>(Touch::stop, true); }
-TEST(Body_reject, TouchesAreInTheWay3) { expect_rejections<3>(Touch::stop, true); }
+TEST(BodyReject, AmongWallsThatNothingTouches2) { expect_rejections<2>(Touch::pass, false); }
+TEST(BodyReject, AmongWallsThatNothingTouches3) { expect_rejections<3>(Touch::pass, false); }
+TEST(BodyReject, WhatPassesNothingTouchesNothing2) { expect_rejections<2>(Touch::stop, false); }
+TEST(BodyReject, WhatPassesNothingTouchesNothing3) { expect_rejections<3>(Touch::stop, false); }
+TEST(BodyReject, TouchesAreInTheWay2) { expect_rejections<2>(Touch::stop, true); }
+TEST(BodyReject, TouchesAreInTheWay3) { expect_rejections<3>(Touch::stop, true); }
 
 }  // namespace
 }  // namespace cellwalk::test

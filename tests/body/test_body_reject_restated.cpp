@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces where touching is free, stated once more by the public functions for one particle and one edge: in every
-// position, walls in the plane of the motion included.
+// The rule of traces where touching is free, stated once more by the public functions for one particle and
+// one edge: in every position, walls in the plane of the motion included.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
@@ -38,9 +38,16 @@ class Restated_body {
     answer.vertex = vertex;
     const Particle<D> from = particles_[vertex];
     Particle<D> to = from;
-    answer.contact = move(snapshot_, to, target, counts_.walk).contact;
-    answer.is_vertex_blocked = answer.contact.has_value();
-    if (answer.is_vertex_blocked) return answer;
+    const auto keep = [&](const Wall_contact<D>& wall, Body_feature body, std::size_t feature) {
+      answer.contact = to_contact(wall, Exact_time(wall.time), body);
+      answer.contact->vertex = vertex;
+      answer.contact->feature = static_cast<std::uint32_t>(feature);
+    };
+    if (const auto walked = move(snapshot_, to, target, counts_.walk); walked.contact) {
+      keep(*walked.contact, Body_feature::vertex, vertex);
+      answer.is_vertex_blocked = true;
+      return answer;
+    }
     Sweep_options options;
     options.sweep = sweep;
     std::vector<std::pair<std::size_t, Chain>> moved;
@@ -60,7 +67,7 @@ class Restated_body {
         }
       }
       if (at_end.contact) answer.edges |= bit;
-      if (at_end.contact && !answer.contact) answer.contact = at_end.contact;
+      if (at_end.contact && !answer.contact) keep(*at_end.contact, Body_feature::edge, edge);
       moved.emplace_back(edge, at_end.chain);
       bit <<= 1;
     }
@@ -203,7 +210,9 @@ class Restatement {
         x.contact.has_value() != y.contact.has_value())
       return false;
     return !x.contact || (x.contact->facet == y.contact->facet && x.contact->kind == y.contact->kind &&
-                          x.contact->time == y.contact->time && x.contact->normal == y.contact->normal);
+                          x.contact->time == y.contact->time && x.contact->normal == y.contact->normal &&
+                          x.contact->body == y.contact->body && x.contact->vertex == y.contact->vertex &&
+                          x.contact->feature == y.contact->feature);
   }
 
   const oracle::World<D> world_;
@@ -245,8 +254,8 @@ void test_restated() {
   }
 }
 
-TEST(Body_reject, AsWalksAndSweepsSay2) { test_restated<2>(); }
-TEST(Body_reject, AsWalksAndSweepsSay3) { test_restated<3>(); }
+TEST(BodyReject, AsWalksAndSweepsSay2) { test_restated<2>(); }
+TEST(BodyReject, AsWalksAndSweepsSay3) { test_restated<3>(); }
 
 }  // namespace
 }  // namespace cellwalk::test

@@ -34,7 +34,7 @@ Body<3> hexahedron(const Snapshot<3>& snapshot, const Point<3>& at, double side)
                  transformed(generate_body(Hexahedron_shape{side, false}), placement));
 }
 
-TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
+TEST(BodyStep, SlidesAlongAnAxisAlignedWall) {
   const Snapshot<3> snapshot = rooms<3>({8, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {2, 2, 0.5}, 1);  // stands on the floor
   Step_report<3> report;
@@ -47,10 +47,10 @@ TEST(Body_step, SlidesAlongAnAxisAlignedWall) {
   EXPECT_GT(body.positions()[0][0], 5.4) << "it stuck to the floor";
   EXPECT_LT(body.positions()[0][2], 1e-9);
   ASSERT_FALSE(report.contacts.empty());
-  EXPECT_EQ(report.contacts[0].contact.normal, (Vector<3>{0, 0, 1}));
+  EXPECT_EQ(report.contacts[0].normal, (Vector<3>{0, 0, 1}));
 }
 
-TEST(Body_step, RejectsMovesThatMeetWalls) {
+TEST(BodyStep, RejectsMovesThatMeetWalls) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {});
   Body<3> body = hexahedron(snapshot, {1, 2, 2}, 1);
   const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
@@ -70,7 +70,7 @@ TEST(Body_step, RejectsMovesThatMeetWalls) {
   EXPECT_NO_THROW(body.validate());
 }
 
-TEST(Body_step, SlidesAlongAnObliqueWall) {
+TEST(BodyStep, SlidesAlongAnObliqueWall) {
   // A channel whose floor rises: by no angle at which anything is a double.
   Cell_soup<2> soup;
   for (int i = 0; i <= 10; ++i) {
@@ -95,7 +95,7 @@ TEST(Body_step, SlidesAlongAnObliqueWall) {
   EXPECT_LT(counts.held, report.contacts.size() / 2);
 }
 
-TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
+TEST(BodyStep, ReportsTheEdgeThatMeetsASpike) {
   // A solid cell sticks out of the floor; an edge longer than it is wide comes down on it.
   const Snapshot<3> snapshot = rooms<3>({5, 3, 4}, {7});
   const Body_soup<3> soup{{{0.5, 1.25, 2.5}, {4.5, 1.25, 2.5}}, {{0, 1}}, {}};
@@ -103,18 +103,18 @@ TEST(Body_step, ReportsTheEdgeThatMeetsASpike) {
   Body_counts counts;
   const auto contact = body.move_vertex(0, {0.5, 1.25, 0.05}, {}, counts);
   ASSERT_TRUE(contact);
-  EXPECT_EQ(contact->contact.body, Body_feature::edge);
+  EXPECT_EQ(contact->body, Body_feature::edge);
   EXPECT_EQ(contact->feature, 0u);
   EXPECT_EQ(contact->vertex, 0u);
-  EXPECT_EQ(contact->contact.kind, Contact_kind::edge);
+  EXPECT_EQ(contact->kind, Contact_kind::edge);
   // The edge meets (2, 1.25, 1): on a line with (4.5, 1.25, 2.5), p is then at height 0.1.
-  EXPECT_NEAR(contact->contact.rounded_time(), 2.4 / 2.45, 1e-12);
-  EXPECT_EQ(contact->contact.point[1], 1.25);
+  EXPECT_NEAR(contact->rounded_time(), 2.4 / 2.45, 1e-12);
+  EXPECT_EQ(contact->point[1], 1.25);
   EXPECT_EQ(body.positions()[0], (Point<3>{0.5, 1.25, 2.5})) << "nothing moves where there is a contact";
 }
 
 /// A face wider than the solid cell that sticks out of the floor under it.
-TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
+TEST(BodyStep, FacesAreStoppedByWhatEdgesMiss) {
   const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Locator<3> locator(snapshot);
   const Body_soup<3> soup{
@@ -141,9 +141,9 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
       continue;
     }
     ASSERT_FALSE(report.contacts.empty());
-    EXPECT_EQ(report.contacts[0].contact.body, Body_feature::face);
+    EXPECT_EQ(report.contacts[0].body, Body_feature::face);
     EXPECT_EQ(report.contacts[0].feature, 0u);
-    EXPECT_EQ(report.contacts[0].contact.point[2], 1);
+    EXPECT_EQ(report.contacts[0].point[2], 1);
     EXPECT_GT(counts.faces.faces, 50u);
     EXPECT_GT(lowest, 0.4);
     // Two corners may go down past the cell, if the third is left behind; but not the middle.
@@ -151,7 +151,7 @@ TEST(Body_step, FacesAreStoppedByWhatEdgesMiss) {
   }
 }
 
-TEST(Body_step, RefusesFacesThatWallsPierce) {
+TEST(BodyStep, RefusesFacesThatWallsPierce) {
   const Snapshot<3> snapshot = rooms<3>({5, 5, 4}, {12});
   const Body_soup<3> soup{
       {{0.25, 0.25, 0.5}, {4.75, 0.25, 0.5}, {2.5, 4.75, 0.5}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
@@ -166,7 +166,7 @@ TEST(Body_step, RefusesFacesThatWallsPierce) {
 }
 
 /// Free moves need no contacts; the first of them is where a vertex stops.
-TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
+TEST(BodyStep, FewContactsDoNotKeepVerticesFromMoving) {
   const Snapshot<2> snapshot = rooms<2>({4, 4});
   const Locator<2> locator(snapshot);
   for (const bool clearance : {false, true})
@@ -187,7 +187,7 @@ TEST(Body_step, FewContactsDoNotKeepVerticesFromMoving) {
     }
 }
 
-TEST(Body_step, ABodyWithoutVerticesStaysOne) {
+TEST(BodyStep, ABodyWithoutVerticesStaysOne) {
   const Snapshot<3> snapshot = rooms<3>({2, 2, 2}, {});
   Body<3> body(snapshot, Locator<3>(snapshot), {});
   Step_report<3> report;
@@ -198,7 +198,7 @@ TEST(Body_step, ABodyWithoutVerticesStaysOne) {
   EXPECT_NO_THROW(body.validate());
 }
 
-TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
+TEST(BodyStep, MovesOfOneVertexLeaveTheRegion) {
   // A solid cell at x from 10 to 11, y from 4 to 5.
   const Snapshot<2> snapshot = rooms<2>({20, 20}, {90});
   Body<2> body(snapshot, Locator<2>(snapshot), {{{9.5, 4.5}}, {}, {}});
@@ -206,7 +206,8 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   Body_counts counts;
   body.step(std::vector<Point<2>>{{9.51, 4.5}}, {}, report, counts);
   ASSERT_EQ(counts.in_region, 1u);
-  // The vertex goes from where it is now, not from where it was registered; out of the region, round the cell.
+  // The vertex goes from where it is now, not from where it was registered; out of the region, round the
+  // cell.
   for (const Point<2>& target : {Point<2>{9.52, 6.5}, {11.5, 6.5}, {11.5, 4.5}})
     ASSERT_FALSE(body.move_vertex(0, target, {}, counts));
   EXPECT_NO_THROW(body.validate());
@@ -217,9 +218,9 @@ TEST(Body_step, MovesOfOneVertexLeaveTheRegion) {
   EXPECT_NO_THROW(body.validate());
 }
 
-/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In which one changes
-/// nothing: it comes to lie on the upper side, where it is once it is displaced.
-TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
+/// A vertex between two cells is registered in one of them, and lies in the plane of a wall further on. In
+/// which one changes nothing: it comes to lie on the upper side, where it is once it is displaced.
+TEST(BodyStep, AVertexThatStaysInARegionStaysInItsCell) {
   Cell_soup<2> soup = square_grid(Grid_options<2>{.cells = {8, 4}});
   int walls = 0;
   for (std::size_t f = 0; f < soup.facet_count(); ++f) {
@@ -249,7 +250,7 @@ TEST(Body_step, AVertexThatStaysInARegionStaysInItsCell) {
   }
 }
 
-TEST(Body_step, AVertexThatStaysMeetsNothing) {
+TEST(BodyStep, AVertexThatStaysMeetsNothing) {
   const Snapshot<2> snapshot = rooms<2>({2, 2}, {});
   const Body_soup<2> soup{
       {{0, 0}, {2, 0}, {1, 0}}, {{0, 1}, {1, 2}}, {}};  // along the floor, corner to corner
@@ -313,8 +314,8 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
   EXPECT_EQ(plain_counts.in_region, 0u);
 }
 
-TEST(Body_step, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
-TEST(Body_step, RegionsHoldNoWalls3) {
+TEST(BodyStep, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
+TEST(BodyStep, RegionsHoldNoWalls3) {
   expect_sound_regions<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}), {4, 4, 4}, 400);
 }
 

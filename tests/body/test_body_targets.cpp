@@ -15,8 +15,8 @@
 namespace cellwalk::test {
 namespace {
 
-/// An edge is in the way first, then a wall of its vertex, however far behind: with the paper's sweep the vertex goes as far as with
-/// the complete one.
+/// An edge is in the way first, then a wall of its vertex, however far behind: with the paper's sweep the
+/// vertex goes as far as with the complete one.
 template <int D>
 void expect_three_segments_go_on(const Snapshot<D>& snapshot, const Body_soup<D>& soup, int axis) {
   const Locator<D> locator(snapshot);
@@ -39,21 +39,22 @@ void expect_three_segments_go_on(const Snapshot<D>& snapshot, const Body_soup<D>
         continue;
       }
       ASSERT_FALSE(report.contacts.empty());
-      EXPECT_EQ(report.contacts[0].contact.body, Body_feature::edge);
+      EXPECT_EQ(report.contacts[0].body, Body_feature::edge);
       EXPECT_GT(body.positions()[0][axis], soup.points[0][axis] + 0.5) << "it stays";
     }
     EXPECT_EQ(ends[0], ends[1]) << target;
   }
 }
 
-TEST(Body_targets, ThreeSegmentsStopWhereTheEdgeIsInTheWayFirst) {
+TEST(BodyTargets, ThreeSegmentsStopWhereTheEdgeIsInTheWayFirst) {
   expect_three_segments_go_on<2>(rooms<2>({3, 3}, {4}), {{{0.5, 0.75}, {1.5, 0.5}}, {{0, 1}}, {}}, 1);
   expect_three_segments_go_on<3>(rooms<3>({3, 3, 3}, {13}),
                                  {{{0.5, 0.75, 1.25}, {1.5, 0.5, 1.5}}, {{0, 1}}, {}}, 1);
 }
 
-/// Targets so far away that differences to them forget all other points: the filters of the signs decide as many as ever.
-TEST(Body_targets, FarTargetsLeaveFiltersOfUse) {
+/// Targets so far away that differences to them forget all other points: the filters of the signs decide as
+/// many as ever.
+TEST(BodyTargets, FarTargetsLeaveFiltersOfUse) {
   const Snapshot<3> snapshot = rooms<3>({6, 6, 6}, {43, 86, 100, 129, 172});
   const Locator<3> locator(snapshot);
   Random random(7);

@@ -86,7 +86,7 @@ Found expect_free(const Snapshot<D>& snapshot, const Point<D>& low, const Point<
   return result;
 }
 
-TEST(Clear_region, HoldsNoWallOfAGrid) {
+TEST(ClearRegion, HoldsNoWallOfAGrid) {
   const Found in_plane = expect_free<2>(rooms<2>({6, 6}, {8, 14, 27}), {0, 0}, {6, 6}, 0.3, 2000);
   EXPECT_GT(in_plane.whole, 800);
   EXPECT_GT(in_plane.regions, in_plane.whole + 300);
@@ -98,7 +98,7 @@ TEST(Clear_region, HoldsNoWallOfAGrid) {
   EXPECT_GT(in_space.with_planes, 20);
 }
 
-TEST(Clear_region, HoldsNoWallOfAVessel) {
+TEST(ClearRegion, HoldsNoWallOfAVessel) {
   const Snapshot<3> snapshot = compile(branching_vessel({}));
   Point<3> low = snapshot.point(0), high = low;
   for (const Point<3>& x : snapshot.points())
@@ -112,7 +112,7 @@ TEST(Clear_region, HoldsNoWallOfAVessel) {
   EXPECT_GT(found.with_planes, 50);
 }
 
-TEST(Clear_region, ReachesWallsAndWhereTheMotionLeads) {
+TEST(ClearRegion, ReachesWallsAndWhereTheMotionLeads) {
   const Snapshot<2> snapshot = rooms<2>({6, 6}, {14});  // solid at x from 2 to 3, y from 2 to 3
   const std::vector<Point<2>> positions{{1.5, 2.5}, {1.6, 2.6}}, targets{{1.54, 2.5}, {1.64, 2.6}};
   Region_request<2> request;
@@ -128,7 +128,7 @@ TEST(Clear_region, ReachesWallsAndWhereTheMotionLeads) {
   EXPECT_FALSE(region->holds({1.5, 3})) << "it leads not there";
 }
 
-TEST(Clear_region, LooksAtTheCellOfTheAnchorAtLeast) {
+TEST(ClearRegion, LooksAtTheCellOfTheAnchorAtLeast) {
   const Snapshot<2> snapshot = rooms<2>({6, 6});
   const Locator<2> locator(snapshot);
   const std::vector<Point<2>> positions{{2.5, 2.5}}, targets{{2.75, 2.5}};
@@ -147,7 +147,7 @@ TEST(Clear_region, LooksAtTheCellOfTheAnchorAtLeast) {
   }
 }
 
-TEST(Clear_region, IsNoneAtAWall) {
+TEST(ClearRegion, IsNoneAtAWall) {
   const Snapshot<2> snapshot = rooms<2>({6, 6}, {14});
   const Locator<2> locator(snapshot);
   const std::vector<Point<2>> on_wall{{2, 2.5}}, aside{{1.9, 2.4}};
@@ -163,7 +163,7 @@ TEST(Clear_region, IsNoneAtAWall) {
 }
 
 /// Regions are those of the same world at another scale, or smaller.
-TEST(Clear_region, IsNotEnlargedByUnderflowOrOverflow) {
+TEST(ClearRegion, IsNotEnlargedByUnderflowOrOverflow) {
   int found = 0, with_planes = 0;
   Random random(7);
   for (int k = 0; k < 100; ++k) {
@@ -209,8 +209,9 @@ TEST(Clear_region, IsNotEnlargedByUnderflowOrOverflow) {
   EXPECT_GT(with_planes, 100);
 }
 
-/// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of those without a facet.
-TEST(Clear_region, IsFoundWherePlanesSayNothing) {
+/// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of
+/// those without a facet.
+TEST(ClearRegion, IsFoundWherePlanesSayNothing) {
   for (const double scale : {1.0, 0x1p330, 0x1p500}) {
     Cell_soup<2> soup;
     for (const Point<2>& x : {Point<2>{0, 0}, {scale, 0}, {0, scale}}) soup.points.push_back(x);
@@ -232,7 +233,7 @@ TEST(Clear_region, IsFoundWherePlanesSayNothing) {
   }
 }
 
-TEST(Open_box, HoldsWhatEachComparisonSays) {
+TEST(OpenBox, HoldsWhatEachComparisonSays) {
   Random random(5);
   int all = 0, some = 0;
   for (int trial = 0; trial < 2000; ++trial) {

@@ -86,7 +86,8 @@ TEST(Registration, TakesTheSideFromWhichAllEdgesCanBePassed) {
     EXPECT_EQ(body.particles()[0].cell, body.particles()[1].cell);
     EXPECT_NO_THROW(body.validate());
   }
-  // Two vertices on the membrane: the third decides for both, although the edge between the two may lie on either side.
+  // Two vertices on the membrane: the third decides for both, although the edge between the two may lie on
+  // either side.
   for (const double x : {0.5, 1.5}) {
     const Body<2> body(snapshot, locator, {{{1, 0.25}, {1, 0.5}, {x, 0.5}}, {{0, 1}, {1, 2}}, {}});
     EXPECT_EQ(body.particles()[0].cell, body.particles()[2].cell);
@@ -96,7 +97,8 @@ TEST(Registration, TakesTheSideFromWhichAllEdgesCanBePassed) {
   EXPECT_NE(refusal<2>(snapshot, {{{1, 0.5}, {0.5, 0.5}, {1.5, 0.5}}, {{0, 1}, {0, 2}}, {}}), "");
 }
 
-/// Two cells on both sides of a line. Each has two facets in it: a way from x = 0 to 1, and a wall from 1 to 2.
+/// Two cells on both sides of a line. Each has two facets in it: a way from x = 0 to 1, and a wall from 1 to
+/// 2.
 Snapshot<2> gap_and_wall() {
   Cell_soup<2> soup;
   soup.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, -1}, {2, -1}};
@@ -125,7 +127,8 @@ TEST(Registration, LeadsEdgesThroughTheInsideOfAFacetInWhosePlaneTheyLie) {
     }
 }
 
-/// A line with walls from 2 i to 2 i + 1, behind each of which one of its sides is a pocket, closed by a wall across.
+/// A line with walls from 2 i to 2 i + 1, behind each of which one of its sides is a pocket, closed by a wall
+/// across.
 Snapshot<2> pockets(std::uint32_t count) {
   Cell_soup<2> soup;
   const std::uint32_t width = 2 * count;

@@ -84,10 +84,10 @@ void expect_scaled(const Copy<D>& one, const Copy<D>& other, const std::string& 
             (std::vector<Point<D>>(other.body->positions().begin(), other.body->positions().end())));
   ASSERT_EQ(one.report.contacts.size(), other.report.contacts.size());
   for (std::size_t i = 0; i < one.report.contacts.size(); ++i) {
-    const Body_contact<D>&a = one.report.contacts[i], &b = other.report.contacts[i];
+    const Contact<D>&a = one.report.contacts[i], &b = other.report.contacts[i];
     EXPECT_EQ(a.vertex, b.vertex);
     EXPECT_EQ(a.feature, b.feature);
-    expect_scaled<D>(a.contact, b.contact, other.exponent);
+    expect_scaled<D>(a, b, other.exponent);
   }
   EXPECT_EQ(one.counts.stop_tries, other.counts.stop_tries);
   EXPECT_EQ(one.counts.held, other.counts.held);
@@ -136,10 +136,10 @@ void move_at_all_scales(std::vector<std::unique_ptr<Copy<D>>>& copies, oracle::M
   ++seen.steps;
   seen.contacts += one.report.contacts.size();
   for (std::size_t i = 0; i < one.report.contacts.size(); ++i) {
-    const Body_contact<D>& c = one.report.contacts[i];
-    seen.by_edge += c.contact.body == Body_feature::edge;
-    seen.by_face += c.contact.body == Body_feature::face;
-    seen.at_once += c.contact.time == Exact_time();
+    const Contact<D>& c = one.report.contacts[i];
+    seen.by_edge += c.body == Body_feature::edge;
+    seen.by_face += c.body == Body_feature::face;
+    seen.at_once += c.time == Exact_time();
     seen.slides += i > 0 && one.report.contacts[i - 1].vertex == c.vertex;
   }
 }
@@ -245,7 +245,8 @@ void expect_flights_scale() {
   EXPECT_GT(contacts, 150u);
 }
 
-/// Doubles are nearest to each other at the origin: a lift by some of them there would be nothing, at any scale.
+/// Doubles are nearest to each other at the origin: a lift by some of them there would be nothing, at any
+/// scale.
 template <int D>
 void expect_lifts_at_the_origin() {
   const Cell_soup<D> soup = [] {

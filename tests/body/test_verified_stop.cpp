@@ -71,7 +71,8 @@ TEST(VerifiedStop, StopsInTheWallPlaneWhereThatIsADouble) {
 }
 
 TEST(VerifiedStop, ReachesObliqueWallsClosely) {
-  // Jittered tetrahedra: the exact contact point is mostly not a double, and half of its roundings are behind the wall.
+  // Jittered tetrahedra: the exact contact point is mostly not a double, and half of its roundings are behind
+  // the wall.
   Simplex_grid_options<3> options;
   options.cells = {2, 2, 2};
   options.jitter = 0.15;
@@ -168,7 +169,8 @@ TEST(Advance, SlidesAlongTheEdgeOfTwoWallsAndRestsInACorner) {
 }
 
 TEST(Advance, KeepsTheSpeedOfAParticleThatBouncesInAWedge) {
-  // A triangle whose walls meet at a small angle: many contacts in one step, none of which may lose the particle.
+  // A triangle whose walls meet at a small angle: many contacts in one step, none of which may lose the
+  // particle.
   Cell_soup<2> soup;
   soup.points = {{0, 0}, {8, 0}, {8, 1}};
   const std::array<std::uint32_t, 3> triangle{0, 1, 2};

@@ -29,8 +29,8 @@ inline std::string open_cube_off() {
   return text;
 }
 
-/// One hexahedron of MEDIT's .mesh, its corner 7 moved out by `bulge` along the diagonal: any bulge leaves three facets that
-/// are not planar.
+/// One hexahedron of MEDIT's .mesh, its corner 7 moved out by `bulge` along the diagonal: any bulge leaves
+/// three facets that are not planar.
 inline std::string hexahedron_ovm(double bulge) {
   std::string text = "OVM ASCII\nVertices\n8\n";
   for (int i = 0; i < 8; ++i)

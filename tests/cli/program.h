@@ -41,8 +41,8 @@ class Program : public testing::Test {
   Outcome run(const std::vector<std::string>& arguments) const { return run_program(arguments, folder_); }
   /// Runs the program and expects success, with nothing on stderr.
   std::string succeed(const std::vector<std::string>& arguments) const;
-  /// Runs the program and expects the exit code, one line `cellwalk: ...` on stderr that holds every text, nothing on
-  /// stdout, and no file that was not there before.
+  /// Runs the program and expects the exit code, one line `cellwalk: ...` on stderr that holds every text,
+  /// nothing on stdout, and no file that was not there before.
   void expect_failure(int exit_code, const std::vector<std::string>& arguments,
                       const std::vector<std::string>& texts) const;
 

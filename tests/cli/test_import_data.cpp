@@ -47,16 +47,16 @@ class Sample : public Program, public testing::WithParamInterface<std::string> {
   }
 };
 
-using Good_sample = Sample;
-using Bad_sample = Sample;
+using GoodSample = Sample;
+using BadSample = Sample;
 
-TEST_P(Good_sample, BecomesACertifiedEnvironment) {
+TEST_P(GoodSample, BecomesACertifiedEnvironment) {
   const Outcome outcome = import();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_certified();
 }
 
-TEST_P(Bad_sample, IsMendedOpenlyOrRefusedWithAReason) {
+TEST_P(BadSample, IsMendedOpenlyOrRefusedWithAReason) {
   const Outcome outcome = import();
   if (outcome.exit_code == 0)
     expect_certified();
@@ -64,10 +64,10 @@ TEST_P(Bad_sample, IsMendedOpenlyOrRefusedWithAReason) {
     expect_refusal(outcome);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tet, Good_sample, testing::ValuesIn(samples("tet")), test_name);
-INSTANTIATE_TEST_SUITE_P(Surface, Good_sample, testing::ValuesIn(samples("surface")), test_name);
-INSTANTIATE_TEST_SUITE_P(Hex_poly, Good_sample, testing::ValuesIn(samples("hex_poly")), test_name);
-INSTANTIATE_TEST_SUITE_P(Bad, Bad_sample, testing::ValuesIn(samples("bad")), test_name);
+INSTANTIATE_TEST_SUITE_P(Tet, GoodSample, testing::ValuesIn(samples("tet")), test_name);
+INSTANTIATE_TEST_SUITE_P(Surface, GoodSample, testing::ValuesIn(samples("surface")), test_name);
+INSTANTIATE_TEST_SUITE_P(HexPoly, GoodSample, testing::ValuesIn(samples("hex_poly")), test_name);
+INSTANTIATE_TEST_SUITE_P(Bad, BadSample, testing::ValuesIn(samples("bad")), test_name);
 
 }  // namespace
 }  // namespace cellwalk::test

@@ -41,13 +41,12 @@ class Outputs : public Program {
     write("cube.ovm", hexahedron_ovm(0));
     succeed({"run", "-o", "first", "--set", "bodies[0].count=1", "--set", "environment.cells=2", "--set",
              "environment.solid=0", "--steps", "2", "--set", "output.picture=false", "--record", "t.trace"});
-    write(
-        "s.json",
-        R"({"environment": {"generate": "hexes", "cells": 2}, "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 1}],
-              "steps": 2})");
-    write(
-        "file.json",
-        R"({"environment": "env.ovm", "bodies": [{"file": "cube.off", "count": 1, "scale": 0.1}], "steps": 1})");
+    write("s.json",
+          R"({"environment": {"generate": "hexes", "cells": 2},
+              "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 1}], "steps": 2})");
+    write("file.json",
+          R"({"environment": "env.ovm",
+              "bodies": [{"file": "cube.off", "count": 1, "scale": 0.1}], "steps": 1})");
     commands_ = {
         {{"import", "cube.ovm"}, {{"-o", "e.ovm"}, {"--json", "r.json"}}, {"cube.ovm"}},
         {{"check", "env.ovm"}, {{"--json", "r.json"}}, {"env.ovm"}},

@@ -188,7 +188,8 @@ TEST_F(Replay_bodies, RecordsOnlyWhatATraceCanHold) {
   for (int v = 2; v <= 66; ++v) fan += "l 1 " + std::to_string(v) + "\n";
   write("fan.obj", fan);
   expect_unrecordable(
-      R"({"environment": "rooms.ovm", "bodies": [{"file": "fan.obj", "position": [2.5, 2.5, 2.5]}], "steps": 3})",
+      R"({"environment": "rooms.ovm", "steps": 3,
+          "bodies": [{"file": "fan.obj", "position": [2.5, 2.5, 2.5]}]})",
       {"other.json: body 0: vertex 0 has 65 edges", "leave the body out"});
   expect_failure(1, {"run", "soft.json", "-o", "out", "--record", "nowhere/t.bin"}, {"nowhere/t.bin"});
 }

@@ -7,9 +7,9 @@
 namespace cellwalk::test {
 namespace {
 
-using Public_traces = Program;
+using ReplayOfPublicTraces = Program;
 
-TEST_F(Public_traces, GiveTheRecordedAnswers) {
+TEST_F(ReplayOfPublicTraces, GiveTheRecordedAnswers) {
   const struct {
     const char* file;
     int moves;

@@ -20,8 +20,8 @@ struct Ccd_row {
 };
 
 /// Reads a table of ccd_static: source, index, labels, points; the numbers are exact fractions.
-/// \throw std::runtime_error with the line, if the file cannot be read, a row has another number of fields, a label is not
-/// 0 or 1 or a number is not a double
+/// \throw std::runtime_error with the line, if the file cannot be read, a row has another number of fields, a
+///        label is not 0 or 1 or a number is not a double
 std::vector<Ccd_row> read_ccd_rows(const std::string& file, std::size_t labels, std::size_t points);
 
 }  // namespace cellwalk::test

@@ -62,7 +62,8 @@ std::vector<Range> limits(const Linked_cut& open, const Linked_cut& closing, con
   return ranges;
 }
 
-/// All classes of chains of an open interval that lead from the cell of p to that of q and continue one at its beginning.
+/// All classes of chains of an open interval that lead from the cell of p to that of q and continue one at
+/// its beginning.
 class Continuations {
  public:
   Continuations(const Linked_cut& open, const Linked_cut& before, const std::vector<Range>& ranges,
@@ -130,8 +131,8 @@ Chain_class closed(const Chain_class& chain, const std::vector<Range>& ranges, c
   return state;
 }
 
-/// The class of a chain given by its facets; nothing if the segment does not pass them in order, or they do not lead from the
-/// cell of p to that of q.
+/// The class of a chain given by its facets; nothing if the segment does not pass them in order, or they do
+/// not lead from the cell of p to that of q.
 template <int D>
 std::optional<Chain_class> class_of(const Integer_complex<D>& complex, const Moving_segment<D>& segment,
                                     const Linked_cut& cut, std::span<const std::uint32_t> chain,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The second oracle of swept edges: follows the definition of chains (docs/sweep.md) through all critical times, in integers,
-// by brute force. It finds all that a sweep may answer.
+// The second oracle of swept edges: follows the definition of chains (docs/sweep.md) through all critical
+// times, in integers, by brute force. It finds all that a sweep may answer.
 #ifndef CELLWALK_TESTS_EDGE_CHAIN_ORACLE_H
 #define CELLWALK_TESTS_EDGE_CHAIN_ORACLE_H
 
@@ -17,18 +17,20 @@ template <int D>
 struct Edge_motion {
   Point<D> a{}, b{}, q{};
   std::vector<std::uint32_t> path;  ///< the cells of p, in order
-  /// The passable half-facets between one cell of the way and the next: p changes from it to that once it lies in all of them.
+  /// The passable half-facets between one cell of the way and the next: p changes from it to that once it
+  /// lies in all of them.
   std::vector<std::vector<std::uint32_t>> passed;
   std::uint32_t q_cell = 0;
   std::vector<std::uint32_t> chain;  ///< of the edge aq: half-facets, each seen from the side of p
   bool blocked = false;              ///< p does not get further than its last cell
 };
 
-/// A class of equal chains of one segment: for each piece of its Cut, the least cell linked all along that piece with the one
-/// that the chains pass there.
+/// A class of equal chains of one segment: for each piece of its Cut, the least cell linked all along that
+/// piece with the one that the chains pass there.
 using Chain_class = std::vector<int>;
 
-/// All that may become of an edge. The side taken at a rim of a wall is arbitrary, so there may be several answers.
+/// All that may become of an edge. The side taken at a rim of a wall is arbitrary, so there may be several
+/// answers.
 struct Outcomes {
   std::vector<Share> blocks;   ///< times at which it may be blocked, ascending
   std::set<Chain_class> ends;  ///< of the chains that it may have at the end of its way
@@ -60,15 +62,17 @@ class Chain_oracle {
   /// Cost: some 0.2 ms, most of it for cutting the segment at its critical times and between them.
   Outcomes judge(const Edge_motion<D>& motion) const;
 
-  /// True if a chain is one of the ends among the outcomes of this motion: it is passed by the edge where p ends, and equal to a chain
-  /// that it may have there.
+  /// True if a chain is one of the ends among the outcomes of this motion: it is passed by the edge where p
+  /// ends, and equal to a chain that it may have there.
   bool is_end(const Edge_motion<D>& motion, const Outcomes& outcomes,
               std::span<const std::uint32_t> chain) const;
 
-  /// True if both are chains of the segment pq, and equal: at each point of it, both ends included, their cells are linked.
+  /// True if both are chains of the segment pq, and equal: at each point of it, both ends included, their
+  /// cells are linked.
   bool are_equal(const Point<D>& p, const Point<D>& q, const Placed_chain& x, const Placed_chain& y) const;
 
-  /// True if the segment pq has a chain from the one cell to the other. \pre they hold p and q
+  /// True if the segment pq has a chain from the one cell to the other.
+  /// \pre they hold p and q
   bool has_chain(const Point<D>& p, const Point<D>& q, std::uint32_t p_cell, std::uint32_t q_cell) const;
 
  private:

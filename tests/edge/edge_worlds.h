@@ -4,12 +4,14 @@
 #define CELLWALK_TESTS_EDGE_EDGE_WORLDS_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -74,6 +76,53 @@ class Edge_world {
   oracle::Motion_kind kind_{};
   oracle::Motion_source<D> source_;
 };
+
+/// A move of one end of an edge.
+template <int D>
+struct Moved_end {
+  /// `to` has its target as its position, where it was blocked as well, and the last cell it passed.
+  Particle<D> from, to;
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  std::optional<Wall_contact<D>> contact;  ///< of the end itself
+
+  Vertex_path<D> path() const { return {from, to, visited, crossed, contact.has_value()}; }
+};
+
+/// Puts edges into a world and moves one end of each on and on, so that chains grow, shrink and turn. For
+/// each move, sweep(moved, q, chain) returns the chain of the edge after it, or nothing if the edge meets a
+/// wall: its last move, then. An end that was blocked stays, and so does the chain.
+template <int D, class Sweep>
+void for_each_sweep(Edge_world<D>& w, int edges, Walk_counts& counts, Sweep sweep) {
+  constexpr int moves_of_an_edge = 6;
+  for (int k = 0; k < edges; ++k) {
+    Particle<D> p = w.start();
+    if (p.cell == Cell::none) continue;
+    const Particle<D> q = w.end(p);
+    if (q.cell == Cell::none) continue;
+    const Chain_result<D> start = find_chain(w.snapshot, p, q, counts);
+    if (start.contact) continue;
+    Chain chain = start.chain;
+    for (int step = 0; step < moves_of_an_edge; ++step) {
+      Moved_end<D> moved;
+      moved.from = p;
+      w.choose_kind();
+      const Point<D> target = w.target(p);
+      moved.contact =
+          move(w.snapshot, p, target, counts, {Walk_strategy::certified, &moved.visited, &moved.crossed})
+              .contact;
+      moved.to = p;
+      if (moved.contact) {
+        moved.to.position = target;
+        moved.to.cell = moved.visited.back();
+      }
+      const std::optional<Chain> after = sweep(std::as_const(moved), q, std::as_const(chain));
+      if (moved.contact) continue;
+      if (!after) break;
+      chain = *after;
+    }
+  }
+}
 
 /// Follows a chain through passable facets from one cell to the other.
 template <int D>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One triangle that is moved corner by corner through a world, with the chains of its edges and the rests of its face.
+// One triangle that is moved corner by corner through a world, with the chains of its edges and the rests of
+// its face.
 #ifndef CELLWALK_TESTS_EDGE_FACE_BODY_H
 #define CELLWALK_TESTS_EDGE_FACE_BODY_H
 

@@ -29,8 +29,8 @@ struct Face_seen {
   Face_counts counts;
 };
 
-/// What the oracle knows of the walls in the plane of the face: the side of each wall, by the turn of its vertices, on which the
-/// face came to lie; 0 if it cannot tell.
+/// What the oracle knows of the walls in the plane of the face: the side of each wall, by the turn of its
+/// vertices, on which the face came to lie; 0 if it cannot tell.
 using Sides = std::map<std::size_t, int>;
 
 class Judge {
@@ -160,7 +160,8 @@ class Judge {
            body_.supporting_walls().end();
   }
 
-  /// The rests are the walls in the plane, on the sides known. Of walls of one side each that coincide, one is a rest.
+  /// The rests are the walls in the plane, on the sides known. Of walls of one side each that coincide, one
+  /// is a rest.
   void check_supporting_walls() {
     bool is_right = true;
     std::size_t found = 0;
@@ -187,7 +188,8 @@ class Judge {
     }
   }
 
-  /// A wall of one side is a rest, or what coincides with it under the face is: free space on one side there must be.
+  /// A wall of one side is a rest, or what coincides with it under the face is: free space on one side there
+  /// must be.
   bool agrees_behind(std::size_t w) const {
     const bool is_front = supporting_walls(walls_.facets[w]);
     bool is_any = false, is_all = true;
@@ -216,7 +218,8 @@ class Judge {
   Sides sides_;
 };
 
-/// Registering says that a face is pierced if a wall pierces it; and else only where two walls meet in its plane.
+/// Registering says that a face is pierced if a wall pierces it; and else only where two walls meet in its
+/// plane.
 inline void check_piercing(const Wall_list<3>& walls, Face_body& body, bool is_valid, bool generic,
                            Face_seen& seen) {
   bool is_pierced = false;

@@ -45,8 +45,8 @@ void add_functions(const std::vector<Vec<3>>& loop, Integer_complex<3>& complex)
 constexpr int limb_bits = 64;
 static_assert(sizeof(boost::multiprecision::limb_type) * 8 == limb_bits);
 
-/// |x| / 2^(limb_bits * (limbs - 1)) by its two leading limbs: off by less than a share of 2^-51, one half for what they are
-/// rounded to and the rest for what is left out and for the sum.
+/// |x| / 2^(limb_bits * (limbs - 1)) by its two leading limbs. Its relative error is below 2^-51: one half is
+/// the rounding of the limbs, the rest the limbs left out and the sum.
 double leading(const Big& x) {
   const auto* limbs = x.backend().limbs();
   const auto size = x.backend().size();
@@ -54,7 +54,8 @@ double leading(const Big& x) {
   return size == 1 ? top : top + std::ldexp(static_cast<double>(limbs[size - 2]), -limb_bits);
 }
 
-/// A fraction but for a share of 2^-49: those of two numbers and of their quotient. No value if it is very large or small.
+/// A fraction but for a share of 2^-49: those of two numbers and of their quotient. No value if it is very
+/// large or small.
 std::optional<double> estimate(const Share& s) {
   if (s.numerator == 0) return 0.0;
   constexpr int most_limbs = 8;  // far from where doubles end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A complex in integers of any size, for oracles that follow moving edges. Shares nothing with the library but the record
-// Cell_soup.
+// A complex in integers of any size, for oracles that follow moving edges. Shares nothing with the library
+// but the record Cell_soup.
 #ifndef CELLWALK_TESTS_EDGE_INTEGER_COMPLEX_H
 #define CELLWALK_TESTS_EDGE_INTEGER_COMPLEX_H
 
@@ -73,7 +73,8 @@ inline std::array<Big, 3> cross(const std::array<Big, 3>& a, const std::array<Bi
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A point scaled by 2^shift. \pre its coordinates become integers
+/// A point scaled by 2^shift.
+/// \pre its coordinates become integers
 template <std::size_t D>
 std::array<Big, D> integer(const std::array<double, D>& x, int shift) {
   std::array<Big, D> r;

@@ -18,8 +18,7 @@ constexpr double third_of_turn = 2 * std::numbers::pi / 3;
 Vector<3> unit(const Vector<3>& v) {
   double largest = 0;  // so that squares of tiny lengths do not vanish
   for (double x : v) largest = std::max(largest, std::abs(x));
-  const Vector<3> w = (1 / largest) * v;
-  return (1 / length(w)) * w;
+  return normalized((1 / largest) * v);
 }
 
 /// The directions of the outer vertices beyond the edges of the triangle.

@@ -11,8 +11,6 @@ namespace {
 /// The height is then 2^-40 of the length: far above the rounding of c, far below what the queries need.
 constexpr int most_halvings = 40;
 
-Vector<3> unit(const Vector<3>& v) { return (1 / length(v)) * v; }
-
 /// A unit vector at right angles to a unit vector, away from a point as seen from another one.
 Vector<3> away_from(const Point<3>& there, const Point<3>& here, const Vector<3>& along) {
   const Vector<3> path = here - there;
@@ -26,7 +24,7 @@ Vector<3> away_from(const Point<3>& there, const Point<3>& here, const Vector<3>
     unit_of_axis[axis] = 1;
     away = cross(along, unit_of_axis);
   }
-  return unit(away);
+  return normalized(away);
 }
 
 bool agree(const Edge_touch& x, const Edge_touch& y) {
@@ -52,7 +50,8 @@ std::optional<Membrane_of_edge> membrane_of_edge(const Point<3>& a, const Point<
   const Edge_touch q_first = touch_of_motion(motion.q_first(), edge);
   const Point<3> middle = a + 0.5 * (b - a);
   const Point<3> of_motion = 0.25 * ((motion.p0 + motion.p1) + (motion.q0 + motion.q1));
-  const Vector<3> along = unit(b - a), away = away_from(of_motion, middle, along), side = cross(along, away);
+  const Vector<3> along = normalized(b - a), away = away_from(of_motion, middle, along),
+                  side = cross(along, away);
   for (int halvings = 0; halvings <= most_halvings; ++halvings) {
     const double height = std::ldexp(length(b - a), -halvings);
     for (const Vector<3>& direction : {away, side, -1.0 * side, -1.0 * away}) {

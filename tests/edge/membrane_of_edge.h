@@ -29,17 +29,18 @@ struct Edge_touch {
 
 Edge_touch touch_of_motion(const Edge_motion& motion, std::span<const Point<3>> obstacle);
 
-/// The triangle abc, its corner c such that to the motion, whichever end moves first, it is what its rim ab is: a motion
-/// that meets it meets ab, and so do the start of the motion and the sides of the swept triangles.
+/// The triangle abc, its corner c such that to the motion, whichever end moves first, it is what its rim ab
+/// is: a motion that meets it meets ab, and so do the start of the motion and the sides of the swept
+/// triangles.
 struct Membrane_of_edge {
   std::array<Point<3>, 3> triangle;
   int halvings = 0;  ///< its height is the length of ab, halved so often
 };
 
-/// Tries c at right angles to ab above its middle: away from the motion, toward both sides, toward it; then at half the height,
-/// and so on. What does not meet ab has a distance from it, so some height is small enough but for the rounding of c; where
-/// ab meets something, only the direction may matter.
-/// No value if none will do.
+/// Tries c at right angles to ab above its middle: away from the motion, toward both sides, toward it; then
+/// at half the height, and so on. What does not meet ab has a distance from it, so some height is small
+/// enough but for the rounding of c; where ab meets something, only the direction may matter. No value if
+/// none will do.
 /// \pre a and b differ
 std::optional<Membrane_of_edge> membrane_of_edge(const Point<3>& a, const Point<3>& b,
                                                  const Edge_motion& motion);

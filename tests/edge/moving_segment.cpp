@@ -38,7 +38,8 @@ bool clip(Span& span, const Big& at_0, const Big& at_1, const Values* maker) {
   return !(span.high < span.low);
 }
 
-/// The sign that a function has all along the triangle, its corners included; 2 if it changes. 0 counts as negative.
+/// The sign that a function has all along the triangle, its corners included; 2 if it changes. 0 counts as
+/// negative.
 int common_sign(const Values& f) {
   const int positive = (f.at_a > 0) + (f.at_b > 0) + (f.at_q > 0);
   return positive == 0 ? -1 : positive == 3 ? 1 : 2;

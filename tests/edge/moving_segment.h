@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A segment from a moving point p(s) = a + s (b - a) to a fixed one, and the cells it meets at exact times: brute force over
-// all cells near it, in integers. Shares nothing with the library but the record Cell_soup.
+// A segment from a moving point p(s) = a + s (b - a) to a fixed one, and the cells it meets at exact times:
+// brute force over all cells near it, in integers. Shares nothing with the library but the record Cell_soup.
 #ifndef CELLWALK_TESTS_EDGE_MOVING_SEGMENT_H
 #define CELLWALK_TESTS_EDGE_MOVING_SEGMENT_H
 
@@ -18,8 +18,8 @@ struct Values {
   Big at_a, at_b, at_q;
 };
 
-/// How a segment passes cells: cut at all points at which it enters or leaves a cell or a passable facet. Cells and facets are
-/// those of the Moving_segment, by number.
+/// How a segment passes cells: cut at all points at which it enters or leaves a cell or a passable facet.
+/// Cells and facets are those of the Moving_segment, by number.
 struct Cut {
   /// Numbers of the first and the last point at which something is met; nothing if first > last.
   struct Stretch {
@@ -39,8 +39,9 @@ struct Cut {
   int pieces() const { return static_cast<int>(points.size()) - 1; }
   /// True if both pass the same cells and facets in the same order.
   bool is_like(const Cut& other) const;
-  /// For each cell that holds all of the stretch between two cut points, the least cell that is linked with it at each point
-  /// of the stretch; -1 for other cells. \pre no point is cut between the two
+  /// For each cell that holds all of the stretch between two cut points, the least cell that is linked with
+  /// it at each point of the stretch; -1 for other cells.
+  /// \pre no point is cut between the two
   std::vector<int> classes(int first, int last) const;
 };
 
@@ -57,14 +58,17 @@ class Moving_segment {
   /// The cells of the soup, by number.
   const std::vector<std::uint32_t>& cells() const { return cells_; }
 
-  /// All times in [0,1] at which the combinatorics of cut() may change, ascending, 0 and 1 included: p enters or leaves a
-  /// cell or facet or is at q; the segment passes a vertex (2D) or an edge (3D), or a vertex in the plane in which it moves.
+  /// All times in [0,1] at which the combinatorics of cut() may change, ascending, 0 and 1 included: p enters
+  /// or leaves a cell or facet or is at q; the segment passes a vertex (2D) or an edge (3D), or a vertex in
+  /// the plane in which it moves.
   std::vector<Share> critical_times() const;
   Cut cut(const Share& time) const;
-  /// Where a point that cuts the segments of an open interval between critical times ends up at one of its ends.
+  /// Where a point that cuts the segments of an open interval between critical times ends up at one of its
+  /// ends.
   static Share limit(const Cut& cut, int point, const Share& time);
 
-  /// The last time at which p is in a cell. \pre it is there at some time
+  /// The last time at which p is in a cell.
+  /// \pre it is there at some time
   Share exit_time(int cell) const;
   /// The first time, not before another, at which p lies in all of some passable half-facets of the soup.
   std::optional<Share> first_time_in(const std::vector<std::uint32_t>& half_facets, const Share& since) const;

@@ -127,7 +127,8 @@ Polygon part(Polygon polygon, const Polygon& other, const Vec& n) {
   return polygon;
 }
 
-/// True if a polygon lies on the other side of the plane xyz than a further corner of a tetrahedron, or in it.
+/// True if a polygon lies on the other side of the plane xyz than a further corner of a tetrahedron, or in
+/// it.
 bool is_outside(const Vec& x, const Vec& y, const Vec& z, const Vec& corner, const Polygon& polygon) {
   const Vec n = cross(minus(y, x), minus(z, x));
   const int inner = sign(dot(n, minus(corner, x)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Faces against walls in rational arithmetic, by definition and without cells: shares nothing with the library.
+// Faces against walls in rational arithmetic, by definition and without cells: shares nothing with the
+// library.
 #ifndef CELLWALK_TESTS_EDGE_RATIONAL_FACE_H
 #define CELLWALK_TESTS_EDGE_RATIONAL_FACE_H
 
@@ -34,9 +35,10 @@ int orientation_of(const Point<3>& a, const Point<3>& b, const Point<3>& c, cons
 /// True if the points lie on one line.
 bool on_one_line(const Triangle& face);
 
-/// The first time from which on a facet pierces the face, or at which it passes it in its plane (not at 0 or 1), while corner
-/// number `k` moves to b along a line. By definition: all signs by which facet and face lie to each other change at roots of affine functions
-/// of time; each root and each interval between roots is looked at.
+/// The first time from which on a facet pierces the face, or at which it passes it in its plane (not at 0 or
+/// 1), while corner number `k` moves to b along a line. By definition: all signs by which facet and face lie
+/// to each other change at roots of affine functions of time; each root and each interval between roots is
+/// looked at.
 /// \pre b does not lie in the plane of the face
 std::optional<Fraction> first_piercing(const Triangle& face, std::size_t k, const Point<3>& b,
                                        std::span<const Point<3>> facet);

@@ -73,8 +73,8 @@ std::vector<Vec<D>> exact(std::span<const std::array<double, D>> points, int exp
   return r;
 }
 
-/// Parameters along a direction of the points in which the boundary of a convex polygon crosses a plane, where the polygon
-/// has vertices strictly on both sides; empty otherwise.
+/// Parameters along a direction of the points in which the boundary of a convex polygon crosses a plane,
+/// where the polygon has vertices strictly on both sides; empty otherwise.
 std::optional<std::array<Rational, 2>> cut(const std::vector<Vec<3>>& polygon, const Vec<3>& origin,
                                            const Vec<3>& n, const Vec<3>& direction) {
   std::vector<Rational> heights;
@@ -203,8 +203,8 @@ std::optional<std::array<Vec<3>, 2>> overlap(const Vec<3>& a, const Vec<3>& b, c
   return ends;
 }
 
-/// A triangle and a facet in exact numbers: integers if the coordinates are not too far apart, since these are faster. The unit
-/// makes no difference to what is asked.
+/// A triangle and a facet in exact numbers: integers if the coordinates are not too far apart, since these
+/// are faster. The unit makes no difference to what is asked.
 template <std::size_t D>
 struct Exact_pair {
   Vec<D> a, b, q;
@@ -223,7 +223,8 @@ struct Exact_pair {
   }
 };
 
-/// The nearest double. \pre x >= 0
+/// The nearest double.
+/// \pre x >= 0
 double nearest(const Rational& x) {
   // The conversion cuts off.
   const double low = static_cast<double>(x),

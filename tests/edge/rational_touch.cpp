@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Obstacles are intersections of half-spaces, by which the triangle of barycentric coordinates of the swept triangle abq is
-// clipped: a corner (x,y,z) of what is left is the point (x a + y b + z q) / (x + y + z), of the edge at time y / (x + y).
-// Only times are fractions.
+// Obstacles are intersections of half-spaces, by which the triangle of barycentric coordinates of the swept
+// triangle abq is clipped: a corner (x,y,z) of what is left is the point (x a + y b + z q) / (x + y + z), of
+// the edge at time y / (x + y). Only times are fractions.
 #include "edge/rational_touch.h"
 
 #include <algorithm>
@@ -81,7 +81,8 @@ std::vector<Half_space> half_spaces(std::span<const Vec> v) {
   return obstacle;
 }
 
-/// The corners of the part of a triangle, which may be flat, in an obstacle: multiples of their barycentric coordinates.
+/// The corners of the part of a triangle, which may be flat, in an obstacle: multiples of their barycentric
+/// coordinates.
 std::vector<Vec> clip(const std::array<Vec, 3>& triangle, const std::vector<Half_space>& obstacle) {
   std::vector<Vec> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const Half_space& h : obstacle) {
@@ -117,8 +118,8 @@ std::optional<std::array<Rational, 2>> times_of_point(const Vec& a, const Vec& b
   return {{low, high}};
 }
 
-/// The swept triangle is a segment: points that were not in the edge are passed by its moving end alone, once it goes away
-/// from q.
+/// The swept triangle is a segment: points that were not in the edge are passed by its moving end alone, once
+/// it goes away from q.
 std::optional<Rational> later_on_line(const Vec& a, const Vec& b, const Vec& q,
                                       const std::vector<Half_space>& obstacle) {
   const Vec path = minus(b, a);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// When a swept triangle first meets an obstacle, touches included, in rational arithmetic: shares nothing with the library.
+// When a swept triangle first meets an obstacle, touches included, in rational arithmetic: shares nothing
+// with the library.
 #ifndef CELLWALK_TESTS_EDGE_RATIONAL_TOUCH_H
 #define CELLWALK_TESTS_EDGE_RATIONAL_TOUCH_H
 
@@ -16,8 +17,8 @@ namespace cellwalk::test {
 /// How a closed set that moves meets a closed obstacle.
 struct Rational_touch {
   bool at_start = false;  ///< before it moves
-  /// The infimum of the times at which a point that was not in the set at the start meets the obstacle. None: only
-  /// points that were may meet it.
+  /// The infimum of the times at which a point that was not in the set at the start meets the obstacle. None:
+  /// only points that were may meet it.
   std::optional<boost::multiprecision::cpp_rational> later;
 
   bool any() const { return at_start || later; }

@@ -17,8 +17,9 @@ Share root(const Big& at_0, const Big& at_1);
 /// Adds where such a function vanishes within [0,1], if it has one root.
 void add_root(std::vector<Share>& times, const Big& at_0, const Big& at_1);
 
-/// Adds all times at which the segment from a + s (b - a) to q passes a vertex of a cell (2D) or an edge (3D), or a vertex in the
-/// plane in which it moves. Those outside a proper triangle abq do not count; if it is none, all lines through them do.
+/// Adds all times at which the segment from a + s (b - a) to q passes a vertex of a cell (2D) or an edge
+/// (3D), or a vertex in the plane in which it moves. Those outside a proper triangle abq do not count; if it
+/// is none, all lines through them do.
 /// \param abq in integers, scaled by 2^extra_shift more than the complex
 template <int D>
 void add_passings(std::vector<Share>& times, const Integer_complex<D>& complex,

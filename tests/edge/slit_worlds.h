@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Slits: facets whose sides are cut into polygons in different ways, so that they are walls of one side each that coincide
-// without being glued.
+// Slits: facets whose sides are cut into polygons in different ways, so that they are walls of one side each
+// that coincide without being glued.
 #ifndef CELLWALK_TESTS_EDGE_SLIT_WORLDS_H
 #define CELLWALK_TESTS_EDGE_SLIT_WORLDS_H
 
@@ -89,7 +89,8 @@ class Slit_maker {
   Cell_soup<3> result_;
 };
 
-/// A world in which inner walls, as far as their points allow, and some other facets are slits. `slits` counts them.
+/// A world in which inner walls, as far as their points allow, and some other facets are slits. `slits`
+/// counts them.
 inline oracle::World<3> with_slits(oracle::World<3> world, std::uint64_t seed, int& slits) {
   world.name += ", with slits";
   Random random(seed);
@@ -110,8 +111,8 @@ inline oracle::World<3> with_slits(oracle::World<3> world, std::uint64_t seed, i
   return world;
 }
 
-/// Two layers of cubes with walls in the plane between them, one in so many facets, and across it; some cubes are solid, some
-/// missing.
+/// Two layers of cubes with walls in the plane between them, one in so many facets, and across it; some cubes
+/// are solid, some missing.
 inline oracle::World<3> layered_world(std::uint64_t seed, std::uint64_t one_in = 3) {
   constexpr std::uint32_t n = 4;
   Random random(seed);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The published collision queries against a static obstacle: a vertex against a triangle, which is a membrane here, and an
-// edge against an edge, which is the rim of a membrane. Labels count touches, as Touch::stop does. What is touched first,
-// and when, is compared with a rational oracle.
+// The published collision queries against a static obstacle: a vertex against a triangle, which is a membrane
+// here, and an edge against an edge, which is the rim of a membrane. Labels count touches, as Touch::stop
+// does. What is touched first, and when, is compared with a rational oracle.
 //
-// Touch::stop reports what is met off the start of a motion, labels also what is met at the start. No query tells them apart:
-// none starts on its obstacle, which is asserted.
+// Touch::stop reports what is met off the start of a motion, labels also what is met at the start. No query
+// tells them apart: none starts on its obstacle, which is asserted.
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/kernel/random.h>
@@ -86,7 +86,8 @@ Contacts sweep_both(const Edge_at_start& edge, const Edge_motion& m, const Sweep
   return {std::nullopt, sweep_edge(edge.snapshot, edge.q, m.q1, moved.p, back, options, counts).contact};
 }
 
-/// True if a particle that goes the ways of the paper's segments, and the edge before it moves, touches a wall.
+/// True if a particle that goes the ways of the paper's segments, and the edge before it moves, touches a
+/// wall.
 bool do_segments_touch(const Edge_at_start& edge, const Edge_motion& m, Edge_counts& counts) {
   const auto touches = [&](Particle<3>& particle, const Point<3>& to) {
     if (first_touch(edge.snapshot, particle, to, counts)) return true;
@@ -110,8 +111,8 @@ struct Seen {
   Edge_counts counts;
 };
 
-/// Asks the library about a motion and expects all that the oracle says. An edge that pierces the membrane before it moves
-/// has no chain: that is all that can be said of it.
+/// Asks the library about a motion and expects all that the oracle says. An edge that pierces the membrane
+/// before it moves has no chain: that is all that can be said of it.
 void check_motion(const Environment<3>& environment, const std::array<Point<3>, 3>& membrane,
                   const Edge_motion& m, Seen& seen) {
   const Edge_touch expected = touch_of_motion(m, membrane);
@@ -215,7 +216,8 @@ TEST(CcdStatic, EdgeAndEdge) {
 }
 
 TEST(CcdStatic, EdgeAndWideMembrane) {
-  // The membrane is as large as the scene and lies anywhere: it adds hits of its own, which the oracle decides.
+  // The membrane is as large as the scene and lies anywhere: it adds hits of its own, which the oracle
+  // decides.
   Seen p_first, q_first;
   Random random(6);
   for (const Ccd_row& named : edge_rows()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The oracle of chains, and with it the complete sweep, where the answer is known by heart; and sweeps broken on purpose.
+// The oracle of chains, and with it the complete sweep, where the answer is known by heart; and sweeps broken
+// on purpose.
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 
@@ -21,7 +22,8 @@ using oracle::Share;
 using Walls = std::vector<std::array<std::uint32_t, 2>>;
 using Cells = std::vector<std::uint32_t>;
 
-/// An edge whose end p moves from a to b: where it is, and the cells that its chain passes, from the cell of p to that of q.
+/// An edge whose end p moves from a to b: where it is, and the cells that its chain passes, from the cell of
+/// p to that of q.
 template <int D>
 struct Case {
   Point<D> a, b, q;
@@ -143,7 +145,8 @@ TEST(ChainOracle, AnEdgeInAMembraneIsPulledOff2) {
 TEST(ChainOracle, AnEndMovesInTheLineOfTheEdge) {
   const Scene<2> scene(make_squares(2, 3), {{0, 1}, {2, 3}});
   const Point<2> q{1, 0.25}, above{1, 2.5};
-  // p comes down on the right, where it lies once it is displaced. An edge on the left is blocked as soon as there is a wall.
+  // p comes down on the right, where it lies once it is displaced. An edge on the left is blocked as soon as
+  // there is a wall.
   const auto expect_right_only = [&](const Cells& chain) {
     const auto expect = [&](const Case<2>& down, const Share& time) {
       chain.back() == 1 ? expect_free(scene, down) : expect_blocked(scene, down, time);
@@ -252,7 +255,8 @@ TEST(ChainOracle, AnEdgeLiesInAWallAndAWindowOfOneCell) {
   const Scene<3> scene(wall_and_window(), {});
   const Point<3> q{0.5, 1, 0.25}, in_window{0.25, 1, 1.25}, in_wall{0.25, 1, 0.5};
   for (const std::uint32_t side : {0u, 1u})
-    // On which side of the window p is makes no difference. On the wall it is above, where it lies once it is displaced.
+    // On which side of the window p is makes no difference. On the wall it is above, where it lies once it is
+    // displaced.
     for (const Cells& chain : {Cells{side}, Cells{1 - side, side}}) {
       expect_free(scene, {in_window, {0.75, 1, 1.5}, q, chain});
       if (side == 1)
@@ -263,7 +267,8 @@ TEST(ChainOracle, AnEdgeLiesInAWallAndAWindowOfOneCell) {
 }
 
 TEST(ChainOracle, AnEdgeWeavesThroughASheetOfWindows) {
-  // At every second place a wall, of which the edge lies on one side or the other: the sweep must not try them all.
+  // At every second place a wall, of which the edge lies on one side or the other: the sweep must not try
+  // them all.
   constexpr std::uint32_t length = 33;
   Walls walls;
   Cells chain;

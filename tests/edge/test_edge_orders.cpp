@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Sweeps are answers about a geometry: neither the order in which it is listed nor the certificates tried may show, in the answer, its
-// time and feature, or the side of walls on which the edge comes to lie.
+// Sweeps are answers about a geometry: neither the order in which it is listed nor the certificates tried may
+// show, in the answer, its time and feature, or the side of walls on which the edge comes to lie.
 #include <cellwalk/edge/sweep.h>
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ using Differences = std::array<int, static_cast<std::size_t>(Differs::count)>;
 
 struct Orders_seen {
   int sweeps = 0, contacts = 0, by_edge = 0, moved = 0, compared = 0;
-  int with_chain = 0, without_chain = 0,
-      found_at_last = 0;  ///< edges placed; and those whose first walk takes a wrong side
+  /// Edges placed; and those whose first walk takes a wrong side.
+  int with_chain = 0, without_chain = 0, found_at_last = 0;
   Differences of_orders{}, of_certificates{};
   std::string first;
 

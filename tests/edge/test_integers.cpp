@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The shortcuts that oracles take on their way to exact signs: leading digits of fractions, and a unit that makes integers.
+// The shortcuts that oracles take on their way to exact signs: leading digits of fractions, and a unit that
+// makes integers.
 #include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>

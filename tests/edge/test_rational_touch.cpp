@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The oracle of touches, by hand: touches at corners, rims and insides, in the plane of the obstacle, at the start, and by
-// triangles that are segments.
+// The oracle of touches, by hand: touches at corners, rims and insides, in the plane of the obstacle, at the
+// start, and by triangles that are segments.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -20,8 +20,8 @@
 
 namespace cellwalk::test {
 
-/// Columns of boxes, every second one only 1/64 wide. Many of the thin ones are solid up to some height: spikes that fit between
-/// two positions of an edge. Long, so that edges pass many cells.
+/// Columns of boxes, every second one only 1/64 wide. Many of the thin ones are solid up to some height:
+/// spikes that fit between two positions of an edge. Long, so that edges pass many cells.
 template <int D>
 oracle::World<D> spikes(std::uint64_t seed) {
   Random random(seed);
@@ -51,7 +51,8 @@ oracle::World<D> spikes(std::uint64_t seed) {
   return world;
 }
 
-/// Cells made one: the first of each group holds the facets of all but those within. \pre the union is convex
+/// Cells made one: the first of each group holds the facets of all but those within.
+/// \pre the union is convex
 template <int D>
 Cell_soup<D> merged(const Cell_soup<D>& soup, const std::vector<std::uint32_t>& group_of) {
   const oracle::Facet_table table = oracle::make_facet_table(soup);
@@ -69,8 +70,8 @@ Cell_soup<D> merged(const Cell_soup<D>& soup, const std::vector<std::uint32_t>& 
   return result;
 }
 
-/// Cells on both sides of a sheet, a membrane with holes; here and there with a wall that stands on it. In every second world
-/// many cells are boxes that share both holes and walls of the sheet.
+/// Cells on both sides of a sheet, a membrane with holes; here and there with a wall that stands on it. In
+/// every second world many cells are boxes that share both holes and walls of the sheet.
 template <int D>
 oracle::World<D> sheets(std::uint64_t seed) {
   Random random(seed);

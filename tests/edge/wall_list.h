@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All walls of a world, prepared once so that many swept triangles can be held against all of them. What is told apart by
-// boxes or by a plane costs next to nothing; the rest is left to rational_sweep.h.
+// All walls of a world, prepared once so that many swept triangles can be held against all of them. What is
+// told apart by boxes or by a plane costs next to nothing; the rest is left to rational_sweep.h.
 #ifndef CELLWALK_TESTS_EDGE_WALL_LIST_H
 #define CELLWALK_TESTS_EDGE_WALL_LIST_H
 
@@ -45,7 +45,8 @@ class Wall_list {
   struct Swept;
 
   bool is_apart(const Swept& triangle, const Prepared& wall) const;
-  /// Calls visit for the number of each wall that is not found to be apart from the triangle, until it returns false.
+  /// Calls visit for the number of each wall that is not found to be apart from the triangle, until it
+  /// returns false.
   template <class Visit>
   void for_each_near(const Point<D>& a, const Point<D>& b, const Point<D>& q, const Visit& visit) const;
 

@@ -26,8 +26,8 @@ class Snapshot_compiler<-1> {
 
 namespace test {
 
-/// Marks pairs of cells as convex whose union is, whatever walls lie between them in the plane of a facet that they share. Returns how
-/// many were not so marked.
+/// Marks pairs of cells as convex whose union is, whatever walls lie between them in the plane of a facet
+/// that they share. Returns how many were not so marked.
 template <int D>
 int forget_slits(Snapshot<D>& snapshot) {
   Predicate_counts counts;

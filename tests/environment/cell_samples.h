@@ -91,8 +91,8 @@ inline Sample_cell<2> polygon(const std::vector<Point<2>>& points) {
   return cell;
 }
 
-/// A twofold cover of an octahedron: its equator is walked twice between the poles. Two vertices lie on each corner of
-/// the equator.
+/// A twofold cover of an octahedron: its equator is walked twice between the poles. Two vertices lie on each
+/// corner of the equator.
 inline Sample_cell<3> wound_octahedron() {
   Sample_cell<3> cell{{{0, 0, 1}, {0, 0, -1}}, {}};
   const std::array<Point<3>, 4> equator{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};

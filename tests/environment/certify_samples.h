@@ -74,8 +74,8 @@ std::string refusal_of(const Cell_soup<D>& soup, const Gluing& gluing) {
   return refusal_or_none(soup, false, gluing);
 }
 
-/// Triangles round the origin, `per_turn` to a turn, spiralling outwards so that no vertices coincide. Exactly
-/// per_turn of them turn exactly once. Closed: the last one ends where the first begins.
+/// Triangles round the origin, `per_turn` to a turn, spiralling outwards so that no vertices coincide.
+/// Exactly per_turn of them turn exactly once. Closed: the last one ends where the first begins.
 inline Cell_soup<2> ring(int cells, int per_turn, bool closed) {
   Cell_soup<2> soup;
   soup.points.push_back({0, 0});
@@ -160,8 +160,8 @@ Rational excess(const Half_space<D>& h, const std::array<Rational, D>& x) {
   return sum;
 }
 
-/// True if two simplices have interior points in common: the mean of all corners of their intersection is then strictly
-/// inside both.
+/// True if two simplices have interior points in common: the mean of all corners of their intersection is
+/// then strictly inside both.
 template <int D>
 bool interiors_meet(const Cell_soup<D>& soup, std::size_t c, std::size_t d) {
   std::vector<Half_space<D>> planes;

@@ -15,13 +15,15 @@
 
 namespace cellwalk::test {
 
-/// Cells of each dimension, those of dimension < D - 1 counted once for each set of cells joined through facets.
+/// Cells of each dimension, those of dimension < D - 1 counted once for each set of cells joined through
+/// facets.
 template <int D>
 struct Expected_counts {
   std::size_t cells = 0, facets = 0, boundary_facets = 0, vertices = 0, edges = 0, pinched = 0;
 };
 
-/// How many classes the cells around a feature fall into, where two cells are joined by a facet that has the feature.
+/// How many classes the cells around a feature fall into, where two cells are joined by a facet that has the
+/// feature.
 template <int D>
 std::size_t parts(const Cell_soup<D>& soup,
                   const std::map<std::set<std::uint32_t>, std::vector<std::size_t>>& sides,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cell soups that the tests of maps and environments share: one of each kind that has broken something elsewhere.
+// Cell soups that the tests of maps and environments share: one of each kind that has broken something
+// elsewhere.
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 
@@ -70,8 +71,8 @@ inline Cell_soup<3> round_prism() {
   return soup;
 }
 
-/// Everything above, grids, and lattice worlds with membranes, solid and missing cells, coplanar facets of one cell,
-/// cells that share several facets, facets with collinear vertices.
+/// Everything above, grids, and lattice worlds with membranes, solid and missing cells, coplanar facets of
+/// one cell, cells that share several facets, facets with collinear vertices.
 template <int D>
 std::vector<Named_soup<D>> sample_soups() {
   std::vector<Named_soup<D>> result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What an edit leaves of the geometry of cells: loops by whose first vertices a side can be told, and the count of planes.
+// What an edit leaves of the geometry of cells: loops by whose first vertices a side can be told, and the
+// count of planes.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/kernel/predicates.h>

@@ -123,7 +123,8 @@ TEST(Environment, DropsUnusedPoints) {
   EXPECT_EQ(test::facts(environment.snapshot()), expected);
 }
 
-/// Two squares (cubes) that should share a facet, but have points of their own there; one is at -0 instead of 0.
+/// Two squares (cubes) that should share a facet, but have points of their own there; one is at -0 instead of
+/// 0.
 Cell_soup<2> torn_squares() {
   Cell_soup<2> soup;
   soup.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, -0.0}, {2, 0}, {2, 1}, {1, 1}};

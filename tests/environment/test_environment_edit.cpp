@@ -23,7 +23,8 @@ std::vector<unsigned int> counts(const Environment<D>& environment) {
   return environment.storage().map.count_cells(dimensions);
 }
 
-/// Map valid, in step with the snapshot, certified; and the snapshot is what compiling the map from scratch gives.
+/// Map valid, in step with the snapshot, certified; and the snapshot is what compiling the map from scratch
+/// gives.
 template <int D>
 void expect_sound(const Environment<D>& environment, std::uint64_t seed) {
   EXPECT_TRUE(environment.storage().map.is_valid());

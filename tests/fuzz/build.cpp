@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cells from bytes: a small complex with a few things done to it, most of them harm. What is refused is refused; what is certified
-// is certified again from its own soup, and moved about in.
+// Cells from bytes: a small complex with a few things done to it, most of them harm. What is refused is
+// refused; what is certified is certified again from its own soup, and moved about in.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/lattice_world.h>
@@ -114,8 +114,9 @@ void part(Cell_soup<D>& soup, std::size_t cell, std::span<const std::uint32_t> l
 
 using Loops = std::vector<std::vector<std::uint32_t>>;
 
-/// A facet in two pieces, as its two cells have them: the first, the door, is the same in both; of the second, the other cell has a finer
-/// division, so that there are walls that coincide in the plane of the door.
+/// A facet in two pieces, as its two cells have them: the first, the door, is the same in both; of the
+/// second, the other cell has a finer division, so that there are walls that coincide in the plane of the
+/// door.
 std::pair<Loops, Loops> pieces(Cell_soup<2>& soup, const std::vector<std::uint32_t>& loop) {
   const std::uint32_t a = loop[0], b = loop[1], m = static_cast<std::uint32_t>(soup.points.size()), n = m + 1;
   soup.points.push_back(combination<2>(soup.points[a], soup.points[b], 0.5));

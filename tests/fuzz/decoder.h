@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Choices and numbers out of bytes. Where bytes are short, all that follows is 0: every input means something, and a longer one
-// that begins the same means the same at first.
+// Choices and numbers out of bytes. Where bytes are short, all that follows is 0: every input means
+// something, and a longer one that begins the same means the same at first.
 #ifndef CELLWALK_TESTS_FUZZ_DECODER_H
 #define CELLWALK_TESTS_FUZZ_DECODER_H
 

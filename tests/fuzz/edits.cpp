@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edits from bytes. After each, map and snapshot must be valid and in step, the snapshot what compiling from scratch gives, and
-// certification from scratch of the same mind; particles must not pass walls, be they registered before the edit or after it.
+// Edits from bytes. After each, map and snapshot must be valid and in step, the snapshot what compiling from
+// scratch gives, and certification from scratch of the same mind; particles must not pass walls, be they
+// registered before the edit or after it.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
@@ -186,8 +187,8 @@ class Editing {
     target_ = some_point(snapshot(), in_);
   }
 
-  /// A particle that was registered before an edit is refused, or goes where one that is registered now can go. It is not asked for
-  /// where its cell moved away from it: then it is to be located again.
+  /// A particle that was registered before an edit is refused, or goes where one that is registered now can
+  /// go. It is not asked for where its cell moved away from it: then it is to be located again.
   void walk_kept_particle() {
     if (!kept_) return;
     const bool is_in_its_cell = in_closure(snapshot(), kept_->cell, kept_->position);

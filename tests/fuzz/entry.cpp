@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What libFuzzer calls: the target CELLWALK_FUZZ_TARGET. A Finding ends the program, as every exception that nobody catches.
+// What libFuzzer calls: the target CELLWALK_FUZZ_TARGET. A Finding ends the program, as every exception that
+// nobody catches.
 #include <cstddef>
 #include <cstdint>
 

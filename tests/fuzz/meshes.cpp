@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Readers of meshes. What they accept must keep what its record promises, since all that follows relies on it.
+// Readers of meshes. What they accept must keep what its record promises, since all that follows relies on
+// it.
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/planar_file.h>
 #include <cellwalk/io/surface_file.h>

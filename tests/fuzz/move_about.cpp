@@ -188,8 +188,9 @@ Point<D> some_point(const Snapshot<D>& snapshot, Decoder& in) {
     case 2: {  // within a facet
       const Cell c = snapshot.cell(in.below(snapshot.cell_count()));
       const auto loop = snapshot.loop(snapshot.half_facet(c, in.below(snapshot.facet_count(c))));
-      const Point<D> a = combination<D>(snapshot.point(loop[0]), snapshot.point(loop[1]), in.below(9) / 8.0);
-      return combination<D>(a, snapshot.point(loop.back()), in.below(9) / 8.0);
+      const Point<D> a = combination<D>(snapshot.point(loop[0]), snapshot.point(loop[1]),
+                                        static_cast<double>(in.below(9)) / 8);
+      return combination<D>(a, snapshot.point(loop.back()), static_cast<double>(in.below(9)) / 8);
     }
     case 3: {  // next to a vertex
       Point<D> p = vertex();
@@ -207,7 +208,8 @@ Point<D> some_point(const Snapshot<D>& snapshot, Decoder& in) {
       const auto cell = snapshot.view(snapshot.cell(in.below(snapshot.cell_count())));
       Point<D> p = cell.point(in.below(cell.vertex_count()));
       for (int i = 0; i < D; ++i)
-        p = combination<D>(p, cell.point(in.below(cell.vertex_count())), in.below(8) / 8.0);
+        p = combination<D>(p, cell.point(in.below(cell.vertex_count())),
+                           static_cast<double>(in.below(8)) / 8);
       return p;
     }
     default: {

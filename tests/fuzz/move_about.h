@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Points, walks and sweeps that bytes decide in an environment, judged by oracles that share no predicate with the library.
+// Points, walks and sweeps that bytes decide in an environment, judged by oracles that share no predicate
+// with the library.
 #ifndef CELLWALK_TESTS_FUZZ_MOVE_ABOUT_H
 #define CELLWALK_TESTS_FUZZ_MOVE_ABOUT_H
 
@@ -18,7 +19,8 @@ Point<D> combination(const Point<D>& a, const Point<D>& b, double share) {
   return (1 - share) * a + share * b;
 }
 
-/// A point, mostly in a degenerate position: at a vertex, in an edge or facet, on a line through two vertices, an ulp beside.
+/// A point, mostly in a degenerate position: at a vertex, in an edge or facet, on a line through two
+/// vertices, an ulp beside.
 template <int D>
 Point<D> some_point(const Snapshot<D>& snapshot, Decoder& in);
 
@@ -28,8 +30,9 @@ struct Judged {
 };
 const Judged& judged();
 
-/// Locates points, walks between them by all strategies, and sweeps edges, as long as there are bytes, up to so many times.
-/// Each answer is judged: by invariants always, by the oracles where coordinates have few digits.
+/// Locates points, walks between them by all strategies, and sweeps edges, as long as there are bytes, up to
+/// so many times. Each answer is judged: by invariants always, by the oracles where coordinates have few
+/// digits.
 /// \throw Finding where an answer is wrong
 template <int D>
 void move_about(const Snapshot<D>& snapshot, const Cell_soup<D>& soup, Decoder& in, std::size_t most);

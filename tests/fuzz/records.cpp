@@ -149,8 +149,8 @@ void motion(std::string_view bytes) {
   });
 }
 
-/// The first byte says how the others are packed before they are read: not at all; or compressed, with one byte changed or the
-/// end cut off, as the next two say. Checksums keep random bytes from getting far.
+/// The first byte says how the others are packed before they are read: not at all; or compressed, with one
+/// byte changed or the end cut off, as the next two say. Checksums keep random bytes from getting far.
 void gzip(std::string_view bytes) {
   Decoder in(bytes);
   const std::uint8_t damage = in.byte();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Fuzz targets: each takes any bytes and may end in two ways, without a word or in an Error that refuses them. Everything else
-// is a finding: another exception, a broken promise (demand), what a sanitizer reports, much time or memory.
+// Fuzz targets: each takes any bytes and may end in two ways, without a word or in an Error that refuses
+// them. Everything else is a finding: another exception, a broken promise (demand), what a sanitizer reports,
+// much time or memory.
 //
-// libFuzzer calls one of them in each program of the preset `fuzz` (entry.cpp); test_corpora.cpp calls all of them with the files
-// of corpus/, in any build.
+// libFuzzer calls one of them in each program of the preset `fuzz` (entry.cpp); test_corpora.cpp calls all of
+// them with the files of corpus/, in any build.
 #ifndef CELLWALK_TESTS_FUZZ_TARGETS_H
 #define CELLWALK_TESTS_FUZZ_TARGETS_H
 

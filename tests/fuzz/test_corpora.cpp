@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The files of corpus/TARGET given to the targets, without libFuzzer: seeds of each kind, and every input that once was a finding.
+// The files of corpus/TARGET given to the targets, without libFuzzer: seeds of each kind, and every input
+// that once was a finding.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Every generated world becomes an environment as it is: certified, nothing split, with the counts it should have.
+// Every generated world becomes an environment as it is: certified, nothing split, with the counts it should
+// have.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/lattice_world.h>

@@ -152,8 +152,8 @@ TEST(LatticeWorld, RemovedCellsPinchVertices) {
   EXPECT_TRUE(found);
 }
 
-/// What a world has of slits: facets of the boundary that another one lies on, by pairs of half-facets of which some open part is
-/// the same.
+/// What a world has of slits: facets of the boundary that another one lies on, by pairs of half-facets of
+/// which some open part is the same.
 template <int D>
 struct Slits {
   std::size_t duplicates = 0;       // vertices
@@ -172,7 +172,8 @@ Slits<D> slits_of(const Cell_soup<D>& whole, const Cell_soup<D>& soup) {
       slits.duplicates += n > 1;
     else
       ++slits.cut;
-  // Pairs of cells that were joined by a facet and are not any more, and still are by another one in the same plane.
+  // Pairs of cells that were joined by a facet and are not any more, and still are by another one in the same
+  // plane.
   const Gluing before = glue(whole), after = glue(soup);
   const auto cells = [](const Cell_soup<D>& s) {
     std::vector<std::uint32_t> cell_of;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bounds of times in numbers of twice the precision of a double. Rounding has to be real here: valgrind, for one, ignores the direction.
+// Bounds of times in numbers of twice the precision of a double. Rounding has to be real here: valgrind, for
+// one, ignores the direction.
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/kernel/random.h>
 

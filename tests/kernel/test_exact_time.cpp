@@ -11,7 +11,7 @@ namespace {
 
 Exact_time fraction(int n, int d) { return to_time(Fraction(Ring(n), Ring(d))); }
 
-TEST(Exact_time, IsRoundedDown) {
+TEST(ExactTime, IsRoundedDown) {
   EXPECT_EQ(fraction(1, 2).rounded(), 0.5);
   EXPECT_EQ(fraction(1, 2).fraction(), nullptr) << "a double needs no fraction";
   for (int d = 3; d < 200; d += 2)
@@ -22,7 +22,7 @@ TEST(Exact_time, IsRoundedDown) {
     }
 }
 
-TEST(Exact_time, IsComparedExactly) {
+TEST(ExactTime, IsComparedExactly) {
   // Fractions of the same double, which only exact arithmetic tells apart.
   const double large = std::ldexp(1.0, 100);
   const Exact_time third = fraction(1, 3),
@@ -36,7 +36,7 @@ TEST(Exact_time, IsComparedExactly) {
   EXPECT_LT(third, Exact_time(std::nextafter(third.rounded(), 1.0)));
 }
 
-TEST(Exact_time, OrdersLikeFractions) {
+TEST(ExactTime, OrdersLikeFractions) {
   Random random(5);
   int equal = 0;
   for (int k = 0; k < 20000; ++k) {

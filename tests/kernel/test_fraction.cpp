@@ -77,7 +77,7 @@ Judge orientation(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
   return (x(q[0]) - x(p[0])) * (x(r[1]) - x(p[1])) - (x(q[1]) - x(p[1])) * (x(r[0]) - x(p[0]));
 }
 
-TEST(Orientation_value, BoundsValuesAndTheirRoots) {
+TEST(OrientationValue, BoundsValuesAndTheirRoots) {
   Random random(6);
   Predicate_counts counts;
   int roots = 0, narrow = 0, unknown = 0;

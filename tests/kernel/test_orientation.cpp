@@ -39,7 +39,8 @@ int sign(Predicate_counts& counts, const std::array<Point<2>, 3>& p) {
   return Kernel::orientation(counts, p[0], p[1], p[2]);
 }
 
-/// Points nearly (or exactly) dependent: the last one is a rounded combination of the others, moved by a few ulp.
+/// Points nearly (or exactly) dependent: the last one is a rounded combination of the others, moved by a few
+/// ulp.
 template <std::size_t N>
 std::array<Point<N - 1>, N> nearly_dependent(std::mt19937_64& random, double scale) {
   constexpr int D = N - 1;

@@ -22,7 +22,8 @@ inline Surface_soup box(const Point<3>& low, const Point<3>& high) {
   return s;
 }
 
-/// An octahedron whose triangles are cut into four `levels` times, with corners at distance 1 from the origin.
+/// An octahedron whose triangles are cut into four `levels` times, with corners at distance 1 from the
+/// origin.
 inline Surface_soup octahedron(int levels = 0) {
   Surface_soup s;
   s.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};

@@ -64,7 +64,8 @@ TEST(SurfaceCheck, OrientsNestedComponentsAlternately) {
 }
 
 TEST(SurfaceCheck, MergesPointsAndDropsWhatCollapses) {
-  // A triangle soup as STL has it: every facet with its own three points; one more that is a point twice; one unused.
+  // A triangle soup as STL has it: every facet with its own three points; one more that is a point twice; one
+  // unused.
   Surface_soup s;
   for (const auto& f : octahedron().facets) {
     for (auto v : f) s.points.push_back(octahedron().points[v]);

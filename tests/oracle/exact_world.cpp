@@ -28,8 +28,8 @@ std::array<N, D> difference(const std::array<N, D>& a, const std::array<N, D>& b
   return r;
 }
 
-/// The function that vanishes at x and grows along the normal. Its coefficients are made as small as they go where
-/// bits are scarce.
+/// The function that vanishes at x and grows along the normal. Its coefficients are made as small as they go
+/// where bits are scarce.
 template <class N, std::size_t D>
 Affine<static_cast<int>(D), N> affine_through(std::array<N, D> normal, const std::array<N, D>& x) {
   if (std::all_of(normal.begin(), normal.end(), [](const N& n) { return n == 0; }))

@@ -13,7 +13,7 @@
 
 namespace cellwalk::oracle {
 
-using Int128 = __int128;
+__extension__ using Int128 = __int128;  // not of ISO C++
 using Wide = boost::multiprecision::checked_int512_t;
 
 /// The type that holds sums of two products of N.
@@ -47,7 +47,8 @@ inline Dyadic to_dyadic(double x) {
   return r;
 }
 
-/// x * 2^shift as an integer. \pre it is one, and fits
+/// x * 2^shift as an integer.
+/// \pre it is one, and fits
 template <class N>
 N scaled(double x, int shift) {
   const Dyadic d = to_dyadic(x);

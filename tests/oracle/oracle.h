@@ -17,8 +17,8 @@ struct Place {
   std::vector<std::uint32_t> free_cells, solid_cells;  ///< whose closures hold the point, ascending
   int sides = 0;                                       ///< classes of the free cells, linked at the point
   int dimension = 0;                                   ///< of the lowest cell of the complex that holds it
-  std::vector<int>
-      dimensions;  ///< of each free cell: of the lowest cell in its closure. They differ at slits only
+  /// Of each free cell: of the lowest cell in its closure. They differ at slits only.
+  std::vector<int> dimensions;
 };
 
 template <int D>
@@ -31,7 +31,8 @@ class Oracle {
 
   const Cell_soup<D>& soup() const;
 
-  /// All that the closed segment ab meets. Cost: linear in the number of cells; about 10 us for 100 cells.
+  /// All that the closed segment ab meets.
+  /// Cost: linear in the number of cells; about 10 us for 100 cells.
   Trace trace(const Point<D>& a, const Point<D>& b) const;
 
   Place place(const Point<D>& p) const;

@@ -60,8 +60,8 @@ struct Stop {
 
 /// Everything that a correct walk may answer.
 struct Truth {
-  std::vector<std::uint32_t>
-      arrivals;  ///< cells, holding the last piece of the motion, in which it may arrive
+  /// Cells, holding the last piece of the motion, in which it may arrive.
+  std::vector<std::uint32_t> arrivals;
   std::vector<Stop> stops;
   int choices = 0;           ///< events after which cells of more than one side are legal
   bool unique_cells = true;  ///< no piece of the motion may lie in more than one cell
@@ -71,8 +71,8 @@ struct Truth {
 /// \pre the cell's closure holds the start
 Truth judge(const Trace& trace, std::uint32_t start);
 
-/// What is wrong with a list of cells as the way of a walk: each must be linked with the one before at a point of both, one after
-/// the other, and must hold a further piece.
+/// What is wrong with a list of cells as the way of a walk: each must be linked with the one before at a
+/// point of both, one after the other, and must hold a further piece.
 enum class Path_fault { none, wrong_start, not_met, not_linked, no_further_piece };
 Path_fault check_path(const Trace& trace, std::uint32_t start, std::span<const std::uint32_t> path);
 

@@ -10,8 +10,8 @@
 
 namespace cellwalk::test {
 
-/// Throws hexahedra, spheres and catheters of about this size for so many moves of vertices in CI; ten times as many in the
-/// long test.
+/// Throws hexahedra, spheres and catheters of about this size for so many moves of vertices in CI; ten times
+/// as many in the long test.
 inline void expect_long_flights_are_sound(const Snapshot<3>& snapshot, double size, std::size_t moves_in_ci) {
   const Body_soup<3> shapes[] = {generate_body(Hexahedron_shape{size, false}),
                                  generate_body(Icosphere_shape{0.6 * size, 1}),

@@ -163,7 +163,7 @@ TEST(BodyReplay, RecordingChangesNothing) {
   EXPECT_TRUE(stand_as_recorded(trace.steps)) << "where they are after the last step";
 }
 
-/// Calls visit(answer to the vertex, its neighbours, answers to its edges, from, target) for each move, in order.
+/// Calls visit(answers to the vertex and its edges, its neighbours, from, target) for each move, in order.
 template <class Visit>
 void for_each_recorded_move(const Body_trace& trace, const Visit& visit) {
   std::size_t at = 0;
@@ -196,7 +196,8 @@ struct Judged_answers {
   int touches = 0;  ///< free, and a wall is met: only touched, if the answer is right
 };
 
-/// Holds the answers against brute force over the closed walls of a grid: all that are not plain, and some others.
+/// Holds the answers against brute force over the closed walls of a grid: all that are not plain, and some
+/// others.
 Judged_answers judge_answers(const Body_trace& trace, const std::vector<std::uint32_t>& solid) {
   Trace grid;
   grid.nx = 6, grid.ny = 5, grid.nz = 4;

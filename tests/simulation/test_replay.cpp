@@ -101,8 +101,8 @@ TEST(Replay, GivesTheRecordedAnswers) {
   }
 }
 
-/// Cells that are no cubes cost the same: without regions, the same walks, crossings and certificates. Regions have oblique sides
-/// there, and hold nearly as much.
+/// Cells that are no cubes cost the same: without regions, the same walks, crossings and certificates.
+/// Regions have oblique sides there, and hold nearly as much.
 TEST(Replay, ShearedCellsAreLikeCubes) {
   const Trace& trace = crowded();
   const Environment<3> cubes = trace_environment(trace), leaning = trace_environment(trace, sheared<3>());
@@ -134,14 +134,14 @@ TEST(Replay, ShearedCellsAreLikeCubes) {
   }
 }
 
-/// Bodies that report contacts as well have one for each vertex that stays, at the time at which brute force finds the vertex or the first
-/// of its edges that are in the way at a wall.
+/// Bodies that report contacts as well have one for each vertex that stays, at the time at which brute force
+/// finds the vertex or the first of its edges that are in the way at a wall.
 TEST(Replay, BodiesReportContactsOfTheSameMoves) {
   const Trace& trace = crowded();
   const Environment<3> environment = trace_environment(trace);
   const Locator<3> locator(environment.snapshot());
   Body_options options = trace_options(Sweep::triangle);
-  std::map<std::size_t, Body_contact<3>> contacts;
+  std::map<std::size_t, Contact<3>> contacts;
   Body_counts counts;
   for (std::uint32_t b = 0; b < trace.bodies; ++b) {
     Body<3> body(environment.snapshot(), locator, test::trace_body_at(&trace.start(b, 0)));
@@ -156,7 +156,7 @@ TEST(Replay, BodiesReportContactsOfTheSameMoves) {
       std::vector<std::uint8_t> answers;
       append_answers(report.blocked, Sweep::triangle, answers);
       for (std::size_t v = 0; v < trace_vertices; ++v) ASSERT_EQ(answers[v], trace.answer(step, b, v));
-      for (const Body_contact<3>& met : report.contacts)
+      for (const Contact<3>& met : report.contacts)
         EXPECT_TRUE(contacts.emplace(trace.index(step, b, met.vertex), met).second);
     }
   }
@@ -166,7 +166,7 @@ TEST(Replay, BodiesReportContactsOfTheSameMoves) {
     const unsigned answer = trace.answers[i];
     ASSERT_EQ(contacts.count(i), (answer & (trace_segment_bit | trace_edge_bits)) != 0 ? 1u : 0u);
     if (contacts.count(i) == 0) return;
-    const Contact<3>& contact = contacts.at(i).contact;
+    const Contact<3>& contact = contacts.at(i);
     std::optional<double> first, of_any_edge;
     for (std::size_t k = 0; k < trace_edges; ++k)
       if (const auto time = walls.meet_triangle(from, target, q[k])) {
@@ -201,24 +201,24 @@ TEST(Replay, NamesWalls) {
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
     Replay replay(snapshot, locator, trace, {sweep, true});
     replay.run();
-    std::map<std::size_t, const Replay_contact*> contacts;
-    for (const Replay_contact& c : replay.contacts())
-      EXPECT_TRUE(contacts.emplace(trace.index(c.step, c.body, c.vertex), &c).second);
+    std::map<std::size_t, const Run_contact<3>*> contacts;
+    for (const Run_contact<3>& c : replay.contacts())
+      EXPECT_TRUE(contacts.emplace(trace.index(c.step - 1, c.body.value(), c.contact.vertex), &c).second);
     int of_vertices = 0, of_edges = 0;
     test::for_each_move(
         trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto& q) {
           const bool is_vertex = trace.answers[i] & trace_segment_bit;
           ASSERT_EQ(contacts.count(i), is_vertex || trace.answers[i] & trace_edge_bits ? 1u : 0u);
           if (contacts.count(i) == 0) return;
-          const Replay_contact& c = *contacts.at(i);
-          EXPECT_EQ(c.feature, is_vertex ? Body_feature::vertex : Body_feature::edge);
+          const Run_contact<3>& c = *contacts.at(i);
+          EXPECT_EQ(c.contact.body, is_vertex ? Body_feature::vertex : Body_feature::edge);
           EXPECT_TRUE(snapshot.is_impassable(c.contact.facet));
           EXPECT_NEAR(length(c.contact.normal), 1, 0x1p-40);
           // The point lies on the way of the vertex, or on the edge from its target.
           double off = 1;
           for (const Point<3>& end : q) {
             const Point<3>&a = is_vertex ? from : target, &b = is_vertex ? target : end;
-            off = std::min(off, length(c.contact.point - (a + c.contact.time * (b - a))));
+            off = std::min(off, length(c.contact.point - (a + c.contact.rounded_time() * (b - a))));
           }
           EXPECT_LT(off, 1e-12);
           ++(is_vertex ? of_vertices : of_edges);
@@ -256,7 +256,8 @@ TEST(Replay, SweptSegmentsThatRejectGoTheSameWay) {
   EXPECT_EQ(counts.stop_tries, 0u);
 }
 
-/// An edge that goes round an obstacle is in the way where what it sweeps counts, and not where its target does.
+/// An edge that goes round an obstacle is in the way where what it sweeps counts, and not where its target
+/// does.
 TEST(Replay, SweptTrianglesRejectWhatGoesRound) {
   const Trace& trace = crowded();
   const Environment<3> environment = trace_environment(trace);

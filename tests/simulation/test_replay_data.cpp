@@ -18,8 +18,9 @@ struct Facts {
   std::uint64_t vertex_hits, edge_hits, rounds;
 };
 
-/// Facts of the recorded answers: moves with bit 0, bits 1 to 3, and bits 4 to 6 without the bit 1 to 3 that belongs to it.
-class Public_traces : public testing::TestWithParam<Facts> {};
+/// Facts of the recorded answers: moves with bit 0, bits 1 to 3, and bits 4 to 6 without the bit 1 to 3 that
+/// belongs to it.
+class PublicTraces : public testing::TestWithParam<Facts> {};
 
 void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
   const Trace trace =
@@ -43,9 +44,9 @@ void expect_recorded_answers(const Facts& facts, const Lattice_map<3>& map) {
   }
 }
 
-TEST_P(Public_traces, GiveTheRecordedAnswers) { expect_recorded_answers(GetParam(), {}); }
+TEST_P(PublicTraces, GiveTheRecordedAnswers) { expect_recorded_answers(GetParam(), {}); }
 
-TEST_P(Public_traces, HoldTheAnswersOfBruteForce) {
+TEST_P(PublicTraces, HoldTheAnswersOfBruteForce) {
   const Trace trace = io::read_trace(std::filesystem::path(CELLWALK_TEST_DATA) / "traces" / GetParam().file);
   const test::Trace_walls walls(trace);
   std::uint64_t vertex_hits = 0;
@@ -56,9 +57,9 @@ TEST_P(Public_traces, HoldTheAnswersOfBruteForce) {
   EXPECT_EQ(vertex_hits, GetParam().vertex_hits);
 }
 
-TEST_P(Public_traces, GiveTheRecordedAnswersSheared) { expect_recorded_answers(GetParam(), sheared<3>()); }
+TEST_P(PublicTraces, GiveTheRecordedAnswersSheared) { expect_recorded_answers(GetParam(), sheared<3>()); }
 
-INSTANTIATE_TEST_SUITE_P(Replay, Public_traces,
+INSTANTIATE_TEST_SUITE_P(Replay, PublicTraces,
                          testing::Values(Facts{"1k.bin", 884, 343, 4}, Facts{"10k.bin", 397, 235, 0},
                                          Facts{"1m.bin", 243, 193, 0}),
                          [](const auto& facts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes anything, and nothing
-// gets stuck.
+// Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes
+// anything, and nothing gets stuck.
 #include <cellwalk/body/generate.h>
 #include <cellwalk/generators/vessel.h>
 
@@ -12,22 +12,22 @@
 namespace cellwalk::test {
 namespace {
 
-TEST(Rigid_body, KeepsItsInvariantsInAGrid2) {
+TEST(RigidBody, KeepsItsInvariantsInAGrid2) {
   const Snapshot<2> snapshot = rooms<2>({8, 8}, {18, 21, 42, 45, 28});
   expect_flights_are_sound<2>(snapshot, generate_body(Polygon_shape{5, 0.4}), 12, 800);
 }
 
-TEST(Rigid_body, KeepsItsInvariantsInAGrid3) {
+TEST(RigidBody, KeepsItsInvariantsInAGrid3) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {21, 42, 5, 58});
   expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 200);
 }
 
-TEST(Rigid_body, KeepsItsInvariantsInAVessel) {
+TEST(RigidBody, KeepsItsInvariantsInAVessel) {
   const Snapshot<3> snapshot = compile(branching_vessel({}));
   expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 300);
 }
 
-TEST(Rigid_body, KeepsFacesFree) {
+TEST(RigidBody, KeepsFacesFree) {
   // Boxes larger than the solid cells between which they fly.
   const Snapshot<3> snapshot = rooms<3>({8, 8, 8}, {155, 236, 292, 349, 100});
   const Body_soup<3> shape = generate_body(Box_shape{{1.7, 1.6, 1.5}, {1, 1, 1}, true});

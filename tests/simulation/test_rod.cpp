@@ -44,7 +44,7 @@ Pushed push(World<D>& world, int steps, double spacing) {
     world.validate();
     pushed.contacts += world.contacts().size();
     for (const auto& c : world.contacts()) {
-      EXPECT_EQ(c.body->body, 0u);
+      EXPECT_EQ(c.body, 0u);
       pushed.of_edges += c.contact.body == Body_feature::edge;
     }
     const auto x = world.catheter()->body().positions();
@@ -130,7 +130,7 @@ TEST(Rod, BendsLessTheStifferItIs) {
     scene.catheter->stiffness = stiffness;
     World<2> world(snapshot, scene);
     EXPECT_EQ(push(world, 100, 0.25).contacts, 0u);
-    EXPECT_EQ(world.catheter()->next_way_point(), 2u) << "round the bend";
+    EXPECT_EQ(world.catheter()->next_waypoint(), 2u) << "round the bend";
     double sharpest = 0;
     const auto x = world.catheter()->body().positions();
     for (std::size_t i = 1; x[i + 1] != x[i + 2]; ++i)

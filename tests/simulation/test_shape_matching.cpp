@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Goals of shape matching against what defines them: exact on maps of their kind, nearest among rotations, without momentum.
+// Goals of shape matching against what defines them: exact on maps of their kind, nearest among rotations,
+// without momentum.
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/shape_matching.h>
 
@@ -235,7 +236,8 @@ TEST(ShapeMatching, RotationsOfNothingAndOfWhatIsNotFiniteAreTheIdentity) {
   EXPECT_EQ(nearest_rotation<3>(m), one);
 }
 
-/// Rest shapes and positions of every dimension: the rigid goals are congruent to the rest shape, not mirrored, and all finite.
+/// Rest shapes and positions of every dimension: the rigid goals are congruent to the rest shape, not
+/// mirrored, and all finite.
 TEST(ShapeMatching, DegenerateShapesHaveGoals) {
   Random random(5);
   int tried = 0;

@@ -24,9 +24,9 @@ Scene<D> cloud_scene(std::uint32_t count, double speed, std::uint64_t seed) {
   return scene;
 }
 
-/// Runs a world and checks, at every step, what must hold whatever the scene: I1 by the world's own check and by the
-/// locator, and that every reported contact lies in a wall and has its normal. Returns the number of contacts of
-/// each kind.
+/// Runs a world and checks, at every step, what must hold whatever the scene: I1 by the world's own check and
+/// by the locator, and that every reported contact lies in a wall and has its normal. Returns the number of
+/// contacts of each kind.
 template <int D>
 std::array<std::size_t, 3> run_checked(const Snapshot<D>& snapshot, World<D>& world, int steps) {
   const Locator<D> locator(snapshot);
@@ -62,8 +62,8 @@ void bounce_in_lattice_worlds(const Lattice_map<D>& map) {
     scene.time_step = 1.0 / 64;
     scene.restitution = 0.25 * static_cast<double>(seed);
     scene.friction = 0.1;
-    // Some start on the lattice and move along it: within wall planes, through edges and into corners. Gravity would
-    // lead them off it.
+    // Some start on the lattice and move along it: within wall planes, through edges and into corners.
+    // Gravity would lead them off it.
     if (seed > 2) scene.gravity[D - 1] = -10;
     const Locator<D> locator(snapshot);
     for (std::size_t i = 0, placed = 0; placed < 20 && i < snapshot.points().size(); ++i) {
@@ -171,7 +171,7 @@ TEST(World, RefusesStartsOutsideFreeSpace) {
   scene.catheter->find_route = true;
   scene.catheter->path = {{0.5, 0.5}, {2.5, 0.5}};
   EXPECT_EQ(refusal([&] { World<2>(snapshot, scene); }),
-            "catheter.path[1]: walls cut it off from the way point before; move it or open a wall");
+            "catheter.path[1]: walls cut it off from the waypoint before; move it or open a wall");
   scene.catheter->path[0] = {-1, 0};
   EXPECT_EQ(refusal([&] { World<2>(snapshot, scene); }),
             "catheter.path[0]: (-1, 0) lies outside the environment; put it into free space");

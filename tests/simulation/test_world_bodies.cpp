@@ -36,8 +36,8 @@ struct Seen_contacts {
   std::size_t by_vertex = 0, by_edge = 0, of_particles = 0;
 };
 
-/// Runs a world of solid unit cells, and at every step: validates, sees that no vertex is outside and no edge goes through a
-/// solid cell, and that every contact of a body lies in a wall and names what there is.
+/// Runs a world of solid unit cells, and at every step: validates, sees that no vertex is outside and no edge
+/// goes through a solid cell, and that every contact of a body lies in a wall and names what there is.
 template <int D>
 void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<D>>& solid, int steps,
                  Seen_contacts& seen) {
@@ -61,16 +61,16 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
         ++seen.of_particles;
         continue;
       }
-      const Body<D>& body = world.bodies()[c.body->body].body();
-      ASSERT_LT(c.body->vertex, body.vertex_count());
+      const Body<D>& body = world.bodies()[*c.body].body();
+      ASSERT_LT(c.contact.vertex, body.vertex_count());
       if (c.contact.body == Body_feature::vertex) {
-        EXPECT_EQ(c.body->number, c.body->vertex);
+        EXPECT_EQ(c.contact.feature, c.contact.vertex);
         ++seen.by_vertex;
       } else {
         ASSERT_EQ(c.contact.body, Body_feature::edge);
-        ASSERT_LT(c.body->number, body.edges().size());
-        const auto [u, v] = body.edges()[c.body->number];
-        EXPECT_TRUE(u == c.body->vertex || v == c.body->vertex);
+        ASSERT_LT(c.contact.feature, body.edges().size());
+        const auto [u, v] = body.edges()[c.contact.feature];
+        EXPECT_TRUE(u == c.contact.vertex || v == c.contact.vertex);
         ++seen.by_edge;
       }
       // All walls of these worlds are parallel to the axes: a coordinate of the point is whole.
@@ -144,7 +144,7 @@ TEST(WorldBodies, AnyNumberOfThreadsGivesTheSameBits) {
       world.step();
       h = hash_of(world, h);
       for (const auto& c : world.contacts()) {
-        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.contact.rounded_time()) ^ c.body->body);
+        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.contact.rounded_time()) ^ *c.body);
         ++contacts;
       }
     }
@@ -189,7 +189,7 @@ TEST(WorldBodies, AGuidedBodyIsStoppedByAWallAndSlidesAlongIt) {
   const auto snapshot = rooms<2>({4, 4});
   World<2> world(snapshot, guided(), {generate_body(Quad_shape{0.5})});
   const auto x = [&](std::uint32_t v) { return world.bodies()[0].body().positions()[v]; };
-  EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first way point";
+  EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first waypoint";
   std::size_t contacts = 0, slid = 0;
   for (int i = 0; i < 100; ++i) {
     world.step();

@@ -55,8 +55,8 @@ struct Flown {
   std::uint64_t contacts = 0, edge_contacts = 0, face_contacts = 0, validated = 0, differing = 0, stuck = 0;
 };
 
-/// Throws bodies, each twice: with clearance and without. They must do the same, bit for bit; I1 and I2 hold every so many
-/// steps; and every body keeps moving.
+/// Throws bodies, each twice: with clearance and without. They must do the same, bit for bit; I1 and I2 hold
+/// every so many steps; and every body keeps moving.
 template <int D>
 Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, int steps, double time_step,
           int steps_between_checks, std::uint64_t seed, bool compare, const Body_options& options = {}) {
@@ -78,8 +78,8 @@ Flown fly(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int bodies, in
       rigid_bodies[i].step(conditions, report, flown.counts);
       flown.contacts += report.contacts.size();
       for (const auto& c : report.contacts) {
-        flown.edge_contacts += c.contact.body == Body_feature::edge;
-        flown.face_contacts += c.contact.body == Body_feature::face;
+        flown.edge_contacts += c.body == Body_feature::edge;
+        flown.face_contacts += c.body == Body_feature::face;
       }
       if (compare) {
         others.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Small traces in which much touches: boxes, targets and walls lie on one lattice, and all answers are those of brute force.
+// Small traces in which much touches: boxes, targets and walls lie on one lattice, and all answers are those
+// of brute force.
 #ifndef CELLWALK_TESTS_SIMULATION_TOUCHING_TRACE_H
 #define CELLWALK_TESTS_SIMULATION_TOUCHING_TRACE_H
 

@@ -17,7 +17,8 @@ bool Trace_walls::is_solid(const std::array<std::int64_t, 3>& cell) const {
   return std::binary_search(solid_.begin(), solid_.end(), static_cast<std::uint32_t>(index));
 }
 
-/// Squares whose box may meet that of the points: those of the planes in it, in the rows and columns of cells that it meets.
+/// Squares whose box may meet that of the points: those of the planes in it, in the rows and columns of cells
+/// that it meets.
 void Trace_walls::for_each_near(const std::vector<Point<3>>& points,
                                 const std::function<void(const Square&)>& visit) const {
   std::array<std::int64_t, 3> first, last;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The answers of a trace by definition: brute force over the unit squares that are walls near each move, in exact arithmetic.
-// Shares nothing with the library but the record Trace.
+// The answers of a trace by definition: brute force over the unit squares that are walls near each move, in
+// exact arithmetic. Shares nothing with the library but the record Trace.
 #ifndef CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 #define CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 
@@ -21,7 +21,8 @@ class Trace_walls {
 
   /// Whether the closed segment meets a wall.
   bool meet_segment(const Point<3>& a, const Point<3>& b) const;
-  /// Whether the closed triangle abq does; if so, when the edge from a + s (b - a) to q first does (0: at the start).
+  /// Whether the closed triangle abq does; if so, when the edge from a + s (b - a) to q first does (0: at the
+  /// start).
   std::optional<double> meet_triangle(const Point<3>& a, const Point<3>& b, const Point<3>& q) const;
 
  private:
@@ -38,8 +39,8 @@ class Trace_walls {
 std::uint8_t answer(const Trace_walls& walls, const Point<3>& from, const Point<3>& target,
                     const std::array<Point<3>, trace_edges>& q);
 
-/// Where vertices are when they are moved to their targets by the recorded answers. Calls visit(index, from, target, q) for
-/// each move in order.
+/// Where vertices are when they are moved to their targets by the recorded answers. Calls visit(index, from,
+/// target, q) for each move in order.
 void for_each_move(const Trace& trace,
                    const std::function<void(std::size_t, const Point<3>&, const Point<3>&,
                                             const std::array<Point<3>, trace_edges>&)>& visit);

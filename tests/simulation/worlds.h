@@ -17,7 +17,8 @@
 
 namespace cellwalk::test {
 
-/// True if the locator, which knows nothing of the walk, finds the point in free space and in the particle's cell.
+/// True if the locator, which knows nothing of the walk, finds the point in free space and in the particle's
+/// cell.
 template <int D>
 bool is_where_it_says(const Locator<D>& locator, const Particle<D>& particle) {
   const Location<D> location = locator.locate(particle.position);
@@ -76,8 +77,8 @@ bool lies_in_a_wall(const Snapshot<D>& snapshot, const Point<D>& p, const Vector
   return false;
 }
 
-/// True if a segment goes through the inside of a unit square or cube of the lattice: it meets each axis' open interval at a
-/// common parameter. By doubles, with cells shrunk by `margin`; knows nothing of chains.
+/// True if a segment goes through the inside of a unit square or cube of the lattice: it meets each axis'
+/// open interval at a common parameter. By doubles, with cells shrunk by `margin`; knows nothing of chains.
 template <int D>
 bool pierces(const Point<D>& a, const Point<D>& b, const Point<D>& low, double margin) {
   double from = 0, to = 1;

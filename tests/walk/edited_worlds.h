@@ -16,8 +16,9 @@
 
 namespace cellwalk::oracle {
 
-/// Pyramids over the cells of a plane world: all have one apex above the plane, or one below. Their bases are polygons whose
-/// vertices can move within the plane; walls of the plane world stand upright, and some bases are walls.
+/// Pyramids over the cells of a plane world: all have one apex above the plane, or one below. Their bases are
+/// polygons whose vertices can move within the plane; walls of the plane world stand upright, and some bases
+/// are walls.
 inline Cell_soup<3> pyramids_over(const Cell_soup<2>& flat, Random& random) {
   Cell_soup<3> soup;
   Point<2> middle{};
@@ -70,9 +71,9 @@ Cell_soup<D> editable_world(std::uint64_t i) {
     return pyramids_over(lattice_world(flat), random);
 }
 
-/// A new place for a vertex: in the plane of a facet that has it (2D: anywhere), where weights of two other vertices there are
-/// multiples of 1/8; half of the time on the line through these two, and often they are its neighbours, and it the second of the
-/// facet's loop. On a lattice of 1/64.
+/// A new place for a vertex: in the plane of a facet that has it (2D: anywhere), where weights of two other
+/// vertices there are multiples of 1/8; half of the time on the line through these two, and often they are
+/// its neighbours, and it the second of the facet's loop. On a lattice of 1/64.
 template <int D>
 Point<D> new_place(const Snapshot<D>& snapshot, std::uint32_t& point, Random& random) {
   const Cell c = snapshot.cell(random.below(snapshot.cell_count()));

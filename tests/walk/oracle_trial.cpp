@@ -134,8 +134,8 @@ class Trial {
     particle_.dimension = result.dimension;
   }
 
-  /// Back from where the first walker arrived. Where every piece of the motion may lie in one cell only, there and
-  /// back, the same cells must be visited; but the first one there may hold no more than the start.
+  /// Back from where the first walker arrived. Where every piece of the motion may lie in one cell only,
+  /// there and back, the same cells must be visited; but the first one there may hold no more than the start.
   void walk_back(const Case<D>& motion, const std::vector<Walked>& there) {
     if (!there.front().has_arrived()) return;
     Case<D> back;

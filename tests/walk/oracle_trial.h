@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A trial: many motions in many worlds, each judged by the oracle, and a count of everything interesting that happened,
-// so that a test can show that its cases were not empty.
+// A trial: many motions in many worlds, each judged by the oracle, and a count of everything interesting that
+// happened, so that a test can show that its cases were not empty.
 #ifndef CELLWALK_TESTS_WALK_ORACLE_TRIAL_H
 #define CELLWALK_TESTS_WALK_ORACLE_TRIAL_H
 
@@ -78,13 +78,13 @@ struct Trial_options {
   std::function<void(Cell_soup<D>&)> tamper{};
 };
 
-/// Walks motions there and, if they arrive, back by every walker, in one world after the other.
-/// The particle follows the first walker where that is right, so that later motions start on the side it came to.
+/// Walks motions there and, if they arrive, back by every walker, in one world after the other. The particle
+/// follows the first walker where that is right, so that later motions start on the side it came to.
 template <int D>
 Tally run_trial(const std::vector<Walker_under_test<D>>& walkers, const Trial_options<D>& options);
 
-/// The count of a test of CI length times CELLWALK_TEST_LENGTH, which is 1 if unset: 10 at night, less than 1 under a
-/// sanitizer.
+/// The count of a test of CI length times CELLWALK_TEST_LENGTH, which is 1 if unset: 10 at night, less than 1
+/// under a sanitizer.
 std::size_t scaled_count(std::size_t count_in_ci);
 
 }  // namespace cellwalk::oracle

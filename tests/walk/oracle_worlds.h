@@ -19,15 +19,15 @@ template <int D>
 struct World {
   std::string name;
   Cell_soup<D> soup;
-  bool is_dyadic =
-      true;  ///< small combinations of its points are exact, so that degenerate motions really are
+  /// Small combinations of its points are exact, so that degenerate motions really are.
+  bool is_dyadic = true;
 };
 
 inline constexpr int world_kinds = 15;
 
-/// World number i: its kind is i % world_kinds, its seed i. Walls, solid and missing cells in most of them; slits (walls in one place
-/// that are not glued) in those of the last three
-/// kinds, and about some vertices of every second world of simplices.
+/// World number i: its kind is i % world_kinds, its seed i. Walls, solid and missing cells in most of them;
+/// slits (walls in one place that are not glued) in those of the last three kinds, and about some vertices of
+/// every second world of simplices.
 template <int D>
 World<D> make_world(std::uint64_t i);
 
@@ -45,7 +45,8 @@ enum class Motion_kind {
   in_wall_plane,  ///< within the plane of a wall
   along_edge,     ///< along an edge, often beyond it
   backward,       ///< back along the last motion, often beyond its start
-  nearly,  ///< to a point next to a lattice point, edge or facet, or past one: by 1 ulp up to the error of the planes
+  /// To a point next to a lattice point, edge or facet, or past one: by 1 ulp up to the error of the planes.
+  nearly,
   nowhere,  ///< zero motion
   count
 };
@@ -61,8 +62,8 @@ class Motion_source {
   Motion_source(const World<D>& world, std::uint64_t seed);
 
   Motion_kind kind(bool generic);
-  /// A point that a motion of this kind may start from; may lie in no free cell. Motions in a wall plane and along an
-  /// edge need the start that was made for them.
+  /// A point that a motion of this kind may start from; may lie in no free cell. Motions in a wall plane and
+  /// along an edge need the start that was made for them.
   Point<D> start(Motion_kind kind);
   /// A target for a motion from `from`; `last` is where the one before started.
   Point<D> target(Motion_kind kind, const Point<D>& from, const Point<D>& last);

@@ -103,8 +103,8 @@ class Reordered_world {
   const std::vector<std::uint32_t> old_cell_, old_point_;
 };
 
-/// Where a contact is on the environment, in coordinates: a vertex, the two ends of an edge, or all corners of a facet.
-/// Any struct that names it as Wall_contact does.
+/// Where a contact is on the environment, in coordinates: a vertex, the two ends of an edge, or all corners
+/// of a facet. Any struct that names it as Wall_contact does.
 template <int D, class Met>
 std::vector<Point<D>> feature_of(const Snapshot<D>& snapshot, const Met& contact) {
   const std::vector<std::uint32_t> loop = snapshot.loop(contact.facet);

@@ -43,7 +43,7 @@ TEST_F(LinkSearch, FindsCellsInOrderAndTheWaysToThem) {
   }
   EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 2, 3, 1})) << "the wall is gone round";
   std::vector<Half_facet> way{Half_facet::none};
-  links.append_way(2, way);
+  links.append_path(2, way);
   ASSERT_EQ(way.size(), 3u) << "behind what was there";
   EXPECT_EQ(snapshot_.cell_of(way[1]), start_);
   EXPECT_EQ(snapshot_.neighbour(way[1]), links.cell(1));

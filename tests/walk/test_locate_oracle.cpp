@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Location against the oracle: on facets, edges and vertices, outside, in solid cells, on membranes and pinches.
+// Location against the oracle: on facets, edges and vertices, outside, in solid cells, on membranes and
+// pinches.
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The worlds of the oracle tests have every degeneracy that they are meant to have. Counted on integer lattices, where
-// arithmetic in doubles is exact.
+// The worlds of the oracle tests have every degeneracy that they are meant to have. Counted on integer
+// lattices, where arithmetic in doubles is exact.
 #include <cellwalk/kernel/point.h>
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ struct Features {
   int facets_shared_twice = 0;  ///< pairs of cells that share several facets
   int of_which_one_a_wall = 0;  ///< pairs of which one facet is a wall and another is not
   int duplicates = 0;           ///< points where another one lies
-  int slits_beside_ways =
-      0;  ///< pairs of cells with a slit between them in the plane of a facet that they share
+  /// Pairs of cells with a slit between them in the plane of a facet that they share.
+  int slits_beside_ways = 0;
 };
 
 template <int D>

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t motions = 12'000;
 
-/// Exact signs, but where the line meets a ridge exactly, it counts as inside the facet: the exit rule without its
-/// second half. The policy knows a test of the line by its first two points.
+/// Exact signs, but where the line meets a ridge exactly, it counts as inside the facet: the exit rule
+/// without its second half. The policy knows a test of the line by its first two points.
 template <int D>
 struct Zero_counts_as_inside {
   static constexpr bool is_exact = false;  // so that endless walks are cut off
@@ -74,7 +74,8 @@ Tally walk_by_broken_rule() {
 }
 
 TEST(WalkOracleCatches, ZeroCountedAsInside2) {
-  // In the plane the two ends of an edge have opposite signs, so that a zero counts as inside at one of them only.
+  // In the plane the two ends of an edge have opposite signs, so that a zero counts as inside at one of them
+  // only.
   const Tally tally = walk_by_broken_rule<2>();
   EXPECT_GT(tally.wrong(), motions / 100);
   EXPECT_GT(count(tally, Verdict::false_contact), 0u);

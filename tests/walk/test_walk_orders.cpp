@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walks are answers about a geometry: the order in which its cells, points and facets are listed, and the strategy, must not show.
+// Walks are answers about a geometry: the order in which its cells, points and facets are listed, and the
+// strategy, must not show.
 #include <gtest/gtest.h>
 
 #include <iostream>

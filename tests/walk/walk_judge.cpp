@@ -8,7 +8,8 @@
 namespace cellwalk::oracle {
 namespace {
 
-/// The number in the oracle's soup of a half-facet of the snapshot (which may number the facets of a cell otherwise).
+/// The number in the oracle's soup of a half-facet of the snapshot (which may number the facets of a cell
+/// otherwise).
 template <int D>
 int facet_in_soup(const Oracle<D>& oracle, const Snapshot<D>& snapshot, Half_facet f) {
   std::vector<std::uint32_t> wanted = snapshot.loop(f);
@@ -23,7 +24,8 @@ int facet_in_soup(const Oracle<D>& oracle, const Snapshot<D>& snapshot, Half_fac
   return -1;
 }
 
-/// The wall named by a contact must be one of a cell linked with the last one at the point, and hold the point.
+/// The wall named by a contact must be one of a cell linked with the last one at the point, and hold the
+/// point.
 template <int D>
 bool is_right_wall(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Trace& trace, const Stop& stop,
                    Half_facet wall) {

@@ -40,7 +40,8 @@ struct Case {
   Truth truth;
 };
 
-/// Judges a walk over the snapshot that was compiled from the oracle's soup. `visited` may be empty (not recorded).
+/// Judges a walk over the snapshot that was compiled from the oracle's soup. `visited` may be empty (not
+/// recorded).
 template <int D>
 Verdict judge_walk(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Case<D>& motion,
                    const Walk_result<D>& result, const std::vector<Cell>& visited);

@@ -78,7 +78,7 @@ export class Panel {
         ['events', percent(shares.event_sweeps), decisions[6].colour]]);
     }
     if (report.catheter)
-      table('run', [['Catheter', report.catheter.arrived ? 'arrived' : `at way point ${report.catheter.way_point}`]]);
+      table('run', [['Catheter', report.catheter.arrived ? 'arrived' : `at waypoint ${report.catheter.waypoint}`]]);
     table('run', [['Validated', report.validated ? 'yes' : 'no']]);
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The box of a body in one step: of its vertices where they stand and of their targets. Every segment and every triangle
-// that the step tests lies in it, whatever the answers are.
+// The box of a body in one step: of its vertices where they stand and of their targets. Every segment and
+// every triangle that the step tests lies in it, whatever the answers are.
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_BODY_BOX_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_BODY_BOX_H
 

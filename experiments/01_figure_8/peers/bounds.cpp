@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Two bounds that no general method is held to.
+// Two bounds that no general method has to reach.
 //
-//   read_and_write   reads the targets and recorded answers, moves what is not held and writes the answers: what the
-//                    replay itself costs
-//   unit_cubes       arithmetic that knows that cells are unit cubes: per body the cells of its box, then the solid cubes
+//   read_and_write   reads the targets and recorded answers, moves the vertices that are not held, and writes
+//                    the answers: the cost of the replay itself
+//   unit_cubes       arithmetic for unit cubes only: for each body the cells of its box, then the solid cubes
 //                    among them against segments
 #include <algorithm>
 #include <array>

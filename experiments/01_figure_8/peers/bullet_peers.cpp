@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bullet's static triangle meshes (btBvhTriangleMeshShape, btOptimizedBvh with quantised boxes).
 //
-//   bullet_swept_box   the paper's: per check of an edge a box query of its swept triangle, then segments against the
-//                      triangles found
-//   bullet_ray         performRaycast for each segment, with Bullet's own test, whose triangles reach past their edges
+//   bullet_swept_box   the paper's: for each check of an edge a box query of its swept triangle, then
+//                      segments against the triangles found
+//   bullet_ray         performRaycast for each segment, with Bullet's own test, whose triangles extend beyond
+//                      their edges
 //   bullet_body_box    one box query a body and step
-//   bullet_kept_box    the triangles of the enlarged box are kept until the body leaves it; in each step those whose boxes
-//                      meet the body's are tested
+//   bullet_kept_box    the triangles of the enlarged box are kept until the body leaves it; in each step
+//                      those whose boxes meet that of the body are tested
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The wall triangles as Bullet holds them. btScalar is float, or double where BT_USE_DOUBLE_PRECISION is defined.
+// The wall triangles as Bullet holds them. btScalar is float, or double where BT_USE_DOUBLE_PRECISION is
+// defined.
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_BULLET_WORLD_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_BULLET_WORLD_H
 
@@ -54,7 +55,8 @@ inline btVector3 bullet_point(const Point<3>& p) {
   return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
 }
 
-/// By how much of itself a coordinate of a rounded box is moved outward: four times the largest error of rounding it.
+/// By how much of itself a coordinate of a rounded box is moved outward: four times the largest error of
+/// rounding it.
 inline constexpr btScalar box_rounding = 2 * std::numeric_limits<btScalar>::epsilon();
 
 inline btVector3 rounded_down(const Point<3>& p) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Candidate walls per body: those of the body's box in one step, or of an enlarged box, kept until the body leaves it.
+// Candidate walls per body: those of the body's box in one step, or of an enlarged box, kept until the body
+// leaves it.
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_CANDIDATES_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_CANDIDATES_H
 
@@ -34,8 +35,8 @@ class Kept_candidates {
     if (bodies_.size() < bodies) bodies_.resize(bodies);
     for (Body& b : bodies_) b.box = Box::nowhere();
   }
-  /// The walls that a body may meet in a step: those kept whose boxes meet that of the step. `query(box, list)` appends the
-  /// candidates that meet a box.
+  /// The walls that a body may meet in a step: those kept whose boxes meet that of the step. `query(box,
+  /// list)` appends the candidates that meet a box.
   template <class Query, class Counter>
   std::span<const Candidate* const> find(std::size_t body, const Point<3>* positions, const Point<3>* targets,
                                          const Query& query, Counter& counter) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cellwalk itself: the library's replay, exact and with contacts reported, in the certified environment of the trace.
+// Cellwalk itself: the library's replay, exact and with contacts reported, in the certified environment of
+// the trace.
 #include <cellwalk/internal/simulation/replay.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
 

@@ -2,9 +2,10 @@
 // CGAL's AABB_tree over the wall triangles, with a kernel of exact predicates: do_intersect is exact.
 //
 //   cgal_segment    do_intersect of the tree for each segment
-//   cgal_triangle   do_intersect of the tree for each triangle (from, target, q): bits 4 to 6, moved as recorded
-//   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are compared first with
-//                   that of the body, then with that of the segment, exactly
+//   cgal_triangle   do_intersect of the tree for each triangle (from, target, q): bits 4 to 6, moved as
+//                   recorded
+//   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are
+//                   compared first with that of the body, then exactly with that of the segment
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/version.h>
@@ -129,7 +130,8 @@ class Kept_box {
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& b, std::vector<Candidate>& list) {
-      // Boxes against boxes is all that candidates need; an exact test of each triangle and the box would cost more than it saves.
+      // Boxes against boxes is all that candidates need; an exact test of each triangle and the box would
+      // cost more than it saves.
       Near_box near{CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]), &list};
       cgal_->tree.traversal(0, near);
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walks in plain doubles, without certificates of a body and without any contact. An edge whose ends are in one cell needs
-// no walk; any other is walked anew from the cell of p.
+// Walks in plain doubles, without certificates of a body and without any contact. An edge whose ends are in
+// one cell needs no walk; any other is walked anew from the cell of p.
 //
 //   double_walk     over a table of hexahedra: six planes and six neighbours a cell
 //   library_double  the library's walk with rounded signs (policy Double, strategy exit_rule)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Embree 3 or 4: occlusion rays from a to b, one at a time and in packets of four, with its robust mode and without. Its
-// points are floats. Its answers follow the instruction set that it finds.
+// Embree 3 or 4: occlusion rays from a to b, one at a time and in packets of four, with its robust mode and
+// without. Its points are floats. Its answers follow the instruction set that it finds.
 #if CELLWALK_WITH_EMBREE == 3
 #include <embree3/rtcore.h>
 #else
@@ -104,8 +104,8 @@ struct Single_ray : Embree_check {
   }
 };
 
-/// All four segments at once, on the guess that the vertex reaches its target; where it does not, the edges are cast again
-/// from where it stands.
+/// All four segments at once, on the guess that the vertex reaches its target; where it does not, the edges
+/// are cast again from where it stands.
 struct Packet : Embree_check {
   template <class Counter>
   unsigned vertex(std::size_t, std::size_t v, const Point<3>* positions, const Point<3>& target,

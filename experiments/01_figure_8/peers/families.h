@@ -23,7 +23,8 @@ struct Family {
   Make_peers make;
 };
 
-/// All that were built, Bullet's loaded from its plug-ins. \throw std::runtime_error if a plug-in cannot be loaded
+/// All that were built, Bullet's loaded from its plug-ins.
+/// \throw std::runtime_error if a plug-in cannot be loaded
 std::vector<Family> families();
 
 }  // namespace cellwalk::figure_8

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// FCL has no segments against meshes, and its continuous queries move whole models. A segment is asked as a triangle.
+// FCL has no segments against meshes, and its continuous queries move whole models. A segment is therefore
+// given as a triangle.
 //
-//   fcl_collide    fcl::collide of a model of one triangle, refitted for each query, with the model of the walls (OBBRSS
-//                  boxes: models of AABBs are copied whole by every call). The triangle is thin, as the oriented box of a
-//                  degenerate one has no frame.
-//   fcl_boxes      its AABB hierarchy and its test of triangles, called directly, with the triangle (a, b, b): that test
-//                  projects onto axes, the axis of a zero normal separates nothing, and what is left are the axes of a
-//                  segment against a triangle. Nothing is enlarged.
+//   fcl_collide    fcl::collide of a model of one triangle, refitted for each query, with the model of the
+//                  walls (OBBRSS boxes, since every call copies models of AABBs as a whole). The triangle is
+//                  thin, since the oriented box of a degenerate one has no frame.
+//   fcl_boxes      its AABB hierarchy and its test of triangles, called directly with the triangle (a, b, b):
+//                  the test projects onto axes, the axis of a zero normal separates nothing, and the axes of
+//                  a segment against a triangle are left. Nothing is enlarged.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/OBBRSS.h>
@@ -26,7 +27,8 @@
 namespace cellwalk::figure_8 {
 namespace {
 
-/// Width of a thin triangle, in cells: far below what a wrong answer could be told from, far above the rounding of its box.
+/// Width of a thin triangle, in cells: far below what a wrong answer could be told from, far above the
+/// rounding of its box.
 constexpr double thin = 0x1p-30;
 
 fcl::Vector3d fcl_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }

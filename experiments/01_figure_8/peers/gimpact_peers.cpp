@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// GIMPACT, the paper's second comparison: the triangle (from, target, q) against the triangles of the walls, the way its
-// own mesh against mesh algorithm tests pairs (overlap_test_conservative, then find_triangle_collision_clip_method), with
-// margin 0. It answers bits 4 to 6; these do not say what moves, so it moves as recorded.
+// GIMPACT, the paper's second comparison: the triangle (from, target, q) against the triangles of the walls,
+// the way its own mesh against mesh algorithm tests pairs (overlap_test_conservative, then
+// find_triangle_collision_clip_method), with margin 0. It answers bits 4 to 6; these do not say what moves,
+// so it moves as recorded.
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 
 #include <memory>

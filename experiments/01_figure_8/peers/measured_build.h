@@ -19,7 +19,8 @@ inline std::size_t held_bytes() {
   return info.uordblks + info.hblkhd;
 }
 
-/// Calls `make` and returns what it made. `build` receives the time, and how much more memory is held after it.
+/// Calls `make` and returns what it made. `build` receives the time, and how much more memory is held after
+/// it.
 template <class Make>
 auto measured_build(Build& build, const char* per, const Make& make) {
   const std::size_t before = held_bytes();

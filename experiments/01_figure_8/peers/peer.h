@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a method of figure 8 is: it is built once for a world, and replays a recorded motion by its own answers.
+// What a method of figure 8 is: it is built once for a world, and replays a recorded motion by its own
+// answers.
 //
-// Rule of the replay (docs/formats.md, trace files): per step, per body, per vertex in order, the segment [from, target];
-// p = from where it hits a wall, else the target; the segments [p, q_k] to the current positions of the three joined
-// vertices. If none of the four hits, the vertex moves to its target, else it stays.
+// Rule of the replay (docs/formats.md, trace files): per step, per body, per vertex in order, the segment
+// [from, target]; p = from where it hits a wall, else the target; the segments [p, q_k] to the current
+// positions of the three joined vertices. If none of the four hits, the vertex moves to its target, else it
+// stays.
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 
@@ -79,11 +81,11 @@ class Peer {
   virtual unsigned answer_bits() const = 0;
   /// True if its answers and counts are the same on every machine.
   virtual bool is_reproducible() const { return true; }
-  /// Places the bodies where the trace starts, and drops what is remembered of an earlier replay. It is not timed: the
-  /// recorder hands the bodies over as they are registered.
+  /// Places the bodies where the trace starts, and drops what is remembered of an earlier replay. It is not
+  /// timed: the recorder hands the bodies over as they are registered.
   virtual void prepare(const Trace& trace) = 0;
-  /// Replays the trace by its own answers and writes them, in the order of trace.targets. Peers without bits 0 to 3
-  /// move as the recorded answers say.
+  /// Replays the trace by its own answers and writes them, in the order of trace.targets. Peers without bits
+  /// 0 to 3 move as the recorded answers say.
   /// \pre prepare(trace) was called since the last replay
   virtual void replay(const Trace& trace, std::span<std::uint8_t> answers) = 0;
   /// The same, and counts. Slower.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The rule of the replay, once for all methods that answer vertex by vertex.
 //
-// A Check is
-//   static constexpr unsigned bits                      which bits it answers: segment_bits, triangle_bits or both
-//   void prepare(const Trace&)                          see Peer
-//   bool start(body, positions, targets, counter)       before each step of a body; true: no wall is met in it
+// A Check has the members
+//   static constexpr unsigned bits                        the bits that it answers: segment_bits,
+//                                                         triangle_bits or both
+//   void prepare(const Trace&)                            see Peer
+//   bool start(body, positions, targets, counter)         before each step of a body; true: the body meets no
+//                                                         wall in the step
 //   unsigned vertex(body, v, positions, target, counter)  the answer for a vertex
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_REPLAY_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_REPLAY_H

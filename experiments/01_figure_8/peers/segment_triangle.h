@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A segment against triangles in floating point, as fast as it goes: the planes are at hand, and hardly a segment gets
-// past them. Wrong where rounding decides.
+// A segment against triangles in floating point, as fast as it goes: the planes are at hand, and hardly a
+// segment gets past them. Wrong where rounding decides.
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_SEGMENT_TRIANGLE_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_SEGMENT_TRIANGLE_H
 

@@ -33,7 +33,8 @@ struct Grid_world {
   Wall_mesh walls;
 
   std::size_t cell_count() const { return soup.cell_count(); }
-  /// The cell that a point lies in. \pre the point lies in the grid and in no facet
+  /// The cell that a point lies in.
+  /// \pre the point lies in the grid and in no facet
   std::uint32_t cell_at(const Point<3>& p) const {
     std::array<std::uint32_t, 3> i;
     for (std::size_t k = 0; k < 3; ++k) i[k] = static_cast<std::uint32_t>(p[k]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body among walls: its vertices are particles, its edges carry chains of cells. Paper: section III. Theory: docs/bodies.md.
+// A body among walls: its vertices are particles, its edges carry chains of cells. Paper: section III.
+// Theory: docs/bodies.md.
 #ifndef CELLWALK_BODY_BODY_H
 #define CELLWALK_BODY_BODY_H
 
@@ -21,19 +22,21 @@ template <int D>
 struct Body_state;
 }
 
-/// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is moved with
-/// Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
+/// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is
+/// moved with Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
 /// Refers to the snapshot, which must outlive it. Copies are bodies of their own.
 ///
-/// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves, registers or checks it
-/// throws Error(usage), until register_again(); what it is made of and where it stands can be asked still.
+/// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves,
+/// registers or checks it throws Error(usage), until register_again(); what it is made of and where it stands
+/// can be asked still.
 template <int D>
 class Body {
  public:
-  /// Registers a body where it stands. A vertex on a wall with free space on several sides gets one from which all its
-  /// edges can be passed; which one, where several will do, is arbitrary but fixed. Faces in the plane are not looked at.
-  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the face that a wall
-  ///        pierces, and where
+  /// Registers a body where it stands. A vertex on a wall with free space on several sides gets one from
+  /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. Faces in
+  /// the plane are not looked at.
+  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
+  ///        face that a wall pierces, and where
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Body& other);
@@ -42,11 +45,13 @@ class Body {
   Body& operator=(Body&& other) noexcept;
   ~Body();
 
-  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex in a wall keeps the side
-  /// on which it was, if the cell that it was registered in is there still and holds it, and all its edges can be passed from there; else
-  /// any side will do, as in the constructor. Faces in the plane of a wall take their sides anew. Gives a region free of walls up.
-  /// \throw Error(outside) as the constructor, where a wall came to lie in the way: then the body is as it was, and may
-  /// be tried again after another edit. Error(usage) for a locator made before points were moved or cells replaced
+  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex in a
+  /// wall keeps the side on which it was, if the cell that it was registered in is there still and holds it,
+  /// and all its edges can be passed from there; else any side will do, as in the constructor. Faces in the
+  /// plane of a wall take their sides anew. Gives a region free of walls up.
+  /// \throw Error(outside) as the constructor, where a wall came to lie in the way: then the body is as it
+  ///        was, and may be tried again after another edit. Error(usage) for a locator made before points
+  ///        were moved or cells replaced
   /// Cost: that of the constructor.
   void register_again(const Locator<D>& locator);
 
@@ -57,36 +62,48 @@ class Body {
   /// The other ends of the edges of a vertex, ascending.
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
-  /// Moves the vertices one after the other to their targets, as far as walls allow. What meets a wall is decided by options.edges, what
-  /// its vertex does then by options.policy. Appends to the report what is asked for.
+  /// Moves the vertices one after the other to their targets, as far as walls allow. What meets a wall is
+  /// decided by options.edges, what its vertex does then by options.policy. Appends to the report what is
+  /// asked for.
   /// \pre one finite target a vertex
-  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked without Edge_rule::at_target,
-  ///        Edge_rule::at_target if a vertex has more than 64 edges, and Sweep::faces after moves that left the faces alone and let a wall pierce one
-  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a sweep an edge, and locating the
-  /// contacts that are reported or slid along. The first time faces are swept after moves that left them alone, all are registered. By
-  /// Edge_rule::at_target with Touch::stop rational arithmetic for walls near a move that planes alone do not prove free, and once for those
-  /// near a body that was moved otherwise.
+  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked without
+  ///        Edge_rule::at_target, Edge_rule::at_target if a vertex has more than 64 edges, and
+  ///        Sweep::faces after moves that left the faces alone and let a wall pierce one
+  /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
+  /// sweep an edge, and locating the contacts that are reported or slid along. The first time faces are swept
+  /// after moves that left them alone, all are registered. By Edge_rule::at_target with Touch::stop rational
+  /// arithmetic for walls near a move that planes alone do not prove free, and once for those near a body
+  /// that was moved otherwise.
   void step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
             Body_counts& counts);
 
-  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by Contact_policy::reject and
-  /// Edge_rule::swept, of the options but the sweep nothing counts. Gives a region free of walls up.
+  /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by
+  /// Contact_policy::reject and Edge_rule::swept, of the options but the sweep nothing counts. Gives a region
+  /// free of walls up.
   /// \pre the target is finite
   /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
-  std::optional<Body_contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
-                                             const Body_options& options, Body_counts& counts);
+  std::optional<Contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
+                                        const Body_options& options, Body_counts& counts);
 
   /// Registers what was moved without tests in a region free of walls.
   void refresh(Body_counts& counts);
   /// Registers what is stale, and gives the region up.
   void leave_region(Body_counts& counts);
-  /// The particles and chains. \pre nothing is stale, see refresh(), and no edit since
+  /// The particles and chains.
+  /// \pre nothing is stale, see refresh(), and no edit since
   std::span<const Particle<D>> particles() const;
   const Chain& chain(std::size_t edge) const;
 
-  /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge has a valid chain
-  /// from cell to cell, no wall pierces a face.
-  /// \pre nothing is stale, see refresh() \throw Error(other) naming the first vertex, edge or face that violates them
+  /// The cell of a vertex, which may be stale: then it is found by a walk in the region, which is not
+  /// counted, and the body stays stale.
+  /// \pre no edit since the body was registered
+  /// Cost: nothing unless it is stale; else that of a walk.
+  Cell cell_of(std::uint32_t vertex) const;
+
+  /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge
+  /// has a valid chain from cell to cell, no wall pierces a face.
+  /// \pre nothing is stale, see refresh()
+  /// \throw Error(other) naming the first vertex, edge or face that violates them
   void validate() const;
 
  private:

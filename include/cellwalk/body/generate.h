@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies that need no file. All but polylines have their centre at the origin. Coordinates are the same with every
-// compiler and on every machine.
+// Bodies that need no file. All but polylines have their centre at the origin. Coordinates are the same with
+// every compiler and on every machine.
 #ifndef CELLWALK_BODY_GENERATE_H
 #define CELLWALK_BODY_GENERATE_H
 
@@ -14,25 +14,31 @@ namespace cellwalk {
 /// A body of more vertices is a mistake.
 inline constexpr std::uint32_t most_generated_vertices = 1U << 24;
 
-/// The paper's hexahedron: 8 vertices, 12 edges; with faces 18 edges, 12 triangles counterclockwise seen from outside.
+/// The paper's hexahedron: 8 vertices, 12 edges; with faces 18 edges, 12 triangles counterclockwise seen from
+/// outside.
 /// \throw Error(usage) unless the side is a positive number
 Body_soup<3> generate_body(const Hexahedron_shape& shape);
 
-/// The surface of a box; vertices in ascending order of z, then y, then x. With one cell along each axis the numbering is
-/// that of the hexahedron. \throw Error(usage) unless sizes and cells are positive and there are at most 2^24 vertices
+/// The surface of a box; vertices in ascending order of z, then y, then x. With one cell along each axis the
+/// numbering is that of the hexahedron.
+/// \throw Error(usage) unless sizes and cells are positive and there are at most 2^24 vertices
 Body_soup<3> generate_body(const Box_shape& shape);
 
-/// 4 vertices, 6 edges, 4 triangles counterclockwise seen from outside. \throw Error(usage) unless the side is positive
+/// 4 vertices, 6 edges, 4 triangles counterclockwise seen from outside.
+/// \throw Error(usage) unless the side is positive
 Body_soup<3> generate_body(const Tetrahedron_shape& shape);
 
-/// 10 * 4^n + 2 vertices, 30 * 4^n edges, 20 * 4^n triangles counterclockwise seen from outside. Vertices are at the
-/// radius but for rounding. \throw Error(usage) unless the radius is positive and there are at most 10 subdivisions
+/// 10 * 4^n + 2 vertices, 30 * 4^n edges, 20 * 4^n triangles counterclockwise seen from outside. Vertices are
+/// at the radius but for rounding.
+/// \throw Error(usage) unless the radius is positive and there are at most 10 subdivisions
 Body_soup<3> generate_body(const Icosphere_shape& shape);
 
-/// 3 vertices counterclockwise. \throw Error(usage) unless the side is positive
+/// 3 vertices counterclockwise.
+/// \throw Error(usage) unless the side is positive
 Body_soup<2> generate_body(const Triangle_shape& shape);
 
-/// 4 vertices counterclockwise from the lowest. \throw Error(usage) unless the side is positive
+/// 4 vertices counterclockwise from the lowest.
+/// \throw Error(usage) unless the side is positive
 Body_soup<2> generate_body(const Quad_shape& shape);
 
 /// Vertices counterclockwise; each coordinate is the double nearest to that of the exact regular polygon.
@@ -43,11 +49,13 @@ Body_soup<2> generate_body(const Polygon_shape& shape);
 template <int D>
 Body_soup<D> generate_body(const Catheter_shape<D>& shape);
 
-/// A polyline of one point is a single vertex. \throw Error(usage) where there is no point, or one that is not finite
+/// A polyline of one point is a single vertex.
+/// \throw Error(usage) where there is no point, or one that is not finite
 template <int D>
 Body_soup<D> generate_body(const Polyline_shape<D>& shape);
 
-/// The body of any shape. \throw Error(usage) as above
+/// The body of any shape.
+/// \throw Error(usage) as above
 Body_soup<2> generate_body(const Body_shape<2>& shape);
 Body_soup<3> generate_body(const Body_shape<3>& shape);
 

@@ -15,41 +15,37 @@
 
 namespace cellwalk {
 
-/// A contact of a body: which vertex was moving, and the number of the vertex, edge or face that met the wall.
-template <int D>
-struct Body_contact {
-  Contact<D> contact;
-  std::uint32_t vertex = 0;
-  std::uint32_t feature = 0;
-};
-
 /// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
 template <int D>
 struct Rejected_move {
   std::uint32_t vertex = 0;
   bool is_vertex_blocked = false;  ///< a wall is in the way of the vertex: then nothing else is looked at
   std::uint64_t edges = 0;         ///< where it would be, a wall is in the way of these edges
-  std::uint64_t swept_edges =
-      0;  ///< of these while they sweep their triangles; none for Sweep::three_segments
-  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where the vertex would be
-  /// (time and point are along the edge then).
-  std::optional<Wall_contact<D>> contact;
+  /// Of these while they sweep their triangles; none for Sweep::three_segments.
+  std::uint64_t swept_edges = 0;
+  /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where
+  /// the vertex would be. Then time and point are along the edge, from that vertex on. The time is exact
+  /// where a closed wall is touched, else that of a walk, see Wall_contact.
+  std::optional<Contact<D>> contact;
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
 /// What a vertex does that meets a wall, or has an edge or a face that does.
 enum class Contact_policy {
-  slide,  ///< it stops at a verified position just before, and its remaining motion is projected on the wall and tried again
+  /// It stops at a verified position just before, and its remaining motion is projected on the wall and tried
+  /// again.
+  slide,
   reject  ///< it stays where it was
 };
 
 /// Which of the edges of a vertex meet a wall.
 enum class Edge_rule {
   swept,  ///< those that do so while they sweep what Sweep_options::sweep says; faces likewise
-  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are looked at too unless
-  /// Sweep::three_segments is asked for, but only reported; faces are left alone. With Touch::stop whatever closed wall the closed way,
-  /// an edge at its end or a closed triangle meets is in the way, where the vertex or the edge starts too: one that is at a wall
-  /// stays. Of Contact_policy::reject, for vertices of at most 64 edges.
+  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are
+  /// looked at too unless Sweep::three_segments is asked for, but only reported; faces are left alone. With
+  /// Touch::stop whatever closed wall the closed way, an edge at its end or a closed triangle meets is in the
+  /// way, where the vertex or the edge starts too: one that is at a wall stays. Of Contact_policy::reject,
+  /// for vertices of at most 64 edges.
   at_target
 };
 
@@ -61,23 +57,25 @@ enum class Reported {
 
 struct Body_options {
   Sweep_options sweep;
-  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only, a vertex that comes to
-  /// lie on a border between cells may be registered in another of them, and where walls leave a choice, of the side on which a
-  /// motion in their plane goes on or of the one to report, that may be taken otherwise.
+  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only,
+  /// a vertex that comes to lie on a border between cells may be registered in another of them, and where
+  /// walls leave a choice, of the side on which a motion in their plane goes on or of the one to report, that
+  /// may be taken otherwise.
   bool clearance = true;
   Contact_policy policy = Contact_policy::slide;
   Edge_rule edges = Edge_rule::swept;
   Reported reported = Reported::contacts;
-  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at the first.
+  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at
+  /// the first.
   int most_contacts = 4;
 };
 
 /// What walls did in a step, as far as it is asked for.
 template <int D>
 struct Step_report {
-  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments finds it, or the first touch
-  /// if there is none.
-  std::vector<Body_contact<D>> contacts;
+  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments
+  /// finds it, or the first touch if there is none.
+  std::vector<Contact<D>> contacts;
   /// Vertex by vertex; one without an entry moved, and nothing was met.
   std::vector<Rejected_move<D>> blocked;
 

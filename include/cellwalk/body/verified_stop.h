@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Moving a particle among walls with a response: it stops at double positions that exact walks have confirmed.
+// Moving a particle among walls with a response: it stops at double positions that exact walks have
+// confirmed.
 #ifndef CELLWALK_BODY_VERIFIED_STOP_H
 #define CELLWALK_BODY_VERIFIED_STOP_H
 
@@ -9,12 +10,14 @@
 
 namespace cellwalk {
 
-/// Moves a particle to a point near a contact for which the complete move from where it stands is found free. Tried in
-/// this order, which is that of bodies: the exact contact point with each coordinate rounded up or down, towards where the particle
-/// stands first; that point shifted along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at time
-/// (1 - 2^-k) of the contact's, k = 20 .. 1; where it stands.
+/// Moves a particle to a point near a contact for which the complete move from where it stands is found free.
+/// Tried in this order, which is that of bodies: the exact contact point with each coordinate rounded up or
+/// down, towards where the particle stands first; that point shifted along the normal by 1, 2, 4 .. 1024 ulp
+/// of its largest coordinate; points on the way at time (1 - 2^-k) of the contact's, k = 20 .. 1; where it
+/// stands.
 /// \pre contact is that of moving this particle to `target`, see vertex_contact()
-/// Returns true if the particle moved. Cost: usually one to three walks and some rational arithmetic, at most 39 walks.
+/// Returns true if the particle moved.
+/// Cost: usually one to three walks and some rational arithmetic, at most 39 walks.
 template <int D>
 bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                      const Contact<D>& contact, Walk_counts& counts);
@@ -23,15 +26,16 @@ bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const P
 struct Wall_response {
   double restitution = 0;  ///< share of the normal speed kept, [0,1]; 0: the particle slides
   double friction = 0;     ///< share of the tangential speed lost at each contact, [0,1]
-  int most_contacts =
-      8;  ///< contacts of one particle in one step; where there are more it rests until the next step
+  /// Contacts of one particle in one step; where there are more it rests until the next step.
+  int most_contacts = 8;
 };
 
-/// Moves a particle by `velocity` for a unit of time. At each contact it stops (stop_at_contact), its velocity is
-/// reflected or made to slide along the wall, and what remains of the time is a new move, lifted off the wall by a few
-/// ulp. A particle that slides into a corner goes on along the edge between the two walls, or rests.
-/// Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are appended to `met`,
-/// their times as shares of the unit of time: the first is exact, those after it follow from positions that are rounded.
+/// Moves a particle by `velocity` for a unit of time. At each contact it stops (stop_at_contact), its
+/// velocity is reflected or made to slide along the wall, and what remains of the time is a new move, lifted
+/// off the wall by a few ulp. A particle that slides into a corner goes on along the edge between the two
+/// walls, or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
+/// appended to `met`, their times as shares of the unit of time: the first is exact, those after it follow
+/// from positions that are rounded.
 /// \pre velocity is finite, response is in range
 template <int D>
 Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> velocity,

@@ -103,9 +103,9 @@ template <int D>
 void prepend_crossed_facets(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed);
 
 /// True proves that the segment pq crosses the facets of a chain in order. Then the chain is that of pq, and
-/// if it was derived from that of another segment p'q before p moved (prepend_crossed_facets), the whole triangle p'pq is
-/// free. False is inconclusive: facets in whose plane the segment lies, and facets of a star crossed
-/// backwards in one point, are not examined. All signs are exact.
+/// if it was derived from that of another segment p'q before p moved (prepend_crossed_facets), the whole
+/// triangle p'pq is free. False is inconclusive: facets in whose plane the segment lies, and facets of a star
+/// crossed backwards in one point, are not examined. All signs are exact.
 /// Cost: two signs a facet and one for each of its ridges.
 template <int D>
 bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, const Point<D>& q,

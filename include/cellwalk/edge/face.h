@@ -51,10 +51,10 @@ static_assert(names_all_before<Face_counts>(offsetof(Face_counts, walk)));
 
 struct Face_result {
   Supporting_walls supporting_walls;  ///< after the move
-  /// If set, a wall comes through the face, and `supporting_walls` is empty. The normal is that of the face at that time,
-  /// on the side from which the face came, or, if the interior of the wall is met (kind facet), that of the
-  /// wall on the side of the face. `body` is the feature of the face that meets the wall: its interior, one of
-  /// its edges, or p.
+  /// If set, a wall comes through the face, and `supporting_walls` is empty. The normal is that of the face
+  /// at that time, on the side from which the face came, or, if the interior of the wall is met (kind facet),
+  /// that of the wall on the side of the face. `body` is the feature of the face that meets the wall: its
+  /// interior, one of its edges, or p.
   std::optional<Contact<3>> contact;
   /// True if no wall comes through the face, but one of its edges, which moved in the plane of a wall and
   /// passed its rim, is on the other side of the wall. Then the time is 0, the point is the start of p, and

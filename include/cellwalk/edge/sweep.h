@@ -74,6 +74,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 /// Touch::stop those of p as well. The result's p and cells are not set.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
+/// \pre if the path is blocked, path.visited holds the cells of the walk
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                  const Particle<D>& q, const Chain& before, const Sweep_options& options,
@@ -92,7 +93,7 @@ struct Free_chain {
 /// most expensive part.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \pre !way.blocked
+/// \pre !path.blocked
 /// Cost: that of the sweep; if a wall pierces the swept triangle, some twenty signs.
 template <int D>
 std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
@@ -100,6 +101,8 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
                                      Edge_counts& counts);
 
 /// The contact of a vertex whose walk from one point to another is blocked.
+/// \param met the contact of that walk, whose place and normal are taken over
+/// \pre the signs of the walk were exact: the target lies outside the cell met.cell
 /// Cost: some signs for each facet of the last cell, and a rational number.
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,

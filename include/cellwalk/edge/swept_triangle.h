@@ -15,7 +15,8 @@ struct Swept_triangle {
   Point<D> a, b, q;
 };
 
-/// The path of p, as reported by Walk_options. The spans refer to memory of the caller.
+/// The path of p, as reported by Walk_options. The spans refer to the vectors given there, which must outlive
+/// the path and stay as they are; no result of a sweep refers to them.
 template <int D>
 struct Vertex_path {
   Particle<D> from, to;

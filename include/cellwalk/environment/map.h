@@ -29,12 +29,15 @@ namespace cellwalk {
 /// The information of a dart, in 8 bytes that CGAL would use for padding (679 bytes a tetrahedron in total).
 class Dart_info {
  public:
-  static constexpr std::uint32_t max_half_facets = 1u << 29;
+  static constexpr std::uint32_t most_half_facets = 1u << 29;
 
   Dart_info() = default;
-  /// \pre half_facet < max_half_facets
+  /// \pre half_facet < most_half_facets
   Dart_info(std::uint32_t cell, std::uint32_t half_facet, bool impassable, bool solid)
-      : cell_(cell), half_facet_(half_facet), impassable_(impassable), solid_(solid) {}
+      : cell_(cell),
+        half_facet_(half_facet & (most_half_facets - 1)),
+        impassable_(impassable),
+        solid_(solid) {}
 
   std::uint32_t cell() const { return cell_; }              ///< index of the input cell
   std::uint32_t half_facet() const { return half_facet_; }  ///< slot in Map_storage::dart_of_half_facet
@@ -42,7 +45,7 @@ class Dart_info {
   bool is_solid() const { return solid_; }                  ///< of the cell
 
   void set_cell(std::uint32_t cell) { cell_ = cell; }
-  void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet; }
+  void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet & (most_half_facets - 1); }
   void set_impassable(bool impassable) { impassable_ = impassable; }
 
   bool operator==(const Dart_info&) const = default;
@@ -123,7 +126,7 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
 }
 
 /// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot
-/// replaces (assign_half_facets). A facet is marked impassable if either side says so, on the boundary, and
+/// replaces (assign_half_facets). A facet is marked impassable if either side is, on the boundary, and
 /// between a solid and a free cell.
 /// \pre gluing = glue(soup); every point is a vertex of some cell
 /// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell

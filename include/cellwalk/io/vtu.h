@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// VTK unstructured grids (.vtu) for ParaView, written without VTK.
+// VTK unstructured grids (.vtu) for ParaView. Written without VTK, which is optional, so that every build
+// writes the same bytes.
 #ifndef CELLWALK_IO_VTU_H
 #define CELLWALK_IO_VTU_H
 

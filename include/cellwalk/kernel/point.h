@@ -62,6 +62,20 @@ double length(const std::array<double, D>& a) {
   return std::sqrt(dot(a, a));
 }
 
+/// v over its length, rounded.
+/// \pre in doubles, the square of the length is neither 0 nor infinite
+template <std::size_t D>
+std::array<double, D> normalized(const std::array<double, D>& v) {
+  return (1 / length(v)) * v;
+}
+
+/// As normalized(v), but `otherwise` where the length is 0.
+template <std::size_t D>
+std::array<double, D> normalized(const std::array<double, D>& v, const std::array<double, D>& otherwise) {
+  const double l = length(v);
+  return l > 0 ? (1 / l) * v : otherwise;
+}
+
 /// True if every coordinate is finite.
 template <std::size_t D>
 bool is_finite(const std::array<double, D>& a) {

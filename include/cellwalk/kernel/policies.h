@@ -2,11 +2,13 @@
 // Number policies. Every predicate of the library is the sign of an orientation of input points, computed by
 // one of these policies:
 //
-// Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic: always
-// right Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
-// Unfiltered   rational arithmetic for every sign, without a filter: always right Double       the sign of
-// the rounded determinant: wrong near degeneracies; for experiments only Tolerant<n>  the same, but 0 within
-// 10^-n; for experiments only Float        the rounded sign in single precision; for experiments only
+//   Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic:
+//                always right
+//   Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
+//   Unfiltered   rational arithmetic for every sign, without a filter: always right
+//   Double       the sign of the rounded determinant: wrong near degeneracies; for experiments only
+//   Tolerant<n>  the same, but 0 within 10^-n; for experiments only
+//   Float        the rounded sign in single precision; for experiments only
 //
 // Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
 //   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)

@@ -40,7 +40,7 @@ const std::vector<Generator>& generators();
 /// Makes the cells of a generator. An option that takes one number for each axis takes a single one for all.
 /// \throw Error(usage) for an unknown generator or option, a wrong count of numbers, one that is not finite,
 ///        or not an integer where one is needed, and as the generator itself does
-Any_soup generate(const std::string& generator, const Generator_values& values);
+Any_soup generate(const std::string& name, const Generator_values& values);
 
 /// The options to build generated cells: nothing is split, and equal vertices are kept, as slits.
 inline constexpr Build_options build_of_generated{

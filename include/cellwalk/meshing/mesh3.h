@@ -37,7 +37,9 @@ struct Mesh3_report {
 /// \throw Error(input) as tetrahedralize; Error(usage) for options out of range: sizes that need more than
 ///        10^8 cells or facets of any shape, and distances below 2^-20 of the bounding box's diagonal
 /// \throw Error(not_certified) if the mesh has no tetrahedron (sizes too large for the surface), or a flat
-///        one The same input gives the same mesh.
+///        one
+///
+/// The same input gives the same mesh.
 /// Cost: about 30 us a tetrahedron.
 Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
                    const Mesh3_options& options = {}, Mesh3_report* report = nullptr);

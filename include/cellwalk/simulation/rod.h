@@ -38,10 +38,11 @@ class Rod {
   static Body_soup<D> at_entry(const Catheter<D>& catheter);
 
   /// A catheter at its entry.
-  /// \param way the waypoints
+  /// \param waypoints the first is the entry
   /// \pre the body is at_entry(catheter), registered; the waypoints begin with the entry, are at least two,
   ///      and successive ones differ
-  Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter, std::vector<Point<D>> way);
+  Rod(const Snapshot<D>& snapshot, Body<D> body, const Catheter<D>& catheter,
+      std::vector<Point<D>> waypoints);
 
   /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are
   /// used.
@@ -57,19 +58,19 @@ class Rod {
   double length_inside() const { return inside_; }
   /// The total rotation of the base, in degrees.
   double twist() const { return twist_; }
-  std::span<const Point<D>> way() const { return way_; }
+  std::span<const Point<D>> waypoints() const { return waypoints_; }
   /// The waypoint that the tip aims at; way().size() once it has arrived.
-  std::size_t next_way_point() const { return next_; }
+  std::size_t next_waypoint() const { return next_; }
   /// The number of steps in which the base was held back.
   std::uint32_t steps_waited() const { return waited_; }
   /// Always zero: the rod has no inertia.
   Vector<D> velocity() const { return {}; }
-  bool has_arrived() const { return next_ == way_.size(); }
+  bool has_arrived() const { return next_ == waypoints_.size(); }
 
  private:
   bool is_held() const;
   bool sees(const Point<D>& x, Body_counts& counts);
-  void pass_way_points(Body_counts& counts);
+  void pass_waypoints(Body_counts& counts);
   void aim();
   double along(std::size_t vertex) const;
   detail::Rod_state<D> state() const;
@@ -78,7 +79,7 @@ class Rod {
   const Snapshot<D>* snapshot_;
   Body<D> body_;
   Catheter<D> catheter_;
-  std::vector<Point<D>> way_;
+  std::vector<Point<D>> waypoints_;
   std::vector<Point<D>> targets_;
   Vector<D> direction_{};  ///< of the guide
   Vector<D> heading_{};    ///< direction of the tip

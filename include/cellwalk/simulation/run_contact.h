@@ -10,24 +10,17 @@
 
 namespace cellwalk {
 
-/// The feature of a body that met a wall.
-struct Body_hit {
-  std::uint32_t body = 0;    ///< its number in the run
-  std::uint32_t vertex = 0;  ///< the moving vertex
-  std::uint32_t number = 0;  ///< of the vertex, edge or face
-};
-
-/// A contact of a particle or a body with a wall.
+/// A row in the report of a run: a contact, with the step and the particle or body that it belongs to.
 template <int D>
 struct Run_contact {
   std::uint32_t step = 0;      ///< counted from 1
   std::uint32_t particle = 0;  ///< its number in the run; meaningless for bodies
   /// For particles, its time is the fraction of the step that had passed; for bodies, the fraction of the
   /// vertex's motion that was free, where the rest of the motion after a contact counts as a motion of its
-  /// own.
+  /// own. In the replay of a trace it is that of Rejected_move.
   Contact<D> contact;
-  std::uint32_t cell = 0;          ///< input index of the cell in which the motion ended
-  std::optional<Body_hit> body{};  ///< none: a particle
+  std::uint32_t cell = 0;               ///< input index of the cell in which the motion ended
+  std::optional<std::uint32_t> body{};  ///< its number in the run; none: a particle
 };
 
 }  // namespace cellwalk

@@ -16,7 +16,9 @@
 #include <cellwalk/walk/walk.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,9 +56,8 @@ class World {
   std::span<const Vector<D>> velocities() const { return velocities_; }
   /// Bodies in the order of the scene, copies in the order they were drawn; the catheter is the last.
   std::span<const Moving_body<D>> bodies() const { return bodies_; }
-  /// The index of a body's entry in the scene.
-  /// \pre it is not the catheter
-  std::size_t entry_of(std::size_t body) const { return entry_of_[body]; }
+  /// The index of a body in Scene::bodies; none for the catheter.
+  std::optional<std::size_t> entry_of(std::size_t body) const { return entry_of_[body]; }
   /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
@@ -86,7 +87,7 @@ class World {
 
   void check_epoch() const;
 
-  const Snapshot<D>& snapshot_;
+  const Snapshot<D>* snapshot_;
   std::uint64_t epoch_;  ///< of the snapshot, when the world was made
   Scene<D> scene_;
   std::vector<Particle<D>> particles_;
@@ -94,7 +95,7 @@ class World {
   std::uint32_t steps_done_ = 0;
   std::vector<Body_soup<D>> shapes_;
   std::vector<Moving_body<D>> bodies_;
-  std::vector<std::size_t> entry_of_;
+  std::vector<std::optional<std::size_t>> entry_of_;  ///< of each body
   Dynamics_options<D> conditions_;
   std::vector<Run_contact<D>> contacts_;
   struct Body_step {

@@ -24,6 +24,7 @@ enum class Walk_strategy {
                       ///< cone of the aimed facet
 };
 
+/// The vectors are written during the call only.
 struct Walk_options {
   Walk_strategy strategy = Walk_strategy::certified;
   /// If set, the cells entered are appended, the first one included.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a command of the program is: a function that adds its options, and leaves an action to run after parsing.
+// The commands of the program. Each is a function that adds its options, and an action that runs after
+// parsing.
 #ifndef CELLWALK_CLI_COMMON_COMMAND_H
 #define CELLWALK_CLI_COMMON_COMMAND_H
 
@@ -14,10 +15,10 @@
 
 namespace cellwalk::cli {
 
-/// Run once the whole command line is understood. Failure is an exception; Error's code is the exit code.
+/// Runs after the whole command line is parsed. A failure is an exception; Error's code is the exit code.
 using Action = std::function<void()>;
 
-// Each begins in the file of its name. A new command is a line here and one in main.cpp.
+// Each is defined in the file of its name. A new command needs a line here and one in main.cpp.
 void add_import(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_generate(CLI::App& app, Action& chosen);
@@ -26,17 +27,17 @@ void add_replay(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);
 
-/// Prints what a shell needs to complete command lines of `app`.
+/// Prints a script with which a shell completes command lines of `app`.
 void add_completion(CLI::App& app, Action& chosen);
 
-/// Puts examples at the end of a command's help, before what the program says for all commands.
+/// Adds examples to the end of a command's help, before the text common to all commands.
 inline void add_examples(CLI::App& command, std::initializer_list<const char*> lines) {
   std::string text = "Examples:\n";
   for (const char* line : lines) text += "  " + std::string(line) + "\n";
   command.footer(text + "\n" + command.get_footer());
 }
 
-/// A check of an option that takes a whole number.
+/// A check of an option whose value is an integer.
 inline auto whole_number(std::int64_t least, std::int64_t most) {
   return [least, most](const std::string& text) {
     std::int64_t value = 0;
@@ -47,10 +48,11 @@ inline auto whole_number(std::int64_t least, std::int64_t most) {
   };
 }
 
-/// Adds --version, which prints the version and which optional parts this build has, and --json, which makes JSON of that.
+/// Adds --version, which prints the version and the optional parts of this build, and --json, which prints
+/// the same as JSON.
 void add_version(CLI::App& app);
 
-/// An option that takes one of a few words: `value` becomes what stands behind the word.
+/// Adds an option whose value is one of a few words; `value` is set to the value of the word.
 template <class T>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
                         std::initializer_list<std::pair<const char*, T>> words, const std::string& help) {

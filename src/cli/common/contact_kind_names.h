@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What tables and reports call the features of environments and bodies.
+// The names of features of environments and bodies in tables and reports.
 #ifndef CELLWALK_CLI_COMMON_CONTACT_KIND_NAMES_H
 #define CELLWALK_CLI_COMMON_CONTACT_KIND_NAMES_H
 

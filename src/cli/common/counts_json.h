@@ -21,7 +21,7 @@ nlohmann::ordered_json to_json(const Set& counts) {
   return result;
 }
 
-/// With those of its signs.
+/// The counts of walks, with those of their signs.
 nlohmann::ordered_json to_json(const Walk_counts& counts);
 
 }  // namespace cellwalk::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Environments from and to files, for every command that takes one.
+// Reading and writing of environment files by commands.
 #ifndef CELLWALK_CLI_COMMON_ENVIRONMENT_FILE_H
 #define CELLWALK_CLI_COMMON_ENVIRONMENT_FILE_H
 
@@ -15,21 +15,21 @@
 
 namespace cellwalk::cli {
 
-// Next to the reports of commands.
+// Beside the reports of commands.
 using cellwalk::to_json;
 
 /// load_environment() with a line of progress.
 Loaded_environment load_with_progress(const std::string& path, const Build_options& options);
 
-/// Adds --duplicates, which says what equal vertices mean.
+/// Adds --duplicates, the treatment of equal vertices.
 void add_duplicates(CLI::App& command, Duplicate_vertices& value);
 
-/// Adds the output option -o for an environment, which must be named *.ovm (or be a device).
+/// Adds the output option -o for an environment, whose name must be *.ovm (or that of a device).
 void add_environment_output(CLI::App& command, std::string& path);
 
 /// Adds --json OUT.
 void add_json(CLI::App& command, std::string& path);
-/// Writes a report where --json asked for one: into no file if it is null.
+/// Writes a report to the file of --json; none if it is null.
 void write_json(io::Atomic_file* file, const nlohmann::ordered_json& report);
 
 }  // namespace cellwalk::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// An interrupted program that first cleans up what it has begun.
+// The interruption of a program that first has to clean up.
 #ifndef CELLWALK_CLI_COMMON_INTERRUPTION_H
 #define CELLWALK_CLI_COMMON_INTERRUPTION_H
 
@@ -7,12 +7,12 @@
 
 namespace cellwalk::cli {
 
-/// Thrown by Interruption::check; whoever has cleaned up ends the program by the signal.
+/// Thrown by Interruption::check(); the handler cleans up and ends the program by the signal.
 struct Interrupted {
   int signal;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP only leave a note. One at a time.
+/// Records SIGINT, SIGTERM and SIGHUP during its lifetime instead of ending the program. One at a time.
 class Interruption {
  public:
   Interruption();
@@ -20,7 +20,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// \throw Interrupted if a signal has come
+  /// \throw Interrupted if a signal has arrived
   void check() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a measured time depends on, besides the program and its input.
+// The conditions of a measured time, besides the program and its input.
 #ifndef CELLWALK_CLI_COMMON_MACHINE_H
 #define CELLWALK_CLI_COMMON_MACHINE_H
 
@@ -7,7 +7,8 @@
 
 namespace cellwalk::cli {
 
-/// Version of the program, compiler, its flags, and model of the CPU ("unknown" where the system does not tell).
+/// The version of the program, the compiler, its flags, and the model of the CPU ("unknown" if the system
+/// does not report it).
 nlohmann::ordered_json machine_json();
 
 }  // namespace cellwalk::cli

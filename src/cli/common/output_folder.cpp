@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
   throw Error(Error_code::other, path.string() + ": " + what + ": " + reason.message());
 }
 
-/// What a name leads to, absolute and without a slash at its end.
+/// The target of a name, absolute and without a slash at its end.
 fs::path place_of(const fs::path& name) {
   std::error_code failure;
   fs::path place = fs::weakly_canonical(fs::absolute(name, failure), failure);

@@ -9,15 +9,15 @@
 
 namespace cellwalk::cli {
 
-/// A folder written beside its destination. Destroyed before put() it leaves nothing behind.
+/// A folder written beside its destination. If it is destroyed before put(), it leaves nothing behind.
 class Output_folder final : public io::Output {
  public:
-  /// \throw Error(usage) if the destination exists, unless `replace` is set and it holds a run.json (so that nothing but
-  ///        an earlier run is ever replaced); Error(other) if the folder cannot be made
+  /// \throw Error(usage) if the destination exists, unless `replace` is set and it contains a run.json, so
+  ///        that only an earlier run can be replaced; Error(other) if the folder cannot be made
   Output_folder(const std::filesystem::path& destination, bool replace);
   ~Output_folder() override;
 
-  /// Where to write.
+  /// The folder in which to write.
   const std::filesystem::path& path() const { return temporary_; }
 
   void prepare() override {}
@@ -27,7 +27,7 @@ class Output_folder final : public io::Output {
   bool can_be_taken_back() const override { return true; }
 
  private:
-  std::filesystem::path name_, destination_, temporary_;  ///< the name as given, and what it leads to
+  std::filesystem::path name_, destination_, temporary_;  ///< the given name, its target, the new folder
   io::Unfinished unfinished_;
   io::Replacement replacement_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a command writes: all of it appears, or nothing; and nothing replaces what the command reads.
+// The outputs of a command: all of them appear, or none; and none replaces an input.
 #ifndef CELLWALK_CLI_COMMON_OUTPUTS_H
 #define CELLWALK_CLI_COMMON_OUTPUTS_H
 
@@ -17,16 +17,18 @@
 
 namespace cellwalk::cli {
 
-/// A name on the command line, and what it stands for whatever it is called: two names of one file, by links or otherwise, are equal.
+/// A name on the command line and the file to which it refers: two names of one file, by links or otherwise,
+/// are equal.
 class Named_file {
  public:
   explicit Named_file(std::string name);
 
   const std::string& name() const { return name_; }
   bool is_same(const Named_file& other) const;
-  /// Whether it lies in a folder, at any depth.
+  /// True if it lies in a folder, at any depth.
   bool is_within(const Named_file& folder) const;
-  /// Terminals and /dev/null can stand for several things: they keep nothing that could be lost.
+  /// True for terminals and /dev/null, which may be named several times: they store nothing that could be
+  /// lost.
   bool keeps_nothing() const { return keeps_nothing_; }
 
  private:
@@ -37,24 +39,26 @@ class Named_file {
   ino_t inode_ = 0;
 };
 
-/// The outputs of one command, opened before it begins to work.
+/// The outputs of one command, opened before it starts its work.
 class Outputs {
  public:
-  /// `inputs` are the files that the command reads; empty names are left out.
+  /// `inputs` are the files that the command reads; empty names are ignored.
   explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
   explicit Outputs(const std::vector<std::string>& inputs);
 
-  /// Files that turn out to be read as well. \throw Error(usage) if one is an output
-  void also_reads(const std::string& input);
+  /// Adds a file that is read as well.
+  /// \throw Error(usage) if one is an output
+  void also_reads(const std::string& name);
 
-  /// An output, or nullptr where the name is empty.
+  /// An output, or nullptr if the name is empty.
   /// \throw Error(usage) if it is an input or another output; Error(other) if it cannot be written
   io::Atomic_file* file(const std::string& name);
 
-  /// A folder of results. \throw Error as file() and Output_folder
+  /// A folder of results.
+  /// \throw Error as file() and Output_folder
   Output_folder& folder(const std::string& name, bool replace);
 
-  /// Puts all outputs in their places and prints the summary; if any of that fails, there is neither.
+  /// Moves all outputs to their places and prints the summary; if either fails, none appears.
   /// \throw Error(other)
   void commit(const std::string& summary);
 

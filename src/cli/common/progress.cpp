@@ -12,7 +12,7 @@ namespace cellwalk::cli {
 namespace {
 
 constexpr int bar_width = 30;                              // characters
-constexpr std::chrono::milliseconds redraw_interval{100};  // quick enough to look alive
+constexpr std::chrono::milliseconds redraw_interval{100};  // short enough to look continuous
 constexpr const char* erase_line = "\r\033[K";
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Progress on a terminal: one line on stderr that is redrawn and at last erased. Nothing at all in a pipe.
+// Progress on a terminal: one line on stderr that is redrawn and finally erased. Nothing is printed to a
+// pipe.
 #ifndef CELLWALK_CLI_COMMON_PROGRESS_H
 #define CELLWALK_CLI_COMMON_PROGRESS_H
 
@@ -9,8 +10,9 @@
 
 namespace cellwalk::cli {
 
-/// A stage of long work. Without a total it shows only the label; with one, a bar, the share done and the time left.
-/// The line appears at once, is redrawn at most ten times a second, and is erased when the stage ends.
+/// A stage of long work. Without a total it shows only the label; with one, also a bar, the share done and
+/// the time left. The line appears at once, is redrawn at most ten times a second, and is erased at the end
+/// of the stage.
 class Progress {
  public:
   explicit Progress(std::string label, std::uint64_t total = 0);

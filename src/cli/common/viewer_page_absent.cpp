@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Takes the place of the page in a build without Node.
+// Replaces the page in a build without Node.
 #include "viewer_page.h"
 
 namespace cellwalk::cli {

@@ -12,10 +12,10 @@
 namespace cellwalk::cli {
 namespace {
 
-/// Not a number, which a table leaves empty.
+/// A missing value, which is an empty field of a table.
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
-/// Three fields, without negative zeros; in the plane the third is empty.
+/// Three fields, without negative zeros; in 2D the third is empty.
 template <std::size_t D>
 std::array<double, 3> fields(const std::array<double, D>& p) {
   std::array<double, 3> f{absent, absent, absent};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The answers to a table of motions, whatever moves, and the table `cellwalk query` writes of them.
+// The answers to a table of motions of points or edges, and the table that `cellwalk query` writes of them.
 #ifndef CELLWALK_CLI_QUERY_ANSWERS_H
 #define CELLWALK_CLI_QUERY_ANSWERS_H
 
@@ -19,12 +19,12 @@
 
 namespace cellwalk::cli {
 
-/// Answers every row by answer(row, counts), in parallel, invalid ones aside; the answers do not depend on the number of
+/// Answers every valid row by answer(row, counts), in parallel; the answers do not depend on the number of
 /// threads.
 template <class Counts, int D, std::size_t N, class Answer_row>
 std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Counts& total,
                                    Answer_row answer) {
-  constexpr std::size_t batch = 1 << 16;  // rows between two looks at the progress bar
+  constexpr std::size_t batch = 1 << 16;  // rows between two updates of the progress bar
   std::vector<Answer<D>> answers(rows.size());
   tbb::enumerable_thread_specific<Counts> counts;
   Progress progress(label, rows.size());
@@ -40,10 +40,10 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
   return answers;
 }
 
-/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges, rows of three points, with
-/// `body` after `kind`. Rows and cells count from 0; cells are those of the file; what does not apply is empty. A free motion
-/// ends at the second point of its row.
-/// \throw Error(other) where it cannot be written
+/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges (rows of three
+/// points) with `body` after `kind`. Rows and cells count from 0; cells are those of the file; fields that do
+/// not apply are empty. A free motion ends at the second point of its row.
+/// \throw Error(other) if it cannot be written
 template <int D, std::size_t N>
 void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
                    const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The words of --kernel and --strategy, on the command line and in records of motions.
+// The words of --kernel and --strategy, on the command line and in repro files.
 #ifndef CELLWALK_CLI_QUERY_KERNEL_NAMES_H
 #define CELLWALK_CLI_QUERY_KERNEL_NAMES_H
 

@@ -20,7 +20,7 @@ using drawing::Legend_entry;
 
 constexpr double thin = 1, usual = 1.6, thick = 2.6, heavy = 3.4, widest = 5.5;
 
-/// A walk with all that a picture shows of it.
+/// A walk with the data that a picture shows of it.
 struct Shown_walk {
   Walk_result<2> result;
   std::vector<Cell> visited;
@@ -29,7 +29,7 @@ struct Shown_walk {
   std::set<Cell> cells() const { return {visited.begin(), visited.end()}; }
 };
 
-/// The paper's walk, which says what it aims at; all exact ones visit the same cells.
+/// The paper's walk, which reports the facets at which it aims; all exact walks visit the same cells.
 Shown_walk shown_walk(const Snapshot<2>& snapshot, const Particle<2>& particle, const Point<2>& to) {
   Shown_walk walk;
   Walk_counts counts;
@@ -38,7 +38,7 @@ Shown_walk shown_walk(const Snapshot<2>& snapshot, const Particle<2>& particle, 
   return walk;
 }
 
-/// That of an answer, of those from all sides of the start.
+/// The walk of an answer, among those from all sides of the start.
 Shown_walk walk_of(const Snapshot<2>& snapshot, const Locator<2>& locator, const Point<2>& from,
                    const Point<2>& to, const Answer<2>& answer) {
   for (const Particle<2>& start : locator.particles_at(from)) {
@@ -49,7 +49,7 @@ Shown_walk walk_of(const Snapshot<2>& snapshot, const Locator<2>& locator, const
   return shown_walk(snapshot, locator.particle_at(from).value(), to);
 }
 
-/// The vertices of the environment that a walk passes through: those on its line at which it changes cells.
+/// The vertices of the environment through which a walk passes: those on its line at which it changes cells.
 std::set<std::uint32_t> passed_vertices(const Snapshot<2>& snapshot, const Shown_walk& walk,
                                         const Point<2>& from, const Point<2>& to) {
   std::set<std::uint32_t> result;
@@ -59,7 +59,8 @@ std::set<std::uint32_t> passed_vertices(const Snapshot<2>& snapshot, const Shown
   return result;
 }
 
-/// Whether b lies strictly in the cone of a facet over a: not where the walk ended by the rule, on a facet or vertex.
+/// True if b lies strictly in the cone of a facet over a. False if the rule ended the walk, on a facet or
+/// vertex.
 bool is_aimed_at(const Snapshot<2>& snapshot, Half_facet f, const Point<2>& a, const Point<2>& b) {
   const auto loop = snapshot.loop(f);
   const auto turn = [](const Point<2>& x, const Point<2>& y, const Point<2>& z) {
@@ -70,7 +71,7 @@ bool is_aimed_at(const Snapshot<2>& snapshot, Half_facet f, const Point<2>& a, c
   return whole != 0 && turn(a, u, b) == whole && turn(a, b, v) == whole;
 }
 
-/// The free cells at some vertices.
+/// The free cells at the given vertices.
 std::set<Cell> star_of(const Snapshot<2>& snapshot, const std::set<std::uint32_t>& vertices) {
   std::set<Cell> result;
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {

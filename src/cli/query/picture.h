@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Pictures of single motions of the plane, for `cellwalk query --picture`.
+// Pictures of single 2D motions, for `cellwalk query --picture`.
 #ifndef CELLWALK_CLI_QUERY_PICTURE_H
 #define CELLWALK_CLI_QUERY_PICTURE_H
 
@@ -11,17 +11,18 @@
 
 namespace cellwalk::cli {
 
-/// Draws the motion of a point from the first point to the second one: the cells that it visits with their numbers, the facets and
-/// vertices that it passes, the facet it aims at in the end, or its contact.
+/// Draws the motion of a point from the first point to the second one: the cells visited with their numbers,
+/// the facets and vertices passed, and the facet at which it aims at the end, or its contact.
 /// \pre the answer is that of the exact kernel with Touch::pass
 void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
-                   std::size_t row, const std::array<Point<2>, 2>& motion, const Answer<2>& answer);
+                   std::size_t row, const std::array<Point<2>, 2>& points, const Answer<2>& answer);
 
-/// Draws the motion of an edge: p moves from the first point to the second one while q stands still at the third one. With the cells
-/// that p visits, those of the temporary particle that then walks along the edge, and the chains of the edge.
+/// Draws the motion of an edge: p moves from the first point to the second one while q stands still at the
+/// third one. Shows the cells that p visits, those of the temporary particle that then walks along the edge,
+/// and the chains of the edge.
 /// \pre as above
 void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
-                   std::size_t row, const std::array<Point<2>, 3>& motion, const Answer<2>& answer);
+                   std::size_t row, const std::array<Point<2>, 3>& points, const Answer<2>& answer);
 
 }  // namespace cellwalk::cli
 

@@ -13,12 +13,12 @@ using namespace query_colours;
 using drawing::Colour;
 
 constexpr int panel_width = 800;                                        // pixels
-constexpr double least_shape = 0.3, largest_shape = 1.1;                // height of a panel beside its width
-constexpr double width_share = 0.0024;                                  // of what is shown: a line of width 1
-constexpr double margin_share = 0.2;                                    // of it: round the motion
+constexpr double least_shape = 0.3, largest_shape = 1.1;                // height of a panel by its width
+constexpr double width_share = 0.0024;                                  // a line of width 1, of the extent
+constexpr double margin_share = 0.2;                                    // around the motion, of the extent
 constexpr double grid_lines = 0.6, wall_lines = 2.4, spot_lines = 2.6;  // in lines
 constexpr double dash = 6, arrow_lines = 26;                            // in lines
-constexpr std::size_t most_numbers = 60;  // of cells: more would only darken the picture
+constexpr std::size_t most_numbers = 60;  // of cells: more would only clutter the picture
 
 Point<2> middle_of(const Cell_view<2>& view) {
   Vector<2> sum{};
@@ -26,7 +26,8 @@ Point<2> middle_of(const Cell_view<2>& view) {
   return (1.0 / static_cast<double>(view.facet_count())) * sum;
 }
 
-/// Where the number of a cell is written: towards the corner that is furthest from a line, so that lines through the cell stay free.
+/// The position of the number of a cell: towards the corner that is furthest from a line, so that lines
+/// through the cell stay free.
 Point<2> place_of_number(const Cell_view<2>& view, const Point<2>& from, const Point<2>& to) {
   constexpr double share = 0.4;
   const Point<2> middle = middle_of(view);
@@ -78,7 +79,7 @@ Query_plot::Query_plot(const Snapshot<2>& snapshot, std::span<const Point<2>> po
                                         {upper_[0], lower_[1], 0},
                                         {upper_[0], upper_[1], 0},
                                         {lower_[0], upper_[1], 0}}};
-  drawing::add_patch(panel_.drawing, ground, material(solid));  // seen where there is no cell
+  drawing::add_patch(panel_.drawing, ground, material(solid));  // visible where there is no cell
   for (const Cell cell : shown) {
     Colour colour = snapshot.is_solid(cell) ? solid : free_cell;
     for (const Tint& tint : tints)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A part of a planar environment under a motion, as a panel with a legend.
+// A part of a planar environment with a motion, as a panel with a legend.
 #ifndef CELLWALK_CLI_QUERY_PICTURE_PLOT_H
 #define CELLWALK_CLI_QUERY_PICTURE_PLOT_H
 
@@ -23,19 +23,20 @@ constexpr drawing::Colour free_cell{0.99, 0.99, 0.99}, solid{0.76, 0.77, 0.79}, 
     contact{0.80, 0.10, 0.10};
 }
 
-/// Cells of a colour.
+/// A set of cells and their colour.
 struct Tint {
   std::set<Cell> cells;
   drawing::Colour colour;
 };
 
-/// How far up something lies on what is below: the higher one is seen.
+/// The layers from the lowest to the highest, which covers the others.
 enum class Layer { ground, cells, patches, grid, walls, facets, kept_facets, lines, edges, spots, arrows };
 
-/// Widths are in units of the picture: 1 is a line that is easily seen.
+/// Widths are in units of the picture: 1 is a clearly visible line.
 class Query_plot {
  public:
-  /// Shows the cells near the given points and all that are tinted, with the number of each of the latter. Later tints are over earlier ones.
+  /// Shows the cells near the given points and all tinted cells, the latter with their numbers. Later tints
+  /// cover earlier ones.
   Query_plot(const Snapshot<2>& snapshot, std::span<const Point<2>> points, std::span<const Tint> tints);
 
   void line(const Point<2>& from, const Point<2>& to, double width, Layer layer,
@@ -51,7 +52,7 @@ class Query_plot {
   void contact(const Point<2>& x, const Vector<2>& normal);
   void key(drawing::Legend_entry::Swatch swatch, const drawing::Colour& colour, const std::string& text);
 
-  /// \throw Error(other) where it cannot be written
+  /// \throw Error(other) if it cannot be written
   void write(io::Atomic_file& file, const std::string& title);
 
  private:

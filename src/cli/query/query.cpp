@@ -29,19 +29,19 @@ namespace {
 enum class Query_mode { move, sweep };
 struct Query_options {
   std::string environment, queries, output, json;
-  std::string failure;             // if set, a record to replay, and nothing else
-  std::string record;              // if set, where the motion of a row is recorded
-  std::string picture;             // if set, where it is drawn
-  std::optional<std::size_t> row;  // the row
+  std::string failure;             // if set, a repro file to replay, and nothing else
+  std::string record;              // if set, the repro file for the motion of the row
+  std::string picture;             // if set, the picture of the row
+  std::optional<std::size_t> row;  // of the repro file or the picture
   Query_mode mode = Query_mode::move;
   Move_options move;
-  Sweep_options sweep;                    // its `touch` holds for moves too
+  Sweep_options sweep;                    // its `touch` also applies to moves
   std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
   int threads = 0;
   Build_options build{.keep_map = false};
 };
 
-/// The files of a query; null where one is not wanted.
+/// The output files of a query; null for those not requested.
 struct Query_files {
   explicit Query_files(const Query_options& options)
       : all({options.environment, options.queries}),
@@ -54,7 +54,7 @@ struct Query_files {
   io::Atomic_file *answers, *json, *record, *picture;
 };
 
-/// Completes all files and says how many answers there are of each status.
+/// Completes all files and prints the number of answers of each status.
 template <int D, std::size_t N>
 void report(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
             const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
@@ -78,7 +78,7 @@ void report(const Query_options& options, Query_files& files, const Snapshot<D>&
                error->error, tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
-/// Nothing is answered where the record or picture that is wanted cannot be made.
+/// Refuses a row of which the requested repro file or picture cannot be made, before anything is answered.
 template <int D, std::size_t N>
 void check_row(const Query_options& options, const std::vector<Query_row<D, N>>& rows) {
   if (options.row && (*options.row >= rows.size() || !rows[*options.row].error.empty()))
@@ -87,7 +87,7 @@ void check_row(const Query_options& options, const std::vector<Query_row<D, N>>&
     throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
 }
 
-/// Draws the row that is wanted.
+/// Draws the requested row.
 template <int D, std::size_t N>
 void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
               const Locator<D>& locator, const std::vector<Query_row<D, N>>& rows,
@@ -98,7 +98,7 @@ void draw_row(const Query_options& options, Query_files& files, const Snapshot<D
                     answers[*options.row]);
 }
 
-/// Writes the record of the row that is wanted.
+/// Writes the repro file of the requested row.
 template <int D>
 void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
                 const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
@@ -140,7 +140,8 @@ void query_environment(const Query_options& options, Query_files& files, const E
   }
 }
 
-/// A record to replay stands alone; otherwise an environment, queries and output are needed.
+/// Refuses missing arguments: a repro file is replayed alone; otherwise an environment, queries and an output
+/// are needed.
 void refuse_missing(const Query_options& options, const CLI::App& command) {
   constexpr std::array<const char*, 3> names{"environment", "queries", "--output"};
   if (options.failure.empty()) {
@@ -152,7 +153,7 @@ void refuse_missing(const Query_options& options, const CLI::App& command) {
   }
 }
 
-/// Options that say nothing where others are as they are, or that contradict them, are mistakes.
+/// Refuses options without effect, and options that contradict each other.
 void refuse_misfits(const Query_options& options, const CLI::App& command) {
   const auto need = [&command](std::initializer_list<const char*> names, const char* condition) {
     for (const char* name : names)

@@ -16,7 +16,7 @@
 
 namespace cellwalk::cli {
 
-/// A walk and the cells it visited.
+/// A walk and the cells that it visited.
 template <int D>
 struct Logged_walk {
   Walk_result<D> result;
@@ -32,12 +32,12 @@ Logged_walk<D> logged_walk(const Snapshot<D>& snapshot, const Particle<D>& parti
   return logged;
 }
 
-/// A sign of a kernel; where it is wrong, the right one as well.
+/// A sign of a kernel, followed by the right one if it is wrong.
 inline std::string sign_text(int sign, int exact) {
   return sign == exact ? fmt::format("{:+d}", sign) : fmt::format("{:+d} (exactly {:+d})", sign, exact);
 }
 
-/// What became of a walk, in one line.
+/// The result of a walk, in one line.
 template <int D>
 std::string end_of(const Snapshot<D>& snapshot, const Walk_result<D>& result) {
   const std::uint32_t cell = snapshot.index(result.cell);
@@ -54,8 +54,8 @@ std::string end_of(const Snapshot<D>& snapshot, const Walk_result<D>& result) {
   return fmt::format("is lost in cell {} after {} cells", cell, result.cells);
 }
 
-/// One cell of a walk: all its facets with the sign of the target, the ridges of those that the target lies beyond, and where
-/// the walk went.
+/// One cell of a walk: all its facets with the sign of the target, the ridges of those that have the target
+/// outside, and the exit of the walk.
 template <class Kernel, int D>
 std::string step_text(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& to, Cell cell,
                       Cell next) {
@@ -104,7 +104,7 @@ std::string log_text(const Snapshot<D>& snapshot, const Point<D>& from, const Po
   return text + fmt::format("  {}\n", end_of(snapshot, walk.result));
 }
 
-/// Where two walks of one motion part, in one line.
+/// The first difference of two walks of one motion, in one line.
 template <int D>
 std::string comparison(const Logged_walk<D>& walk, const Logged_walk<D>& exact) {
   const auto [here, there] =

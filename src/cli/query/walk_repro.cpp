@@ -25,7 +25,7 @@ std::string point_text(const Point<D>& p) {
   return decimal + "  =" + exact;
 }
 
-/// The value behind a word of a record.
+/// The value of a word in a repro file.
 template <class T>
 T value_of(const char* key, const std::string& word, std::initializer_list<std::pair<const char*, T>> words) {
   for (const auto& [name, value] : words)
@@ -33,7 +33,7 @@ T value_of(const char* key, const std::string& word, std::initializer_list<std::
   throw Error(Error_code::input, fmt::format("{}: unknown word \"{}\"", key, word));
 }
 
-/// The cells from which to walk: that of the record, or all on whose sides the start may lie.
+/// The cells from which to walk: that of the repro file, or all on whose sides the start may lie.
 template <int D>
 std::vector<Cell> start_cells(const Repro<D>& record, const Snapshot<D>& snapshot, const Location<D>& start) {
   if (record.cell) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One recorded motion walked again, step by step: what a report of a wrong answer needs.
+// A motion of a repro file, walked again step by step.
 #ifndef CELLWALK_CLI_QUERY_WALK_REPRO_H
 #define CELLWALK_CLI_QUERY_WALK_REPRO_H
 
@@ -12,13 +12,13 @@
 
 namespace cellwalk::cli {
 
-/// Certifies the environment of a record, walks its motion by its kernel and exactly, and prints the cells, signs and choices of
-/// both, and where they part.
-/// \throw Error(input) if the record is unreadable or names unknown kernels or strategies; Error(not_certified);
-/// Error(outside) if the motion does not start in its cell, or in no free one
+/// Certifies the environment of a repro file, walks its motion by its kernel and exactly, and prints the
+/// cells, signs and choices of both, and their first difference.
+/// \throw Error(input) if the file is unreadable or names unknown kernels or strategies;
+///        Error(not_certified); Error(outside) if the motion does not start in its cell, or in no free one
 void walk_repro(const std::string& path);
 
-/// Writes the record of a motion in an environment.
+/// Writes a repro file of a motion in an environment.
 template <int D>
 void write_repro_of(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
                     const Point<D>& to, const Move_options& options, const std::string& note);

@@ -57,7 +57,8 @@ Environment<3> load_environment_of_bodies(const Replay_options& options) {
   return std::move(*environment);
 }
 
-/// Replays the trace again and again. Only the moves are timed: bodies are put in place, and answers compared, in between.
+/// Replays the trace again and again. Only the moves are timed: bodies are put in place, and answers
+/// compared, in between.
 Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environment<3>& environment,
                                         const Replay_options& options) {
   using Clock = std::chrono::steady_clock;

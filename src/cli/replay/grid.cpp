@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What all rounds found: they differ in time only.
+/// The results of all rounds, which differ in time only.
 struct Replayed {
   std::vector<double> ns_per_move;  ///< of each round
   std::uint64_t mismatches = 0;
@@ -36,13 +36,14 @@ Environment<3> build(const Trace& trace, const Replay_options& options) {
   try {
     return trace_environment(trace, options.sheared ? sheared<3>() : Lattice_map<3>{});
   } catch (const Error& error) {
-    // What a trace asks for is input, whatever it would be in a call.
+    // A trace is input, so errors in it are not those of a call.
     const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
     throw Error(code, fmt::format("{}: {}", options.trace, error.what()));
   }
 }
 
-/// Replays the trace again and again. Only the moves are timed: answers are compared, and bodies registered, in between.
+/// Replays the trace repeatedly. Only the moves are timed, neither the comparison of answers nor the
+/// registration of bodies.
 Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());

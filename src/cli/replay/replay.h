@@ -34,7 +34,8 @@ Replay_report replay_grid(Trace trace, const Replay_options& options);
 /// \throw Error naming the trace, the environment, or the option that does not apply
 Replay_report replay_bodies(const Body_trace& trace, const Replay_options& options);
 
-/// The middle value, or the mean of the two in the middle. \pre there is one
+/// The middle value, or the mean of the two in the middle.
+/// \pre there is one
 double median(std::vector<double> values);
 
 }  // namespace cellwalk::cli

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cli/common/contact_kind_names.h"
@@ -61,8 +62,9 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     sizes.vertices += moving.body().vertex_count();
     sizes.edges += moving.body().edges().size();
     sizes.faces += moving.body().faces().size();
-    if (moving.template as<Rod<D>>()) continue;
-    sizes.guided += scene.bodies[world.entry_of(i)].guided.has_value();
+    const std::optional<std::size_t> entry = world.entry_of(i);
+    if (!entry) continue;
+    sizes.guided += scene.bodies[*entry].guided.has_value();
     sizes.arrived += moving.has_arrived();
   }
   return sizes;
@@ -70,20 +72,17 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
 
 template <int D>
 ordered_json catheter_json(const Rod<D>& rod) {
-  return {{"arrived", rod.has_arrived()},
-          {"way_point", rod.next_way_point()},
-          {"path", rod.way()},
-          {"length_inside", rod.length_inside()},
-          {"twist", rod.twist()},
-          {"steps_waited", rod.steps_waited()}};
+  return {{"arrived", rod.has_arrived()}, {"waypoint", rod.next_waypoint()},
+          {"path", rod.waypoints()},      {"length_inside", rod.length_inside()},
+          {"twist", rod.twist()},         {"steps_waited", rod.steps_waited()}};
 }
 
 template <int D>
 std::string describe_catheter(const Rod<D>& rod) {
   const std::string where =
       rod.has_arrived()
-          ? fmt::format("arrived at the last of {} way points", rod.way().size())
-          : fmt::format("on its way to way point {} of {}", rod.next_way_point() + 1, rod.way().size());
+          ? fmt::format("arrived at the last of {} waypoints", rod.waypoints().size())
+          : fmt::format("on its way to waypoint {} of {}", rod.next_waypoint() + 1, rod.waypoints().size());
   return fmt::format("{} vertices, {:.4g} long inside, {}", rod.body().vertex_count(), rod.length_inside(),
                      where);
 }

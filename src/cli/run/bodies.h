@@ -51,7 +51,7 @@ template <int D>
 std::string describe_catheter(const Rod<D>& rod);
 std::string describe_contacts(const Body_contacts& contacts);
 std::string describe_moves(const Body_counts& counts);
-std::string describe_edges(const Edge_counts& counts);
+std::string describe_edges(const Edge_counts& e);
 
 extern template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);
 extern template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);

@@ -76,7 +76,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>
   }
   Integers met(grid.cell_count(), 0);
   for (const Run_contact<D>& c : contacts)
-    if (c.body) ++met[begin[c.body->body][static_cast<std::size_t>(c.contact.body)] + c.body->number];
+    if (c.body) ++met[begin[*c.body][static_cast<std::size_t>(c.contact.body)] + c.contact.feature];
   grid.point_data.push_back({"body", 1, std::move(body_of_point)});
   grid.point_data.push_back({"vertex", 1, std::move(vertex_of_point)});
   grid.point_data.push_back({"velocity", 3, std::move(velocity)});
@@ -100,10 +100,10 @@ io::Vtu_grid contacts_grid(const std::vector<Run_contact<D>>& contacts) {
     step.push_back(c.step);
     particle.push_back(c.body ? none : c.particle);
     kind.push_back(static_cast<std::int64_t>(c.contact.kind));
-    body.push_back(c.body ? c.body->body : none);
-    vertex.push_back(c.body ? c.body->vertex : none);
+    body.push_back(c.body ? *c.body : none);
+    vertex.push_back(c.body ? c.contact.vertex : none);
     feature.push_back(c.body ? static_cast<std::int64_t>(c.contact.body) : none);
-    number.push_back(c.body ? c.body->number : none);
+    number.push_back(c.body ? c.contact.feature : none);
     append_vector<D>(normal, c.contact.normal);
   }
   grid.point_data.push_back({"step", 1, std::move(step)});

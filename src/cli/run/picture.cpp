@@ -197,7 +197,7 @@ void Run_picture<D>::record(const World<D>& world) {
     if (trail.size() > trail_steps) trail.erase(trail.begin(), trail.end() - trail_steps);
   }
   for (const Run_contact<D>& c : world.contacts()) {
-    const bool is_catheter = c.body && world.bodies()[c.body->body].template as<Rod<D>>();
+    const bool is_catheter = c.body && world.bodies()[*c.body].template as<Rod<D>>();
     (!c.body ? free_contacts_ : is_catheter ? catheter_contacts_ : body_contacts_).push_back(c);
   }
   const auto old = [&](const Run_contact<D>& c) { return c.step + trail_steps <= world.steps_done(); };

@@ -2,7 +2,6 @@
 #include "recording.h"
 
 #include <cellwalk/io/vtu.h>
-#include <cellwalk/walk/walk.h>
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +12,8 @@ namespace {
 
 using io::in_space;
 
-/// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and base64 adds a third.
+/// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and
+/// base64 adds a third.
 constexpr std::uint64_t most_recorded_points = 5'000'000;
 /// More passable edges of the plane than this are a grey area, not lines.
 constexpr std::size_t most_lines = 40'000;
@@ -35,7 +35,8 @@ void add_walls(const Snapshot<D>& snapshot, Recording_scene& scene) {
   });
 }
 
-/// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between them.
+/// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between
+/// them.
 void add_areas(const Snapshot<3>&, Recording_scene&) {}
 void add_areas(const Snapshot<2>& snapshot, Recording_scene& scene) {
   for_free_cells(snapshot, [&](Cell cell) {
@@ -128,26 +129,13 @@ Run_recording<D>::Run_recording(std::filesystem::path path, const Snapshot<D>& s
     : snapshot_(snapshot),
       every_(every),
       writer_(std::move(path), scene_of(snapshot, world, time_step, steps, every)),
-      followers_(world.particles().begin(), world.particles().end()),
       before_(world.bodies().size()) {
-  for (const Moving_body<D>& moving : world.bodies())
-    followers_.insert(followers_.end(), moving.body().particles().begin(), moving.body().particles().end());
   add(world);
 }
 
 template <int D>
 void Run_recording<D>::record(const World<D>& world, bool is_last) {
   if (is_last || world.steps_done() % every_ == 0) add(world);
-}
-
-/// A vertex that slid along walls need not be seen from where it was: then it is located.
-template <int D>
-void Run_recording<D>::follow(std::size_t number, const Point<D>& position) {
-  Particle<D>& follower = followers_[number];
-  Walk_counts counts;
-  if (move(snapshot_, follower, position, counts).status == Walk_status::arrived) return;
-  if (!locator_) locator_.emplace(snapshot_);
-  follower = locator_->particle_at(position).value();
 }
 
 template <int D>
@@ -161,11 +149,10 @@ void Run_recording<D>::add(const World<D>& world) {
     cells.push_back(snapshot_.index(particle.cell));
   }
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
-    for (const Point<D>& x : world.bodies()[b].body().positions()) {
-      const std::size_t number = positions.size();
-      follow(number, x);
-      positions.push_back(in_space(x));
-      cells.push_back(snapshot_.index(followers_[number].cell));
+    const Body<D>& body = world.bodies()[b].body();
+    for (std::uint32_t v = 0; v < body.vertex_count(); ++v) {
+      positions.push_back(in_space(body.positions()[v]));
+      cells.push_back(snapshot_.index(body.cell_of(v)));
     }
     const Body_counts now = world.body_counts(b);
     decisions.push_back(decision(before_[b], now));

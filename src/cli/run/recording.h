@@ -5,17 +5,15 @@
 
 #include <cellwalk/internal/io/recording_file.h>
 #include <cellwalk/simulation/world.h>
-#include <cellwalk/walk/locate.h>
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 namespace cellwalk::cli {
 
-/// Written along with the run. The cells of what moves are followed by particles of its own, so that nothing that the run counts
-/// depends on whether it is recorded.
+/// Written along with the run, of which it only reads: nothing that the run counts depends on whether it is
+/// recorded.
 template <int D>
 class Run_recording {
  public:
@@ -34,17 +32,15 @@ class Run_recording {
 
  private:
   void add(const World<D>& world);
-  void follow(std::size_t number, const Point<D>& position);
 
   const Snapshot<D>& snapshot_;
   std::uint32_t every_;
   io::Recording_writer writer_;
-  std::vector<Particle<D>> followers_;  ///< of free particles, then of the bodies' vertices
-  std::optional<Locator<D>> locator_;   ///< made when it is first needed
-  std::vector<Body_counts> before_;     ///< at the record before
+  std::vector<Body_counts> before_;  ///< at the record before
 };
 
-/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0: nothing is recorded.
+/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0:
+/// nothing is recorded.
 template <int D>
 std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps);
 

@@ -16,14 +16,14 @@ namespace cellwalk::cli {
 struct Run_results {
   nlohmann::ordered_json report;  ///< run.json
   io::Recording motion;           ///< motion.gz
-  /// contacts.csv as pages take it, little endian: their number (uint32), their steps (uint32), points and normals (3 float32 each), kinds
-  /// (uint8, by Contact_kind).
+  /// contacts.csv as pages take it, little endian: their number (uint32), their steps (uint32), points and
+  /// normals (3 float32 each), kinds (uint8, by Contact_kind).
   std::string contacts;
   std::size_t contact_count = 0;
 };
 
-/// \throw Error(input) `FILE: what, and what to do`: no folder, not that of a run, a file that is missing or damaged, or files that do not
-///        belong together
+/// \throw Error(input) `FILE: what, and what to do`: no folder, not that of a run, a file that is missing or
+///        damaged, or files that do not belong together
 Run_results read_run(const std::filesystem::path& folder);
 
 }  // namespace cellwalk::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The scene that `cellwalk run` is asked for: a file or the built-in one, with what the command line changes of it.
+// The scene that `cellwalk run` is asked for: a file or the built-in one, with what the command line changes
+// of it.
 #ifndef CELLWALK_CLI_RUN_SCENE_SOURCE_H
 #define CELLWALK_CLI_RUN_SCENE_SOURCE_H
 
@@ -16,7 +17,8 @@ struct Scene_source {
   Any_scene scene;
 };
 
-/// Reads a scene, or takes the one built in (data/hexahedra.json) where no file is named. \throw Error as io::change_scene and
+/// Reads a scene, or takes the one built in (data/hexahedra.json) where no file is named.
+/// \throw Error as io::change_scene and
 /// io::read_scene
 Scene_source load_scene(const std::string& path, const std::vector<std::string>& changes);
 

@@ -8,7 +8,7 @@
 namespace cellwalk {
 namespace {
 
-/// Any way will do.
+/// The rule of a search that accepts any path.
 template <int D>
 struct Any_way {
   const Point<D>&p, &q;

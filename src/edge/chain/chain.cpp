@@ -11,7 +11,7 @@
 namespace cellwalk {
 namespace {
 
-/// The contact of a segment that arrives at q on another side, with a wall at q.
+/// The contact of a segment that arrives at q on the wrong side, with a wall at q.
 template <int D>
 Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& arrival, const Point<D>& q,
                            Half_facet wall) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All ways of a segment through cells, in the order of sides in which a walk takes them. Theory: docs/sweep.md, choices.
+// The search for a path of a segment through cells, in the order of sides that a walk prefers. Theory:
+// docs/sweep.md, choices.
 #ifndef CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
 #define CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
 
@@ -17,12 +18,13 @@
 
 namespace cellwalk::detail {
 
-/// Looks for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims on, it has several
-/// sides to go on along: first comes the one on which it lies once it is displaced, then the others as the rule orders them.
+/// Searches for a chain of a segment that a rule accepts. Where the segment runs along walls from their rims
+/// on, it can continue on several sides: first that of the displaced segment is tried, see displaced_side(),
+/// then the others in the order of the rule.
 ///
-/// Rule: is_wrong(chain, end) gives a beginning up, which leads to a place; limit_of(cell, facet, border) says what `end` stands for it, where
-/// the segment passes that border; is_accepted(chain) takes a whole chain; comes_before(cell, cell) orders the cells of sides that are
-/// not preferred.
+/// Rule: is_wrong(chain, end) rejects the beginning of a chain, which leads to the parameter `end`;
+/// limit_of(cell, facet, border) is that parameter if the segment passes the border; is_accepted(chain)
+/// decides about a whole chain; comes_before(cell, cell) orders the cells of sides that are not preferred.
 template <int D, class Rule>
 class Chain_search {
  public:
@@ -36,22 +38,23 @@ class Chain_search {
     }
   }
 
-  /// True if there is one from a cell of the start to that of q, or one linked with it there.
-  /// Cost: exact numbers for all facets of the cells along the segment, once for each place at which they begin and end.
+  /// True if there is a chain from a cell linked with `start` to that of q.
+  /// Cost: exact numbers for all facets of the cells along the segment, once for each parameter at which they
+  /// begin and end.
   bool find(Cell start) { return from(start, 0, 0); }
 
   const Chain& chain() const { return chain_; }
 
  private:
-  /// What a cell linked with the one that the segment is in needs to be gone on in.
+  /// A cell in which the segment may continue.
   struct Place {
     bool holds_more = true, is_displaced = true;
-    Fraction end{1};  ///< up to there the cell meets the segment in the same facets
+    Fraction end{1};  ///< up to here the segment meets the same facets of the cell
     std::size_t end_facet = 0;
-    int end_border = -1;  ///< of that facet, where it ends; none if it does at q
+    int end_border = -1;  ///< of that facet, at which it ends; -1 if it ends at q
   };
 
-  /// Goes on from a cell in which the segment is at t. Ways to the same place are as good as each other.
+  /// Continues from a cell that contains the point at t. A cell is tried only once for each t.
   bool from(Cell c, const Fraction& t, const Fraction& limit) {
     if (rule_.is_wrong(chain_, limit) || !seen_.emplace(c, t).second) return false;
     Link_search<D> links(snapshot_, c);
@@ -68,7 +71,7 @@ class Chain_search {
       });
     for (const std::size_t k : order) {
       const std::size_t before = chain_.size();
-      links.append_way(k, chain_);
+      links.append_path(k, chain_);
       if (is_end ? rule_.is_accepted(chain_) : goes_on(links.cell(k), places[k])) return true;
       chain_.resize(before);
     }
@@ -82,7 +85,7 @@ class Chain_search {
     return from(c, place.end, limit);
   }
 
-  /// Finds the cells linked with one where the segment is at t.
+  /// Finds the cells linked with the start of `links` at the point at t.
   std::vector<Place> find_places(Link_search<D>& links, const Fraction& t) {
     std::vector<Place> places;
     const auto holds = [&](const Cell_view<D>& cell, std::size_t i) {
@@ -110,7 +113,8 @@ class Chain_search {
     return places;
   }
 
-  /// True if all of a facet has smaller or greater coordinates than the segment.
+  /// True if all vertices of a facet have smaller, or all have greater coordinates than the segment on an
+  /// axis.
   bool is_apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
     for (int k = 0; k < D; ++k) {
@@ -127,7 +131,7 @@ class Chain_search {
   const Particle<D>& q_;
   const Rule& rule_;
   Walk_counts& counts_;
-  Point<D> low_{}, high_{};  ///< of a box that holds the segment
+  Point<D> low_{}, high_{};  ///< of a box that contains the segment
   std::set<std::pair<Cell, Fraction>> seen_;
   Chain chain_;
 };

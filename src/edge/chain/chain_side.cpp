@@ -9,7 +9,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// The cell in which the chain passes a point of the segment.
+/// The cell in which the chain passes the point at t.
 Cell cell_at(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t) {
   Cell cell = start;
   for (const Half_facet f : chain) {

@@ -12,13 +12,14 @@
 
 namespace cellwalk::detail {
 
-/// An edge of a body, by its ends and exactly.
+/// An edge of a body by its end points, and as exact numbers.
 class Exact_edge {
  public:
   Exact_edge(const Snapshot<3>& snapshot, const Point<3>& from, const Point<3>& to)
       : snapshot_(snapshot), from_(from), to_(to), segment_(from, to) {}
 
-  /// Its part in a closed facet. Cost: some comparisons and two signs where they show that there is none.
+  /// Its part in a closed facet.
+  /// Cost: some comparisons and two signs if they prove that there is none.
   std::optional<Span> in_facet(Half_facet f) const;
   std::optional<Span> in_facet(const Cell_view<3>& cell, std::size_t i) const;
   const Snapshot<3>& snapshot() const { return snapshot_; }
@@ -31,8 +32,8 @@ class Exact_edge {
   Rational_segment<3> segment_;
 };
 
-/// All cells linked, at the point of the edge with this parameter, with the one in which a chain passes it.
-/// \pre the edge passes the chain, from the cell `start`
+/// All cells linked, at the point at t, with the cell in which a chain passes it.
+/// \pre the edge passes the chain from the cell `start`
 std::vector<Cell> linked_cells(const Exact_edge& edge, Cell start, const Chain& chain, const Fraction& t);
 
 }  // namespace cellwalk::detail

@@ -9,7 +9,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Point indices common to facets.
+/// The point indices that facets have in common.
 using Common_points = boost::container::small_vector<std::uint32_t, 8>;
 
 template <int D>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The common case of equal chains: they differ only round one ridge that the edge passes. Theory: docs/sweep.md, events.
+// The common case of equal chains: they differ only around one ridge that the edge passes. Theory:
+// docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_CHAIN_DIFFER_AROUND_RIDGE_H
 #define CELLWALK_EDGE_CHAIN_DIFFER_AROUND_RIDGE_H
 
@@ -9,9 +10,10 @@
 
 namespace cellwalk::detail {
 
-/// True proves that two chains of the edge at line.time() are equal: the facets in which they differ lie round one ridge,
-/// the edge meets the line of that, and lies in none of their planes. So it meets all of them in one point. False proves nothing.
-/// \pre both are passed by the edge at that time, and start and end in the same cells
+/// True proves that two chains of the edge at line.time() are equal: the facets in which they differ lie
+/// around one ridge, the edge meets the line of that ridge and lies in none of their planes, so it meets all
+/// of them in one point. False is inconclusive.
+/// \pre the edge passes both at that time, and they start and end in the same cells
 /// Cost: a sign for each of these facets, and one more.
 template <int D>
 bool differ_only_around_one_ridge(const Snapshot<D>& snapshot, const Moving_line<D>& line, const Chain& chain,

@@ -10,11 +10,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Cells linked at a point of a segment.
+/// A path between cells that are linked at a point of a segment.
 template <int D>
 class Link_path {
  public:
-  /// Searches from a cell that holds the point at t until `to` is found.
+  /// Searches from a cell that contains the point at t until `to` is found.
   Link_path(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, Cell from, Cell to,
             const Fraction& t)
       : links_(snapshot, from) {
@@ -42,28 +42,30 @@ class Link_path {
     }
   }
 
-  /// True if the other cell is linked there.
+  /// True if the cells are linked there.
   explicit operator bool() const { return reached_; }
 
-  /// The facets on the way to it. \pre it is linked
+  /// The facets on the path.
+  /// \pre the cells are linked
   std::vector<Half_facet> path() const {
     std::vector<Half_facet> facets;
-    links_.append_way(links_.place(), facets);
+    links_.append_path(links_.place(), facets);
     return facets;
   }
 
-  Span part{0, 1};                     ///< all facets passed hold this part of the segment
+  Span part{0, 1};                     ///< the part of the segment that lies in all facets passed
   Half_facet wall = Half_facet::none;  ///< a wall at the point, of one of the cells found
-  Fraction last_before = 0;            ///< the last end of a passable facet of theirs before the point
+  Fraction last_before = 0;            ///< the last end of a passable facet of these cells before the point
 
  private:
-  Link_search<D> links_;  ///< at the other cell, if that is linked
+  Link_search<D> links_;  ///< stopped at `to`, if it is linked
   bool reached_ = false;
 };
 
-/// Where between low and high two cells that hold this piece are first not linked. They are compared at its middle; then on
-/// both sides of the part of which the same can be said. A single point needs no test: the facets that a chain passes in it
-/// link the cells before and after, which are compared themselves.
+/// The first parameter between low and high at which two cells that contain this piece are not linked. They
+/// are compared at its middle, and then on both sides of the part to which the result applies. A single point
+/// needs no test: the facets that a chain passes in it link the cells before and after, which are compared
+/// themselves.
 template <int D>
 std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
                                      Cell cell, Cell other, const Fraction& low, const Fraction& high) {
@@ -73,7 +75,7 @@ std::optional<Parting> first_parting(const Snapshot<D>& snapshot, const Rational
     const auto before = first_parting(snapshot, segment, cell, other, low, linked.part.low);
     return before ? before : first_parting(snapshot, segment, cell, other, linked.part.high, high);
   }
-  // Towards low, nothing can link them before another facet comes.
+  // Before the point, nothing can link them as far back as the last end of a passable facet.
   const Fraction since = std::max<Fraction>(low, linked.last_before);
   const auto before = first_parting(snapshot, segment, cell, other, low, since);
   return before ? before : Parting{since, linked.wall};
@@ -103,7 +105,7 @@ template <int D>
 std::optional<Parting> parting_of(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
                                   const std::vector<Piece>& chain, const std::vector<Piece>& other) {
   for (auto piece = chain.begin(), with = other.begin();;) {
-    const auto parting =
+    auto parting =
         first_parting(snapshot, segment, piece->cell, with->cell, std::max<Fraction>(piece->low, with->low),
                       std::min<Fraction>(piece->high, with->high));
     if (parting) return parting;

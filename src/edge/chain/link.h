@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The way between cells that are linked at a point. Theory: docs/sweep.md.
+// The path between cells that are linked at a point. Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_CHAIN_LINK_H
 #define CELLWALK_EDGE_CHAIN_LINK_H
 
@@ -16,9 +16,9 @@ bool lies_in(const Cell_view<D>& cell, std::size_t i, const Point<D>& x, Walk_co
   return side<Exact>(cell, i, x, counts) == 0 && in_facet(cell, i, x);
 }
 
-/// Appends the passable facets, all of which hold x, on the way from one cell that holds x to another. If there is no way,
-/// the two are not linked at x: returns a wall at x that the search met, the same however cells are numbered. Else
-/// Half_facet::none.
+/// Appends the passable facets, all of which contain x, on the path from one cell that contains x to another.
+/// If there is no path, the two are not linked at x: returns a wall at x that the search met, which does not
+/// depend on the numbering of cells. Otherwise returns Half_facet::none.
 template <int D>
 Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cell to, const Point<D>& x,
                        Walk_counts& counts) {
@@ -30,7 +30,7 @@ Half_facet append_link(const Snapshot<D>& snapshot, Chain& chain, Cell from, Cel
   Link_search<D> links(snapshot, from);
   while (links.next()) {
     if (links.cell() == to) {
-      links.append_way(links.place(), chain);
+      links.append_path(links.place(), chain);
       return Half_facet::none;
     }
     links.expand_all(holds, note);

@@ -5,9 +5,9 @@
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/star.h>
 
+#include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 #include "edge/exact/exit_time.h"
@@ -16,7 +16,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// The unit mean of the normals of the walls round a vertex, on the side of a cell.
+/// The unit mean of the normals of the walls around a vertex, on the side of a cell.
 template <int D>
 Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t vertex) {
   Vector<D> sum{};
@@ -32,7 +32,8 @@ Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t ver
   return size > 0 ? (1 / size) * sum : sum;
 }
 
-/// The contact of a bisection: its time, and the normal at a vertex of the wall, unless that is along the motion.
+/// The contact of a bisection at its time, with the normal at a vertex of the wall if that points against the
+/// motion.
 template <int D>
 Contact<D> bisected(const Snapshot<D>& snapshot, const Vertex_path<D>& path, Contact<D> contact, double time,
                     std::size_t corner) {
@@ -44,7 +45,7 @@ Contact<D> bisected(const Snapshot<D>& snapshot, const Vertex_path<D>& path, Con
   return contact;
 }
 
-/// The vertex of a wall that is nearest to a point: its place in the loop.
+/// The position in its loop of the vertex of a wall that is nearest to a point.
 template <int D>
 std::size_t nearest_corner(const Snapshot<D>& snapshot, Half_facet wall, const Point<D>& x) {
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
@@ -68,7 +69,8 @@ Contact<D> dichotomic_search(const Snapshot<D>& snapshot, const Vertex_path<D>& 
     if (sweep.contact) last = sweep.contact;
     return !sweep.contact;
   };
-  if (is_free_until({})) throw std::logic_error("a search for a contact that does not exist");
+  [[maybe_unused]] const bool is_free = is_free_until({});
+  assert(!is_free && "the caller has found a contact by the same sweep");
   double low = 0, high = 1;
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;

@@ -9,7 +9,7 @@
 
 namespace cellwalk::detail {
 
-/// x is a point of the wall. The normal is that of the wall.
+/// The contact at x, a point of the wall, with the normal of the wall.
 template <int D>
 Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
                         const Exact_point<D>& x);

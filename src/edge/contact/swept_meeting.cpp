@@ -15,18 +15,20 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A point of the triangle by its weights at a, b and q, up to a positive factor; or a function on the triangle by its values
-/// there. Unlike coordinates these serve where the triangle is a segment.
+/// A point of the triangle by its weights at a, b and q, up to a positive factor; or a function on the
+/// triangle by its values there. Unlike coordinates, weights also serve if the triangle is a segment.
 using Weights = Ring_vector<3>;
 
-/// A corner of a polygon in the triangle, and a function that is 0 on the side from there to the next corner. New corners are
-/// made of the functions of two sides, not of other corners: so their weights stay short.
+/// A corner of a polygon in the triangle, and a function that is 0 on the side from there to the next corner.
+/// New corners are computed from the functions of two sides, not from other corners, so their weights stay
+/// short.
 struct Corner {
   Weights at, side;
 };
 using Polygon = boost::container::small_vector<Corner, 6>;
 
-/// Where two functions are 0. \pre they are in one point of the triangle
+/// The common root of two functions.
+/// \pre they have one in the triangle, and only one
 Weights common_root(const Weights& f, const Weights& g) {
   Weights root = exact_cross(f, g);
   const auto is_negative = [](const Ring& x) { return CGAL::sign(x) == CGAL::NEGATIVE; };
@@ -60,7 +62,8 @@ void clip(Polygon& polygon, const Weights& function) {
   polygon = std::move(kept);
 }
 
-/// True if x lies on the segment from u to v, all three being on one line.
+/// True if x lies on the segment from u to v.
+/// \pre the three points are collinear
 template <int D>
 bool lies_between(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
   for (int i = 0; i < D; ++i)
@@ -68,7 +71,7 @@ bool lies_between(const Point<D>& u, const Point<D>& v, const Point<D>& x) {
   return true;
 }
 
-/// What of the triangle counts.
+/// The part of the triangle that counts.
 enum class Part { all, off_start };
 
 template <int D>
@@ -87,7 +90,7 @@ std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
   for (const Corner& corner : polygon) {
     const Weights& w = corner.at;
     const Ring off_q = w[0] + w[1];
-    const bool is_q = CGAL::is_zero(off_q);  // which the edge never leaves
+    const bool is_q = CGAL::is_zero(off_q);  // the edge never leaves q
     if (is_q && part == Part::off_start) continue;
     const Fraction here = is_q ? Fraction(0) : Fraction(w[1], off_q),
                    here_off_p = is_q ? Fraction(1) : Fraction(w[2], off_q);
@@ -106,7 +109,7 @@ std::optional<Meeting<D>> meeting_in_triangle(const Swept_triangle<D>& triangle,
   return meeting;
 }
 
-/// p moves in the line of the edge. What is swept off its start is a part of the way of p.
+/// The meeting if p moves in the line of the edge. Off its start, the edge sweeps a part of the path of p.
 template <int D>
 std::optional<Meeting<D>> collinear_meeting(const Swept_triangle<D>& t, const Half_spaces<D>& feature) {
   if (lies_between<D>(t.a, t.q, t.b)) return {};
@@ -128,17 +131,17 @@ Vector<D> unit(Vector<D> v) {
   for (const double x : v) largest = std::max(largest, std::abs(x));
   if (!(largest > 0) || !std::isfinite(largest)) return {};
   for (double& x : v) x /= largest;
-  return (1 / length(v)) * v + Vector<D>{};  // no negative zeros for readers of tables
+  return normalized(v) + Vector<D>{};  // no negative zeros for readers of tables
 }
 
-/// v less its part along a unit vector.
+/// v without its component along a unit vector.
 template <int D>
 Vector<D> across(const Vector<D>& v, const Vector<D>& along) {
   return v - dot(v, along) * along;
 }
 
-/// A direction at right angles to the edge and the feature that it meets, as long as the sine of the angle between the two. All
-/// directions given are unit vectors, so that nothing depends on the scale.
+/// A direction perpendicular to the edge and the feature that it meets; its length is the sine of the angle
+/// between them. All directions given are unit vectors, so that nothing depends on the scale.
 Vector<2> perpendicular(const Snapshot<2>&, const Contact<2>&, const Vector<2>& edge, const Vector<2>&) {
   return {-edge[1], edge[0]};
 }
@@ -153,10 +156,10 @@ Vector<3> perpendicular(const Snapshot<3>& snapshot, const Contact<3>& contact, 
   return cross(edge, unit<3>(v - u));
 }
 
-/// Sines and cosines of angles below this are rounding.
+/// Sines and cosines of angles below this bound are due to rounding.
 constexpr double parallel = 0x1p-40;
 
-/// True if a unit vector is against a motion, given the unit vector opposite to that.
+/// True if a unit vector points against a motion, given the unit vector opposite to the motion.
 template <int D>
 bool is_against(const Vector<D>& normal, const Vector<D>& back) {
   return dot(normal, back) > parallel;
@@ -188,17 +191,17 @@ Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& tria
   const Vector<D> back = unit<D>(triangle.a - triangle.b);
   const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.rounded_time()));
   if (contact.kind == Contact_kind::facet) {
-    // The wall may be one that the edge would come out of: then it is met from its other side.
+    // The edge may come from behind the wall; then it meets the other side of the wall.
     const Vector<D> behind = -1.0 * of_wall + Vector<D>{};
     if (is_against<D>(behind, back)) return behind;
   } else {
     const Vector<D> normal = perpendicular(snapshot, contact, edge, back);
-    const Vector<D> either = D == 2 ? normal : unit<D>(normal);  // in the plane it has length 1
+    const Vector<D> either = D == 2 ? normal : unit<D>(normal);  // in 2D it has length 1
     const Vector<D> turned = (dot(normal, back) < 0 ? -1.0 : 1.0) * either + Vector<D>{};
     if (length(normal) > parallel && is_against<D>(turned, back)) return turned;
   }
   if (is_against<D>(of_wall, back)) return of_wall;
-  // The edge is parallel to what it meets, or everything moves in one plane.
+  // The edge is parallel to the feature, or all motion lies in one plane.
   const Vector<D> off_edge = across<D>(back, edge);
   return length(off_edge) > parallel ? unit<D>(off_edge) : length(back) > 0 ? back : of_wall;
 }

@@ -12,7 +12,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// True if the edge comes from the side of a wall that a contact names.
+/// True if the edge comes from the side of the wall that a contact refers to.
 template <int D>
 bool is_faced(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
               Walk_counts& counts) {
@@ -22,8 +22,8 @@ bool is_faced(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, co
   return (of_a != 0 ? of_a : side<Exact>(cell, i, triangle.q, counts)) <= 0;
 }
 
-/// The order of contacts; but of two sides of a wall, or several walls at one place, one from whose side the edge comes. A
-/// triangle may reach round a rim, so that both sides are met.
+/// The order of contacts, except that of two sides of a wall, or of several walls in one place, a side from
+/// which the edge comes is preferred. A triangle may reach around a rim, so that it meets both sides.
 template <int D>
 bool is_preferred(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
                   const Contact<D>& other, Walk_counts& counts) {

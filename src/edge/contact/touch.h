@@ -11,10 +11,11 @@
 
 namespace cellwalk::detail {
 
-/// The first point off its start at which the edge that sweeps a triangle meets a closed wall, if it can get there; with the
-/// start, at which it meets one at all.
+/// The first point off its start at which the edge that sweeps a triangle meets a closed wall reachable from
+/// `start`; with_start: the first point at all.
 /// \pre a lies in the closure of `start`, a free cell
-/// Cost: some twenty signs a facet of the cells that meet the triangle, and rational arithmetic for each wall near it.
+/// Cost: some twenty signs a facet of the cells that meet the triangle, and rational arithmetic for each wall
+/// near it.
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, Cell start,
                                       const Swept_triangle<D>& triangle, Edge_counts& counts,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Times of events: roots of orientations of a moving point. Bounds in doubles first, fractions where these do not tell.
-// Theory: docs/sweep.md, events.
+// Times of events: roots of orientations of a moving point. They are compared by bounds in doubles first, and
+// by fractions if these are inconclusive. Theory: docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_EXACT_EVENT_TIME_H
 #define CELLWALK_EDGE_EXACT_EVENT_TIME_H
 
@@ -14,8 +14,8 @@
 
 namespace cellwalk::detail {
 
-/// The orientation of p(s) = a + s (b - a) and fixed points, which is affine in s: its signs at 0 and 1, and bounds of its root
-/// where they differ.
+/// The orientation of p(s) = a + s (b - a) and fixed points, which is affine in s: its signs at 0 and 1, and
+/// bounds of its root if these differ.
 template <int D>
 class Moving_orientation {
  public:
@@ -37,7 +37,7 @@ class Moving_orientation {
   double low() const { return root_.low; }             ///< \pre has_root()
   double high() const { return root_.high; }           ///< \pre has_root()
 
-  /// True if the roots are the same because the functions are, but for the sign: they have the same fixed points.
+  /// True if the two functions have the same fixed points, and so are equal up to sign, with equal roots.
   bool has_points_of(const Moving_orientation& other) const {
     return std::is_permutation(fixed_.begin(), fixed_.end(), other.fixed_.begin());
   }
@@ -52,9 +52,10 @@ class Moving_orientation {
   }
 
  private:
-  // The moving point comes last, so that it is in one difference only: a target may be so far away that one of it and a point
-  // of the environment forgets the point. In space that turns the sign. All begins at a point of the environment, since lines
-  // that are parallel to an axis, as the motion may be, stay that in differences of their own points.
+  // The moving point comes last, so that it occurs in one difference only: a target may be so far away that
+  // its difference from a point of the environment loses that point. In 3D this order reverses the sign. All
+  // differences are taken from a point of the environment, so that lines parallel to an axis, as the motion
+  // may be, stay parallel to it.
   Orientation_value value(const Point<D>& x, Predicate_counts& counts) const {
     if constexpr (D == 2) {
       return orientation_value(counts, fixed_[0], fixed_[1], x);
@@ -83,7 +84,7 @@ class Event_time {
  public:
   Event_time() = default;  ///< 0
   explicit Event_time(double time) : low_(time), high_(time) {}
-  explicit Event_time(const Fraction& time) : low_(0), high_(1), value_(time) {}
+  explicit Event_time(const Fraction& time) : high_(1), value_(time) {}
   /// \pre the function has a root
   static Event_time root_of(const Moving_orientation<D>& function) {
     Event_time result;
@@ -115,7 +116,8 @@ class Event_time {
     }
     return f.sign_at(value());
   }
-  /// The sign just after it, before 1: that of the value, or where that is 0, that of the value at 1.
+  /// The sign just after this time, before 1: that of the value, or, if the value is 0, that of the value at
+  /// 1.
   int sign_after(const Moving_orientation<D>& f) const {
     if (f.at_0() == f.at_1() || f.at_1() == 0) return f.at_0();
     if (f.at_0() == 0) return f.at_1();
@@ -132,8 +134,8 @@ class Event_time {
 
  private:
   double low_ = 0, high_ = 0;
-  std::optional<Moving_orientation<D>> function_;  ///< whose root it is
-  mutable std::optional<Fraction> value_;          ///< once asked for
+  std::optional<Moving_orientation<D>> function_;  ///< the function of which it is a root
+  mutable std::optional<Fraction> value_;          ///< once computed
 };
 
 }  // namespace cellwalk::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// When a moving point leaves a cell.
+// The time at which a moving point leaves a cell.
 #ifndef CELLWALK_EDGE_EXACT_EXIT_TIME_H
 #define CELLWALK_EDGE_EXACT_EXIT_TIME_H
 
@@ -9,8 +9,9 @@
 
 namespace cellwalk::detail {
 
-/// The share of the way from a to b at which it leaves a cell: where it passes the plane of the first facet that has b outside.
-/// \pre the way passes the closed cell, and b lies outside
+/// The parameter at which the path from a to b leaves a cell: at the plane of the first facet that has b
+/// outside.
+/// \pre the path passes the closed cell, and b lies outside
 template <int D>
 Event_time<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point<D>& b, Walk_counts& counts) {
   std::optional<Event_time<D>> first;

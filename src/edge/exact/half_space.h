@@ -48,7 +48,7 @@ inline Ring_vector<3> exact_cross(const Ring_vector<3>& a, const Ring_vector<3>&
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The point place / weight. The weight is positive.
+/// The point numerator / denominator. The denominator is positive.
 template <int D>
 struct Exact_point {
   Ring_vector<D> numerator;
@@ -60,7 +60,7 @@ struct Exact_point {
     for (int i = 0; i < D; ++i) x[i] = to_double(Fraction(numerator[i], denominator));
     return x;
   }
-  /// From another point to this one, times the weight.
+  /// The vector from another point to this one, times the denominator.
   Ring_vector<D> from(const Ring_vector<D>& x) const {
     Ring_vector<D> r;
     for (int i = 0; i < D; ++i) r[i] = numerator[i] - denominator * x[i];
@@ -74,7 +74,7 @@ struct Half_space {
   Ring_vector<D> point, normal;
 
   Ring at(const Ring_vector<D>& x) const { return exact_dot(normal, minus(x, point)); }
-  /// The same times the weight of x.
+  /// The same times the denominator of x.
   Ring at(const Exact_point<D>& x) const { return exact_dot(normal, x.from(point)); }
 };
 
@@ -85,7 +85,8 @@ using Half_spaces = boost::container::small_vector<Half_space<D>, 6>;
 Half_space<2> plane_of(const Cell_view<2>& cell, std::size_t i);
 Half_space<3> plane_of(const Cell_view<3>& cell, std::size_t i);
 
-/// The half-space that ends at side k of facet i, whose plane is given: in that plane they bound the closed facet.
+/// The half-space bounded by side k of facet i, whose plane is given. Within that plane the half-spaces of
+/// all sides bound the closed facet.
 Half_space<2> side_space(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Half_space<2>& plane);
 Half_space<3> side_space(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Half_space<3>& plane);
 

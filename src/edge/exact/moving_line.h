@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The segment from a moving point p(s) = a + s (b - a) to a fixed one, just after a time. Theory: docs/sweep.md, events.
+// The segment from a moving point p(s) = a + s (b - a) to a fixed one, just after a time. Theory:
+// docs/sweep.md, events.
 #ifndef CELLWALK_EDGE_EXACT_MOVING_LINE_H
 #define CELLWALK_EDGE_EXACT_MOVING_LINE_H
 
@@ -12,7 +13,7 @@
 
 namespace cellwalk::detail {
 
-/// The side of a point that moves from a to b against facet i.
+/// The side of facet i on which a point lies that moves from a to b.
 template <int D>
 Moving_orientation<D> moving_side(const Cell_view<D>& cell, std::size_t i, const Point<D>& a,
                                   const Point<D>& b, Walk_counts& counts) {
@@ -27,7 +28,7 @@ Moving_orientation<D> moving_side(const Cell_view<D>& cell, std::size_t i, const
   return {a, b, fixed(), -1, counts.predicates};
 }
 
-/// The line from p(s) to q just after time s, as exit_through() sees lines, and the functions behind it.
+/// The line from p(s) to q just after time s, with the interface of exit_through(), and its sign functions.
 template <int D>
 class Moving_line {
  public:
@@ -41,7 +42,7 @@ class Moving_line {
     return s_.sign_after(function({triangle_.q, v, w}));
   }
 
-  /// The line against ridge k of facet i.
+  /// The line with respect to ridge k of facet i.
   Moving_orientation<D> along_of(const Cell_view<D>& cell, std::size_t i, std::size_t k) const {
     ++counts_.along_tests;
     const auto loop = cell.loop(i);
@@ -50,19 +51,20 @@ class Moving_line {
     else
       return against(cell.point(loop[k]), cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]));
   }
-  /// The line against a line, or in 2D a point u = v.
+  /// The line with respect to the line uv, or in 2D the point u = v.
   Moving_orientation<D> against(const Point<D>& u, const Point<D>& v) const {
     if constexpr (D == 2)
       return function({triangle_.q, u});
     else
       return function({triangle_.q, u, v});
   }
-  /// p(s) against facet i.
+  /// p(s) with respect to facet i.
   Moving_orientation<D> side_of(const Cell_view<D>& cell, std::size_t i) const {
     return moving_side<D>(cell, i, triangle_.a, triangle_.b, counts_);
   }
 
-  /// The times after this one at which a sign changes that decides how the segment passes facet i, or whether it does.
+  /// Calls note(time) for the times after this one at which a sign changes that determines whether and how
+  /// the segment passes facet i.
   template <class Note>
   void for_all_roots(const Cell_view<D>& cell, std::size_t i, Note note) const {
     const auto note_root = [&](const Moving_orientation<D>& f) {
@@ -99,8 +101,8 @@ class Moving_line {
     return {triangle_.a, triangle_.b, fixed, sense, counts_.predicates};
   }
 
-  /// In a plane that holds the whole triangle: p(s) and two points of it, seen along an axis along which the triangle has an
-  /// area.
+  /// The same if the plane of the facet contains the whole triangle: p(s) and two points of the plane are
+  /// projected along an axis along which the triangle has a positive area.
   template <class Note>
   void note_root_in_plane(const Point<D>& x, const Point<D>& y, Note note) const {
     int axis = 0;

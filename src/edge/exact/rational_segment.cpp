@@ -11,9 +11,9 @@ bool are_zero(const auto& vector) {
   return std::all_of(vector.begin(), vector.end(), [](const Ring& x) { return CGAL::is_zero(x); });
 }
 
-/// True proves that a point, known by its coordinates rounded towards 0, is not on the line uv: a component of (v - u) x (x - u)
-/// is not 0. With w = 2^-53, the differences and products have relative errors w each, and a coordinate of x one of 2w or
-/// 2^-1074: less than 16w times the magnitude below.
+/// True proves that a point, given by its coordinates rounded towards 0, is not on the line uv: a component
+/// of (v - u) x (x - u) is not 0. With w = 2^-53, the differences and products have relative errors w each,
+/// and a coordinate of x one of 2w or 2^-1074: together less than 16w times the magnitude below.
 bool is_off(const Point<3>& u, const Point<3>& v, const Point<3>& x) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
@@ -40,7 +40,7 @@ Exact_point<D> Rational_segment<D>::at(const Fraction& t) const {
   return x;
 }
 
-/// Keeps the part of a span in a half-space. False if none is left.
+/// Keeps the part of a span in a half-space. Returns false if nothing is left.
 template <int D>
 bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) const {
   const auto begin_at = [&](const Fraction& t) {

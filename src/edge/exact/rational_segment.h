@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A segment with a rational end, and where it meets facets, exactly: for chains that lie in planes of facets.
+// A segment with a rational end and its exact intersections with facets, for chains in planes of facets.
 #ifndef CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
 #define CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
 
@@ -16,8 +16,8 @@ namespace cellwalk::detail {
 /// Closed interval of parameters.
 struct Span {
   Fraction low, high;
-  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders it begins and ends; none where it does at
-  /// an end of the segment.
+  /// The half-spaces of a facet (its plane from both sides, then its sides) at whose borders the span begins
+  /// and ends; -1 if it does so at an end of the segment.
   int low_border = -1, high_border = -1;
 };
 
@@ -33,9 +33,11 @@ class Rational_segment {
   Exact_point<D> at(const Fraction& t) const;
   /// Parameters of the points in closed facet i of a cell.
   std::optional<Span> in_facet(const Cell_view<D>& cell, std::size_t i) const;
-  /// Where it passes the border of a half-space of facet i, see Span; 1 if all of it, or its end, lies there.
+  /// The parameter at the border of a half-space of facet i, see Span; 1 if all of it, or its end, lies
+  /// there.
   Fraction at_border(const Cell_view<D>& cell, std::size_t i, int border) const;
-  /// The parameter of the point in the plane of facet i. \pre there is one
+  /// The parameter of the intersection with the plane of facet i.
+  /// \pre there is one
   Fraction in_plane(const Cell_view<D>& cell, std::size_t i) const;
 
  private:
@@ -45,7 +47,7 @@ class Rational_segment {
   Ring_vector<D> q_;
 };
 
-/// The lowest vertex, edge or facet of closed facet i of a cell that holds x, a point of it.
+/// The lowest vertex, edge or facet of closed facet i of a cell that contains x, a point of the facet.
 template <int D>
 Facet_feature lowest_feature(const Cell_view<D>& cell, std::size_t i, const Exact_point<D>& x);
 

@@ -11,7 +11,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// An edge of a face, and the corner opposite to it: the face begins at the edge in the direction of that.
+/// An edge of a face and the corner opposite to it, towards which the face extends from the edge.
 class Border {
  public:
   Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
@@ -21,10 +21,10 @@ class Border {
     boost::container::small_vector<Half_facet, 4> holding;
     for (const Half_facet wall : candidates.walls)
       if (side(wall, side_.from) == 0 && side(wall, side_.to) == 0 && side(wall, opposite_) != 0)
-        holding.push_back(wall);  // and not the face
+        holding.push_back(wall);  // contains the edge, but not the face
     if (holding.empty()) return Half_facet::none;
     edge_.emplace(snapshot_, side_.from, side_.to);
-    // Between the ends of the pieces that walls hold, all is as in the middle.
+    // Between the ends of the parts of the edge in walls, the middle decides for all points.
     std::vector<Fraction> ends;
     for (const Half_facet wall : candidates.walls) {
       const std::optional<Span> met = edge_->in_facet(wall);
@@ -46,7 +46,7 @@ class Border {
     return detail::side<Exact>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), x, counts_);
   }
 
-  /// True if the face begins in one of the cells that the chain is linked with at a point of the edge.
+  /// True if the face begins in one of the cells that are linked with the chain at the point at t.
   bool begins_at(const Fraction& t) const {
     for (const Cell c : linked_cells(*edge_, side_.start, *side_.chain.chain, t)) {
       bool holds_face = true;
@@ -54,8 +54,8 @@ class Border {
         const Half_facet f = Snapshot<3>::half_facet(c, i);
         const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
-        // The point lies in the plane of f: the side of the opposite corner is that of the face. If the face lies in a wall,
-        // its rests say where, and agree with the chain.
+        // The point lies in the plane of f: the face is on the side of the opposite corner. If the face lies
+        // in a wall, its supporting walls determine the side, and they agree with the chain.
         holds_face = side(f, opposite_) <= 0;
       }
       if (holds_face) return true;
@@ -72,7 +72,7 @@ class Border {
   const Snapshot<3>& snapshot_;
   const Face_side& side_;
   const Point<3>& opposite_;
-  std::optional<Exact_edge> edge_;  ///< made where a wall holds it, which is rare
+  std::optional<Exact_edge> edge_;  ///< made only if a wall contains it, which is rare
   Walk_counts& counts_;
 };
 

@@ -6,7 +6,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Four points against the planes and the facets of cells. No certain answer is ever wrong.
+/// Tests four points against the planes and facets of cells. Every certain answer is right.
 class Box_and_plane_test {
  public:
   Box_and_plane_test(const Snapshot<3>& snapshot, const Corners& corners)
@@ -22,7 +22,7 @@ class Box_and_plane_test {
     }
   }
 
-  /// Facets (bits) of a block that have points on both sides, or nearly.
+  /// The facets (bits) of a block that have, or may have, points on both sides.
   unsigned may_part(const Plane_block<3>& block) const {
     if (!is_certain_) return all_lanes;
     unsigned inside = all_lanes, outside = all_lanes;
@@ -34,7 +34,7 @@ class Box_and_plane_test {
     return all_lanes & ~(inside | outside);
   }
 
-  /// True if the box of the four points and that of a facet are apart.
+  /// True if the boxes of the four points and of a facet are disjoint.
   bool is_apart(Cell c, std::size_t i) const {
     const Cell_view<3> cell = snapshot_.view(c);
     unsigned below = 7, above = 7;  // axes

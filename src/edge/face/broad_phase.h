@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The cells that a tetrahedron may meet, found from one of them through passable facets, and the walls near it.
+// The cells that a tetrahedron may meet, found from one of them through passable facets, and the walls near
+// it.
 #ifndef CELLWALK_EDGE_FACE_BROAD_PHASE_H
 #define CELLWALK_EDGE_FACE_BROAD_PHASE_H
 
@@ -27,7 +28,7 @@ class Cell_set {
   std::unordered_set<Cell> index_;  ///< of all cells, once they are more
 };
 
-/// What a flood from a cell finds.
+/// The result of a flood from a cell.
 struct Candidate_walls {
   explicit Candidate_walls(Cell start) : cells(start) {}
 
@@ -38,9 +39,9 @@ struct Candidate_walls {
 
 using Corners = std::array<Point<3>, 4>;
 
-/// Finds all cells that a sheet of the closed tetrahedron may pass, and all walls of theirs that it may meet. May find more of both:
-/// planes and boxes that leave doubt count as met.
-/// Cost: a few ns a cell if no facet is near, up to some hundred else.
+/// Finds the cells reached from the first one through passable facets that may meet the closed tetrahedron,
+/// and all walls of these cells that may meet it. Planes and boxes that are inconclusive count as met.
+/// Cost: a few ns a cell if no facet is near, otherwise up to some hundred.
 void find_candidate_walls(const Snapshot<3>& snapshot, const Corners& corners, Candidate_walls& candidates,
                           Face_counts& counts);
 

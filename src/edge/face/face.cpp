@@ -37,7 +37,7 @@ class Face_sweep {
     return contact();
   }
 
-  /// The rests of the face at the end of a free motion.
+  /// The supporting walls of the face at the end of a free motion.
   Supporting_walls supporting_walls_at_end(const Candidate_walls& candidates) const {
     Supporting_walls supporting_walls;
     std::optional<Triangle_in_plane> face;
@@ -46,7 +46,7 @@ class Face_sweep {
       if (!face) face.emplace(std::array{corners_[1], corners_[2], corners_[3]}, counts_.walk);
       const std::size_t i = snapshot_.facet_of(wall);
       if (!face->holds(view(wall), i) || !face->overlaps(view(wall), i)) continue;
-      // Of walls that coincide without being glued, the face lies on the one whose cell is on its side.
+      // Of coincident walls that are not glued, the face lies on the one whose cell is on its side.
       const Half_facet supporting_wall = side(wall, corners_[0]) < 0 ? wall : snapshot_.opposite(wall);
       if (supporting_wall != Half_facet::none) supporting_walls.push_back(supporting_wall);
     }
@@ -60,7 +60,8 @@ class Face_sweep {
     return detail::side<Exact>(view(f), snapshot_.facet_of(f), x, counts_.walk);
   }
 
-  /// Keeps the first touch of all walls: earliest, then on the lowest feature, then of the lowest half-facet.
+  /// Keeps the first touch of all walls: the earliest, then that on the lowest feature, then that of the
+  /// lowest half-facet.
   void note(Half_facet wall) {
     const Swept_tetrahedron::Touch touch = tetrahedron_.first_touch(view(wall), snapshot_.facet_of(wall));
     if (wall_ != Half_facet::none) {
@@ -96,7 +97,7 @@ class Face_sweep {
   Half_facet wall_ = Half_facet::none;
 };
 
-/// The contact of a face of which an edge lies on the other side of a wall.
+/// The contact of a face one of whose edges lies on the other side of a wall.
 Face_result edge_on_other_side(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
   Contact<3> contact;
   contact.point = start;
@@ -107,7 +108,7 @@ Face_result edge_on_other_side(const Snapshot<3>& snapshot, Half_facet wall, con
   return {{}, contact, true};
 }
 
-/// Rests of a face that moved in its plane, or was put there.
+/// The supporting walls of a face that moved in its plane, or was placed there.
 Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                            const Particle<3>& r, const Face_chains& chains, const Candidate_walls& candidates,
                            const Supporting_walls& known, detail::Known use, Face_counts& counts) {

@@ -12,26 +12,27 @@ namespace {
 /// A side of a wall that overlaps the face in its plane, with free space on it.
 struct Patch {
   Half_facet half;
-  int side;  ///< of the face on which its cell lies
+  int side;  ///< of the face, on which its cell lies
   std::size_t group;
-  bool is_second;  ///< of the same wall as the one before it
-  /// Patches on the other side of the plane that overlap it inside the face: the second side of the wall; where the wall is
-  /// one-sided, those that coincide with it, or none.
+  bool is_second;  ///< the other side of the wall of the patch before it
+  /// Patches on the other side of the plane that overlap this one inside the face: the second side of the
+  /// wall; for a one-sided wall those that coincide with it, or none.
   boost::container::small_vector<std::size_t, 2> behind{};
 };
 
-/// A ridge in the plane of the face that overlaps its inside.
+/// A ridge in the plane of the face that overlaps its interior.
 struct Ridge {
   std::uint32_t u, v;
-  bool is_above = false, is_below = false;  ///< walls stand on it there
-  Half_facet wall;                          ///< one of them, or of the patches at it
+  bool is_above = false, is_below = false;  ///< walls at the ridge extend above or below the plane
+  Half_facet wall;                          ///< one of these walls, or of the patches at the ridge
   std::vector<std::size_t> patches;
 };
 
-/// Patches that have the face on one side of the plane: those behind each other, and those that share a ridge.
+/// Patches for which the face lies on the same side of the plane: those behind each other, and those that
+/// share a ridge.
 struct Group {
-  bool may_be_above = true, may_be_below = true;  ///< as far as walls say
-  int side = 0;                                   ///< taken: above > 0
+  bool may_be_above = true, may_be_below = true;  ///< as far as walls allow
+  int side = 0;                                   ///< chosen: > 0 above, < 0 below, 0 none yet
 
   bool& may_be(int at) { return at > 0 ? may_be_above : may_be_below; }
 };
@@ -47,7 +48,7 @@ class Supporting_wall_search {
     for (std::size_t k = 0; k < patches_.size(); ++k) join(patches_[k].behind, k);
     for (const Ridge& ridge : ridges_) join(ridge.patches, ridge.patches.empty() ? 0 : ridge.patches.front());
     for (const Patch& patch : patches_)
-      if (patch.behind.empty()) groups_[patch.group].may_be(-patch.side) = false;  // nothing is there
+      if (patch.behind.empty()) groups_[patch.group].may_be(-patch.side) = false;  // no free space there
     for (const Ridge& ridge : ridges_) bound(ridge);
   }
 
@@ -90,7 +91,7 @@ class Supporting_wall_search {
       if (!triangle_.overlaps(cell.point(loop[k]), cell.point(loop[next]))) continue;
       Ridge& ridge = ridge_of(cell.point_index(loop[k]), cell.point_index(loop[next]), wall);
       if (in_plane) ridge.patches.push_back(first);
-      // A wall that is not in the plane and has a ridge there lies on one side.
+      // A wall out of the plane with a ridge in it lies on one side.
       ridge.is_above |= std::any_of(heights.begin(), heights.end(), [](int h) { return h > 0; });
       ridge.is_below |= std::any_of(heights.begin(), heights.end(), [](int h) { return h < 0; });
     }
@@ -103,7 +104,7 @@ class Supporting_wall_search {
     return ridges_.back();
   }
 
-  /// Walls of one side may coincide without being glued.
+  /// Pairs one-sided walls, which may coincide without being glued.
   void pair_one_sided() {
     std::vector<std::size_t> above, below;
     for (std::size_t k = 0; k < patches_.size(); ++k)
@@ -138,7 +139,8 @@ class Supporting_wall_search {
     }
   }
 
-  /// The face lies on the side of a patch. It is pierced if it lies on the other one too, or walls forbid it.
+  /// Puts the face on the side of a patch. It is pierced if it lies on the other side too, or if walls
+  /// exclude the side.
   void take(const Patch& patch) {
     Group& group = groups_[patch.group];
     if (group.side == 0 && group.may_be(patch.side)) group.side = patch.side;
@@ -152,7 +154,7 @@ class Supporting_wall_search {
         if (supporting_wall == patch.half) take(patch);
   }
 
-  /// Takes the sides on which the chain of an edge passes.
+  /// Chooses the sides on which the chain of an edge passes.
   void follow(const Face_side& side) {
     const Exact_edge edge(snapshot_, side.from, side.to);
     std::optional<Fraction> t;  // where the edge meets the wall
@@ -169,7 +171,7 @@ class Supporting_wall_search {
         linked = linked_cells(edge, side.start, *side.chain.chain, *t);
       }
       if (!t || !is_linked(patch)) continue;
-      // Round the rim of the wall, both sides are.
+      // Around the rim of a wall, the edge is linked with both sides.
       const bool is_round = std::any_of(patch.behind.begin(), patch.behind.end(), [&](std::size_t k) {
         return is_linked(patches_[k]) && holds(edge, patches_[k], *t);
       });
@@ -182,7 +184,7 @@ class Supporting_wall_search {
     return met && met->low <= t && t <= met->high;
   }
 
-  /// Where any side will do, a fixed one.
+  /// The side of a group; if nothing determines it, the fixed side, as far as walls allow.
   int side_of(Group& group) const {
     const int fixed = triangle_.fixed_side();
     return group.side != 0 ? group.side : group.may_be(fixed) ? fixed : -fixed;

@@ -98,8 +98,8 @@ bool Swept_tetrahedron::is_parted_at_edge(const Cell_view<3>& cell, std::size_t 
   const auto loop = cell.loop(i);
   for (std::size_t e = 0; e < 4; ++e) {
     for (std::size_t f = e + 1; f < 4; ++f) {
-      // The edge is cd, the other corners are e and f. It begins at the corner that does not move, if there is one: the target
-      // may be so far away that differences to it forget the other points.
+      // The edge is cd; e and f are the other corners. It starts at the corner that does not move, if there
+      // is one: the target may be so far away that differences from it lose the other points.
       const std::size_t low = e == 0 ? (f == 1 ? 2 : 1) : 0, high = 6 - low - e - f;
       const std::size_t c = low == 1 ? high : low, d = low == 1 ? low : high;
       for (const std::uint16_t u : loop) {
@@ -140,7 +140,7 @@ Swept_tetrahedron::Touch Swept_tetrahedron::first_touch(const Cell_view<3>& cell
 
 Vector<3> Swept_tetrahedron::normal_at(const Fraction& time) const {
   const Exact_point<3> p = Rational_segment<3>(corners_[0], corners_[1]).at(time);
-  // From p to q and r, times a positive number.
+  // The vectors from p to q and r, times a positive number.
   const Ring_vector<3> u = negative(p.from(exact<3>(corners_[2]))),
                        v = negative(p.from(exact<3>(corners_[3])));
   const Ring_vector<3> n = exact_cross(u, v);

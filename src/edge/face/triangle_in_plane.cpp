@@ -28,13 +28,13 @@ bool Triangle_in_plane::holds(const Cell_view<3>& cell, std::size_t i) const {
 }
 
 int Triangle_in_plane::side_of_cell(const Cell_view<3>& cell, std::size_t i) const {
-  // The first three vertices of a facet do not lie on one line; they turn counterclockwise seen from outside.
+  // The first three vertices of a facet are not collinear; they turn counterclockwise seen from outside.
   const auto loop = cell.loop(i);
   return -own_sense_ * sense(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
 }
 
-// Convex sets of a plane, of which at least one has an area, have disjoint insides if and only if a side of one of them
-// separates them weakly.
+// Convex sets in a plane, at least one of which has a positive area, have disjoint interiors if and only if
+// the line of a side of one of them separates them weakly.
 bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const {
   const auto loop = cell.loop(i);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -53,7 +53,8 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const 
   return true;
 }
 
-// A half-plane that ends at a side of the facet, by its values at the corners: those of an affine function, positive inside.
+// The half-planes bounded by the sides of the facet, each by the values at the corners of an affine function
+// that is positive inside.
 void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,
                                      std::vector<Ring_vector<3>>& sides) const {
   const auto loop = cell.loop(i);
@@ -68,8 +69,8 @@ void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,
   }
 }
 
-// The triangle is cut by the sides of both, its points held by their volumes with the corners. Open convex sets have a point in
-// common if what is left of the closed ones lies on no side of any of them.
+// The triangle is clipped by the sides of both, its points given by their volumes with the corners. Open
+// convex sets have a point in common if the rest of the closed ones lies on no side of any of them.
 bool Triangle_in_plane::overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d,
                                  std::size_t j) const {
   using Point_by_corners = Ring_vector<3>;
@@ -119,8 +120,8 @@ bool Triangle_in_plane::is_pierced_by(const Cell_view<3>& cell, std::size_t i) c
     is_below |= s < 0;
   }
   if (!is_above || !is_below) return false;
-  // Tetrahedra on the triangle, on both sides of it: the facet has points inside the triangle if it reaches into one of them
-  // through it, off its sides. The apex may be anywhere off the plane.
+  // Tetrahedra on both sides of the triangle: the facet has points inside the triangle if it enters one of
+  // them through the triangle, off its sides. The apex may be any point off the plane.
   Point<3> apex = corners_[0];
   apex[axis_] += std::max(1.0, std::abs(apex[axis_]));
   std::vector<Volumes> in_plane;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A face where it stands, against walls in its plane and walls that reach it. All signs are exact.
+// A face at its current position, against walls in its plane and walls that reach it. All signs are exact.
 #ifndef CELLWALK_EDGE_FACE_TRIANGLE_IN_PLANE_H
 #define CELLWALK_EDGE_FACE_TRIANGLE_IN_PLANE_H
 
@@ -13,33 +13,34 @@
 
 namespace cellwalk::detail {
 
-/// A triangle that has an inside.
+/// A triangle of positive area.
 class Triangle_in_plane {
  public:
-  /// \pre the corners do not lie on one line
+  /// \pre the corners are not collinear
   Triangle_in_plane(const std::array<Point<3>, 3>& corners, Walk_counts& counts);
 
   const std::array<Point<3>, 3>& corners() const { return corners_; }
 
-  /// > 0 on the side from where the corners turn counterclockwise, 0 in the plane.
+  /// > 0 on the side from which the corners turn counterclockwise, 0 in the plane.
   int side(const Point<3>& x) const {
     return Exact::orientation(counts_.predicates, corners_[0], corners_[1], corners_[2], x);
   }
   /// True if a facet lies in the plane.
   bool holds(const Cell_view<3>& cell, std::size_t i) const;
-  /// The side() of the cell of such a facet.
+  /// The side() on which the cell of such a facet lies.
   int side_of_cell(const Cell_view<3>& cell, std::size_t i) const;
 
-  /// The side() towards which (e, e^2, e^3) points, e small: a side of the plane by its direction alone.
+  /// The side() towards which (e, e^2, e^3) points, e small: it depends on the direction of the plane alone.
   int fixed_side() const { return own_sense_; }
 
-  /// True if the inside of a facet in the plane and that of the triangle overlap.
+  /// True if the interiors of a facet in the plane and of the triangle overlap.
   bool overlaps(const Cell_view<3>& cell, std::size_t i) const;
-  /// True if two facets in the plane overlap inside the triangle. In exact numbers: some ten us.
+  /// True if two facets in the plane overlap inside the triangle.
+  /// Cost: some ten us, in exact numbers.
   bool overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d, std::size_t j) const;
   /// True if a segment in the plane has a part of positive length inside the triangle.
   bool overlaps(const Point<3>& u, const Point<3>& v) const;
-  /// True if an inner point of a facet lies inside the triangle, and the facet not in its plane.
+  /// True if an interior point of a facet lies inside the triangle, and the facet does not lie in its plane.
   bool is_pierced_by(const Cell_view<3>& cell, std::size_t i) const;
 
  private:
@@ -49,8 +50,8 @@ class Triangle_in_plane {
 
   std::array<Point<3>, 3> corners_;
   Walk_counts& counts_;
-  std::size_t axis_ = 0;  ///< the first along which the triangle has an area
-  int own_sense_ = 0;     ///< of the corners, seen so
+  std::size_t axis_ = 0;  ///< the first along which the projected triangle has a positive area
+  int own_sense_ = 0;     ///< orientation of the projected corners
 };
 
 }  // namespace cellwalk::detail

@@ -11,7 +11,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Signs of which none is negative, or none is positive: a line passes the closed polygon whose sides they are of.
+/// Signs none of which is negative, or none of which is positive: then a line passes the closed polygon whose
+/// sides they belong to.
 class One_sided {
  public:
   void add(int sign) {
@@ -24,7 +25,7 @@ class One_sided {
   bool some_negative_ = false, some_positive_ = false;
 };
 
-/// False if a facet lies beyond the triangle along an axis: their boxes are apart.
+/// False if the boxes of a facet and the triangle are disjoint.
 template <int D>
 bool boxes_meet(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t) {
   const auto loop = cell.loop(i);
@@ -41,7 +42,7 @@ bool boxes_meet(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>
   return true;
 }
 
-/// True if the triangle is the way of p alone.
+/// True if the triangle is the path of p alone.
 template <int D>
 bool is_segment(const Swept_triangle<D>& t) {
   return t.q == t.a;
@@ -68,14 +69,14 @@ bool may_intersect(const Cell_view<2>& cell, std::size_t i, const Swept_triangle
   if (!boxes_meet<2>(cell, i, t)) return false;
   const auto loop = cell.loop(i);
   const Point<2>&u = cell.point(loop[0]), &v = cell.point(loop[1]);
-  // Convex sets of the plane are apart if and only if a side of one of them separates them.
+  // Convex sets in the plane are disjoint if and only if the line of a side of one of them separates them.
   const std::array<const Point<2>*, 3> corners{&t.a, &t.b, &t.q};
   int sum = 0;
   for (const auto* corner : corners) sum += sign_in_plane(u, v, *corner, counts);
   if (std::abs(sum) == 3) return false;
   const int sense = sign_in_plane(t.a, t.b, t.q, counts);
   if (sense == 0) {
-    // A way without an edge is a segment: the line of that may separate them.
+    // A path without an edge is a segment, whose line may separate them.
     return !is_segment<2>(t) || sign_in_plane(t.a, t.b, u, counts) * sign_in_plane(t.a, t.b, v, counts) <= 0;
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -100,7 +101,8 @@ bool may_intersect(const Cell_view<3>& cell, std::size_t i, const Swept_triangle
     const std::size_t next = (k + 1) % 3;
     if (sides[k] * sides[next] > 0) continue;
     if (sides[k] == 0 && sides[next] == 0) return true;
-    // Either way round; not from b, which may be so far away that differences to it forget the other points.
+    // In either direction, but not from b, which may be so far away that differences from it lose the other
+    // points.
     const std::size_t from = k == 1 ? next : k, to = k == 1 ? k : next;
     One_sided passed;
     for (std::size_t r = 0; r < loop.size() && passed; ++r)

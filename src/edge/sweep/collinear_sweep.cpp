@@ -20,40 +20,40 @@ Sweep_result<D> detail::collinear_sweep(const Snapshot<D>& snapshot, const Verte
   const bool shrinks =
       (a[axis] < b[axis] && a[axis] < q.position[axis]) || (a[axis] > b[axis] && a[axis] > q.position[axis]);
   if (!shrinks) {
-    // Every chain passed before is passed behind the way of p.
+    // The edge gets longer: it keeps its chain, behind the path of p.
     prepend_crossed_facets(snapshot, result.chain, path.crossed);
     return result;
   }
-  // Shares of the way from a to b or to q, whichever is further: where q is, and where p ends.
-  const Ring way_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
-  const Ring way_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
-  const Ring whole = std::max<Ring>(way_of_p, way_to_q);
-  const Rational_segment<D> line(a, way_of_p < way_to_q ? q.position : b);
-  const Fraction at_q(way_to_q, whole);
+  // Parameters on the segment from a to b or to q, whichever is further: that of q, and that of the end of p.
+  const Ring path_of_p = CGAL::abs(Ring(Ring(b[axis]) - Ring(a[axis])));
+  const Ring distance_to_q = CGAL::abs(Ring(Ring(q.position[axis]) - Ring(a[axis])));
+  const Ring whole = std::max<Ring>(path_of_p, distance_to_q);
+  const Rational_segment<D> line(a, path_of_p < distance_to_q ? q.position : b);
+  const Fraction at_q(distance_to_q, whole);
   Event_time<D> limit(until.value_or(1));
   if (path.blocked) {
     const auto blocked = exit_time<D>(snapshot.view(path.visited.back()), a, b, counts);
     if (blocked < limit) limit = blocked;
   }
-  const Fraction end = Fraction(way_of_p, whole) * limit.value();
+  const Fraction end = Fraction(path_of_p, whole) * limit.value();
 
   const auto pieces = pieces_of<D>(snapshot, line, path.from.cell, {before.data(), before.size()}, at_q);
   const auto walked = pieces_of<D>(snapshot, line, path.from.cell, path.crossed, end);
   if (const auto parting = parting_of(snapshot, line, pieces, walked)) {
     result.chain.clear();
-    const Exact_time time = to_time(parting->at * Fraction(whole, way_of_p));
+    const Exact_time time = to_time(parting->at * Fraction(whole, path_of_p));
     result.contact = edge_contact<D>(snapshot, time, parting->wall, line.at(parting->at));
     return result;
   }
   std::size_t i = 0;
   if (end <= at_q) {
-    // What is left of the chain, and p linked with it.
+    // The rest of the chain, linked with p.
     while (pieces[i].high < end) ++i;
     result.chain.assign(before.begin() + static_cast<std::ptrdiff_t>(i), before.end());
     prepend_crossed_facets<D>(snapshot, result.chain,
                               link_at(snapshot, line, pieces[i].cell, path.to.cell, end));
   } else {
-    // p has passed q: the way from there on.
+    // p has passed q: the rest of its path.
     while (walked[i].high < at_q) ++i;
     const auto link = link_at(snapshot, line, walked[i].cell, q.cell, at_q);
     result.chain.assign(link.begin(), link.end());

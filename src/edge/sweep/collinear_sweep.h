@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edges whose end moves in their line: the triangle that they sweep is a segment. Theory: docs/sweep.md.
+// The sweep of an edge whose end moves in its line: the triangle is a segment. Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_SWEEP_COLLINEAR_SWEEP_H
 #define CELLWALK_EDGE_SWEEP_COLLINEAR_SWEEP_H
 
@@ -11,8 +11,8 @@
 
 namespace cellwalk::detail {
 
-/// sweep_triangle() where a, b and q lie on one line. The edge gets longer and is free; or shorter, and then p must stay on
-/// the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
+/// sweep_triangle() for collinear a, b and q. If the edge gets longer, it is free; if it gets shorter, p must
+/// stay on the side of each wall in that line on which the edge lies. Contacts from `until` on do not count.
 template <int D>
 Sweep_result<D> collinear_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                 const Chain& before, Walk_counts& counts, std::optional<double> until);

@@ -8,8 +8,9 @@
 namespace cellwalk {
 namespace {
 
-/// False proves that an edge which passes a chain all along its sweep has no choice: no wall of the cells of the chain lies in the plane
-/// of the triangle, or in all of them nothing but walls does, so that none begins.
+/// False proves that an edge that passes a chain throughout its sweep has no choice of sides: no wall of the
+/// cells of the chain lies in the plane of the triangle, or in each of these cells only walls do, so that no
+/// wall begins.
 bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Cell start, const Chain& chain,
                      Walk_counts& counts) {
   bool has_wall = false, has_opening = false;
@@ -30,7 +31,8 @@ bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Ce
   return has_wall && has_opening;
 }
 
-/// In 2D walls lie in the line of an edge only while its end moves in it too: then the end has the choice.
+/// In 2D, walls lie in the line of an edge only while its end moves in that line; then the end has the
+/// choice.
 bool may_have_choice(const Snapshot<2>&, const Swept_triangle<2>&, Cell, const Chain&, Walk_counts&) {
   return false;
 }
@@ -50,8 +52,8 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
     return !may_have_choice(snapshot, triangle, end, chain, counts.walk);
   };
-  // A triangle with a corner inside of a cell lies in the plane of no facet of it; and a convex union has no facet in a plane
-  // through its inside.
+  // A triangle with a corner in the interior of a cell lies in the plane of no facet of it; and a convex
+  // union has no facet in a plane through its interior.
   const bool has_inner_corner = (!path.blocked && p.dimension == D) || q.dimension == D;
   if (certificates.same_cell && chain.empty() && (has_inner_corner || has_no_choice())) {
     ++counts.same_cell;
@@ -69,7 +71,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   }
   counts.chain_facets += chain.size();
   if (path.blocked) {
-    // If the edge passes the chain where p does not come, beyond the wall, then also where it stops: V is convex.
+    // If the edge passes the chain at the target, beyond the wall, then also where p stops: V is convex.
     if (!certificates.same_chain || !passes(snapshot, chain, p.position, q.position, counts.walk) ||
         !has_no_choice())
       return false;
@@ -78,7 +80,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     result.chain = chain;
     return true;
   }
-  // A walk is faster than the signs of passes(), but where several chains are legal it may find another one.
+  // A walk is faster than the signs of passes(), but may find another chain if several are valid.
   bool on_planes = false;
   result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);
   if (!certificates.same_chain) return false;

@@ -16,7 +16,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// p leaves a cell: when, through which facets, and for which cell.
+/// A step of p to its next cell: the time, the facets crossed, and that cell.
 template <int D>
 struct Step {
   Event_time<D> time;
@@ -65,7 +65,8 @@ class Event_sweep {
       Moving_line_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
       std::optional<Event_time<D>> next;
       const bool is_found = walk.from(start_);
-      // Walls in the plane of the triangle may begin wherever the edge comes to them: then only all ways tell which one it goes.
+      // Walls in the plane of the triangle may begin wherever the edge arrives at them; then only a search of
+      // all paths determines its side.
       const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
       const auto relinked =
           is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
@@ -89,7 +90,7 @@ class Event_sweep {
   }
 
  private:
-  /// Whether a wall near the triangle lies in its plane; looked for once.
+  /// Whether a wall near the triangle lies in its plane; computed once.
   bool lies_in_wall_plane(const Moving_line<D>& line) {
     if (!in_wall_plane_) in_wall_plane_ = has_wall_in_plane(snapshot_, line, first_);
     return *in_wall_plane_;
@@ -106,24 +107,24 @@ class Event_sweep {
     }
   }
 
-  /// The first time at which p lies in all of some facets, which it passes together.
+  /// The first time at which p lies in all of the given facets, which it passes together.
   Event_time<D> passing_time(std::span<const Half_facet> facets) const {
     if (facets.size() == 1) {
       const Half_facet f = facets.front();
       const auto side = moving_side<D>(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f),
                                        triangle_.a, triangle_.b, counts_);
       if (side.has_root()) return Event_time<D>::root_of(side);
-      if (side.at_1() != 0) return {};  // a lies in it
+      if (side.at_1() != 0) return {};  // a lies in the plane of the facet
     }
-    const Rational_segment<D> way_of_p(triangle_.a, triangle_.b);
+    const Rational_segment<D> path_of_p(triangle_.a, triangle_.b);
     Fraction time = 0;
     for (const Half_facet f : facets)
-      if (const auto met = way_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
+      if (const auto met = path_of_p.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f)))
         time = std::max<Fraction>(time, met->low);
     return Event_time<D>(time);
   }
 
-  /// The next time at which one of the signs changes that make the edge pass its chain.
+  /// The next time at which one of the signs changes by which the edge passes its chain.
   std::optional<Event_time<D>> end_of(const Chain& chain, const Moving_line<D>& line) const {
     std::optional<Event_time<D>> end;
     const auto note = [&](const Event_time<D>& root) {
@@ -146,7 +147,8 @@ class Event_sweep {
     return edge_contact<D>(snapshot_, time, wall, segment.at(at ? *at : Fraction(1)));
   }
 
-  /// True if the edge comes through closed facet i of a cell from its inner side, in one point, at the time of a line.
+  /// True if the edge, at the time of a line, passes closed facet i of a cell from its inner side in one
+  /// point.
   bool leaves_through(const Cell_view<D>& cell, std::size_t i, const Moving_line<D>& line) const {
     if (side<Exact>(cell, i, triangle_.q, counts_) <= 0) return false;
     const Event_time<D>& now = line.time();
@@ -164,7 +166,7 @@ class Event_sweep {
   const Particle<D>& q_;
   Walk_counts& counts_;
   std::vector<Step<D>> steps_;
-  std::optional<Event_time<D>> limit_;  ///< no event from then on matters
+  std::optional<Event_time<D>> limit_;  ///< events from then on do not matter
   std::optional<bool> in_wall_plane_;
 };
 

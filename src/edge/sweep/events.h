@@ -11,8 +11,8 @@
 
 namespace cellwalk::detail {
 
-/// Carries the chain along until p arrives, is blocked, or `until`; contacts from then on do not count. Any position is legal,
-/// p moving in the line of its edge too.
+/// Updates the chain from event to event until p arrives, is blocked, or `until`; contacts from then on do
+/// not count. Every position is allowed; p may also move in the line of its edge.
 template <int D>
 Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                               const Chain& before, Walk_counts& counts, std::optional<double> until = {});

@@ -18,7 +18,7 @@ std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Ver
   return Free_chain{std::move(result.chain)};
 }
 
-/// What the walls near a swept triangle prove of it.
+/// The conclusion from the walls near a swept triangle.
 enum class Triangle_verdict { free, blocked, undecided };
 
 template <int D>
@@ -57,12 +57,13 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
   Chain_result<D> result;
   const std::uint64_t signs = counts.walk.predicates.orientations;
   if (detail::confirm_chain(snapshot, path, q, before, options.certificates, result, counts)) {
-    // Where no sign was asked, planes alone say that the edge at its end passes its facets strictly inside, or its ends lie
-    // strictly inside of cells. With the way of p, so does the edge at all times before, but perhaps where it started.
+    // If no sign was computed, planes alone prove that the edge at its end passes the interiors of its
+    // facets, or that its ends lie in the interiors of cells. With the path of p, this holds for the edge at
+    // all times before, except possibly at its start.
     return Free_chain{result.chain, path.is_apart && counts.walk.predicates.orientations == signs};
   }
   ++counts.changed;
-  // Where a facet is passed in its inside, the edge is on both sides of it, wherever it came from.
+  // An edge that passes the interior of a facet has points on both sides of it, wherever it came from.
   const bool is_crossed =
       result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
   if (is_crossed) return {};

@@ -8,9 +8,9 @@
 
 namespace cellwalk::detail {
 
-/// Walks from p(s+) to q, by ways that the rule of the walk allows (more than one only in planes of facets), until one leads to
-/// the side of q and is accepted. There may be as many ways as there are sides of all walls in such a plane; after some dead
-/// ends it gives up, and relink() decides.
+/// Walks from p(s+) to q along paths that the rule of the walk allows (several only in planes of facets),
+/// until one leads to the side of q and is accepted. There may be as many paths as there are sides of all
+/// walls in such a plane; after some dead ends the walk gives up, and relink() decides.
 template <int D, class Accept>
 class Moving_line_walk {
  public:
@@ -18,7 +18,7 @@ class Moving_line_walk {
                    Accept accept)
       : snapshot_(snapshot), line_(line), q_(q), accept_(accept) {}
 
-  /// Goes on from a cell; true once accepted.
+  /// Continues from a cell; true once a path is accepted.
   bool from(Cell c) {
     if (dead_ends_ >= most_dead_ends) return false;
     const Cell_view<D> cell = snapshot_.view(c);
@@ -37,9 +37,9 @@ class Moving_line_walk {
   }
 
   const Chain& chain() const { return chain_; }
-  /// True if a cell that it came to has a facet in the plane of the triangle.
+  /// True if a visited cell has a facet in the plane of the triangle.
   bool is_in_plane() const { return in_plane_; }
-  /// The first wall that was in the way.
+  /// The first wall that blocked a path.
   Half_facet wall() const { return wall_; }
 
  private:
@@ -79,7 +79,7 @@ class Moving_line_walk {
     return false;
   }
 
-  static constexpr int most_dead_ends = 8;  ///< walks that cost as much as relinking
+  static constexpr int most_dead_ends = 8;  ///< so many walks cost as much as relinking
 
   const Snapshot<D>& snapshot_;
   const Moving_line<D>& line_;

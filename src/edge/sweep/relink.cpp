@@ -12,7 +12,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// True if a facet of a cell does.
+/// True if the plane of a facet of a cell contains the triangle.
 template <int D>
 bool holds_triangle(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell c) {
   const Cell_view<D> cell = snapshot.view(c);
@@ -46,12 +46,12 @@ class Relink_search {
     return Relinked<D>{search.chain(), end};
   }
 
-  /// True if a way is not equal to the chain up to a place.
+  /// True if a path is not equal to the chain up to a parameter.
   bool is_wrong(const Chain& path, const Fraction& end) const {
     const auto pieces = pieces_of<D>(snapshot_, now_, start_, {path.data(), path.size()}, end);
     return parting_of(snapshot_, now_, pieces_, pieces).has_value();
   }
-  /// Where the place at which the edge passes a border just after this time ends up at this time.
+  /// The parameter at this time of the point at which the edge passes a border just after it.
   Fraction limit_of(const Cell_view<D>& cell, std::size_t i, int border) const {
     return now_.at_border(cell, i, border);
   }
@@ -59,7 +59,7 @@ class Relink_search {
     Half_facet wall = Half_facet::none;
     return are_equal(snapshot_, now_, start_, chain_, path, wall);
   }
-  /// There are two sides only: which of them comes after the one preferred is no question.
+  /// There are only two sides, so those that are not preferred need no order.
   bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
 
  private:
@@ -70,7 +70,7 @@ class Relink_search {
                        [&](Cell c) { return holds_triangle(snapshot_, line_, c); });
   }
 
-  /// Until then, the edge passes the facets of these cells in the same way.
+  /// The time until which the edge passes the facets of these cells in the same way.
   Event_time<D> next_root() const {
     Event_time<D> end(1.0);
     const auto note = [&](const Event_time<D>& root) {
@@ -93,7 +93,8 @@ class Relink_search {
   const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
 };
 
-/// False proves that no facet of cells linked with the edge, a wall if only those are asked for, holds the triangle.
+/// False proves that the plane of no facet (`of_walls`: of no wall) of the cells linked with the edge
+/// contains the triangle.
 template <int D>
 bool may_lie_in_plane(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, bool of_walls) {
   Flooded cells{start};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How an edge that moves in the plane of facets goes on: through any of them, wherever it lies in them. Theory: docs/sweep.md.
+// The continuation of an edge that moves in the plane of facets, through any of which it may change sides.
+// Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_SWEEP_RELINK_H
 #define CELLWALK_EDGE_SWEEP_RELINK_H
 
@@ -9,25 +10,27 @@
 
 namespace cellwalk::detail {
 
-/// A chain of the edge just after a time, and how long it is passed and no other one takes its place.
+/// A chain of the edge just after a time, and the time until which it remains the chain.
 template <int D>
 struct Relinked {
   Chain chain;
   Event_time<D> end;
 };
 
-/// A chain of the edge just after a time that starts in a cell of p and is equal to another at that time, if there is one. For
-/// triangles in the plane of facets, where the edge may change sides all along a facet, not only where it leaves a cell;
-/// elsewhere nothing is looked for. Of several it is the one that, from p on, keeps to the side of walls in that plane on which the
-/// edge lies once it is displaced, see displaced_side(), as far as it can.
+/// A chain of the edge just after a time that starts in a cell of p and is equal to a given one at that time;
+/// none if there is none. It serves triangles in the plane of facets, where the edge may change sides
+/// anywhere in a facet, not only where it leaves a cell; for others the result is none. Of several chains it
+/// is the one that, from p on, stays as far as possible on the side of walls in that plane on which the
+/// displaced edge lies, see displaced_side().
 /// \pre the chain is valid at line.time() < 1, and starts in that cell
-/// Cost: some signs a facet of the cells near the triangle where none holds it; else up to a millisecond: exact numbers for all
-/// facets of the cells linked with the edge.
+/// Cost: some signs a facet of the cells near the triangle if the plane of none contains it; otherwise up to
+/// a millisecond: exact numbers for all facets of the cells linked with the edge.
 template <int D>
 std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
                                   const Particle<D>& q, const Chain& chain);
 
-/// True if a wall near the triangle lies in its plane. \pre p is in that cell before it moves
+/// True if a wall near the triangle lies in its plane.
+/// \pre p is in that cell before it moves
 bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, Cell start);
 inline bool has_wall_in_plane(const Snapshot<2>&, const Moving_line<2>&, Cell) { return false; }
 

@@ -27,14 +27,14 @@ void keep_first(std::optional<Contact<D>>& first, const std::optional<Contact<D>
   if (other && (!first || is_before(*other, *first))) first = other;
 }
 
-/// The third segment where a wall stops p: a temporary particle walks to q from the place that p has just before, which need not
-/// be a double. Where p moves in the line of the edge, the events say the same.
+/// The third segment if a wall stops p: a temporary particle walks to q from the position of p just before,
+/// which need not be a double. If p moves in the line of the edge, the events decide this.
 template <int D>
 bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                            Walk_counts& counts) {
   if (are_collinear(path.from.position, path.to.position, q.position)) return false;
-  // The motion seen backwards: p enters its last cell at the last of the times at which it passes planes of the facets beyond
-  // which it comes from, and what is just after that then is just before it now.
+  // The reversed motion: p enters its last cell at the last of the times at which it passes planes of facets
+  // from outside. The position just after that time is the position just before the block.
   const Swept_triangle<D> backwards{path.to.position, path.from.position, q.position};
   const Cell last = path.visited.back();
   const Cell_view<D> cell = snapshot.view(last);
@@ -50,7 +50,7 @@ bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   return detail::Moving_line_walk<D, decltype(accept)>(snapshot, line, q, accept).from(last);
 }
 
-/// Whether the edge is blocked, and if so when: by the paper's segments or by the complete sweep.
+/// The first contact of the edge, or its chain: by the paper's segments or by the complete sweep.
 template <int D>
 Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                        const Chain& before, const Sweep_options& options, Edge_counts& counts) {
@@ -70,8 +70,8 @@ Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, 
     Chain_result<D> found = check_third_segment(snapshot, path, q, before, counts, options.certificates);
     if (!found.contact && !found.has_choice) return {{}, std::move(found.chain)};
   }
-  // A contact is one on the edge at its end; when the motion came to it, and on which sides of walls in which it lies the edge
-  // goes on, is for the events to say.
+  // The segments find a contact of the edge at its end only. The events determine its time, and the sides of
+  // walls on which an edge that lies in them continues.
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, path, q, before, counts.walk);
 }
@@ -150,7 +150,7 @@ template <int D>
 Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts) {
-  if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // of p, its walk says so
+  if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // the walk of p checks that of p
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   Particle<D> moved = p;

@@ -13,7 +13,7 @@ Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates) {
   if (path.from.position == path.to.position) {
-    // A walk along the edge might find another chain, on the other side of a wall in which the edge lies.
+    // A walk along the edge might find another chain, on the other side of a wall that contains the edge.
     ++counts.edges;
     ++counts.same_chain;
     return {{}, before};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that separates two
-// convex polytopes can be moved until it holds D of their vertices.
+// Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that
+// separates two convex polytopes can be moved until it contains D of their vertices.
 #include <algorithm>
 #include <iterator>
 #include <vector>
@@ -28,13 +28,13 @@ Loop loop_of(const Cell_view<D>& cell, std::size_t facet) {
   return loop;
 }
 
-/// Decides whether the interior of a cell lies right on the inner side of a boundary facet.
+/// Decides whether the interior of a cell lies directly on the inner side of a boundary facet.
 template <int D>
 class Overlap_test {
  public:
   explicit Overlap_test(std::span<const Point<D>> points) : points_(points) {}
 
-  /// True if an open part of the facet, moved inwards by next to nothing, lies inside the cell.
+  /// True if an open part of the facet, moved inwards by an arbitrarily small amount, lies inside the cell.
   bool operator()(const Boundary_facet<D>& facet, const Cell_view<D>& cell) {
     bool has_outer = false, has_inner = false;
     for (const std::uint32_t v : cell.vertices) {
@@ -98,7 +98,7 @@ class Overlap_test {
         const Loop loop = loop_of(cell, g);
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const std::uint32_t u = loop[i], v = loop[(i + 1) % loop.size()];
-          if (v < u) continue;  // each edge occurs both ways
+          if (v < u) continue;  // each edge occurs in both directions
           for (const std::uint32_t w : facet.loop)
             if (separates({u, v, w}, facet, cell)) return true;
         }
@@ -160,14 +160,14 @@ template <int D>
 void certify_boundary(const Complex<D>& complex) {
   const Snapshot<D>& snapshot = complex.snapshot();
   const std::vector<Boundary_facet<D>> facets = boundary_facets(complex);
-  using Entry = std::pair<Box<D>, std::uint32_t>;
+  using Entry = std::pair<Tree_box<D>, std::uint32_t>;
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < facets.size(); ++i)
     entries.push_back({box_of<D>(snapshot.points(), facets[i].loop), i});
   const boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>> tree(entries);
 
   constexpr std::uint32_t none = 0xffffffffu;
-  // The lowest boundary facet that has cell c inside it.
+  // The lowest boundary facet with cell c on its inner side.
   const auto lowest_overlap = [&](Cell c, Overlap_test<D>& test, std::vector<Entry>& candidates) {
     const Cell_view<D> view = snapshot.view(c);
     candidates.clear();
@@ -210,7 +210,7 @@ void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell>
   Overlap_test<D> test(snapshot.points());
   for (const Cell c : star) {
     const Cell_view<D> view = snapshot.view(c);
-    const Box<D> box = box_of<D>(snapshot.points(), view.vertices);
+    const Tree_box<D> box = box_of<D>(snapshot.points(), view.vertices);
     for (const Boundary_facet<D>& facet : facets)
       if (snapshot.cell_of(facet.facet) != c &&
           boost::geometry::intersects(box, box_of<D>(snapshot.points(), facet.loop)) && test(facet, view))

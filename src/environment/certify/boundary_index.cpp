@@ -16,7 +16,7 @@ bool is_same(const Box_corner<3>& a, const Box_corner<3>& b) {
   return a.get<0>() == b.get<0>() && a.get<1>() == b.get<1>() && a.get<2>() == b.get<2>();
 }
 
-/// To the bit, where Boost's equals() allows for a tolerance.
+/// Exact equality; Boost's equals() allows a tolerance.
 template <class Corner>
 bool is_same(const boost::geometry::model::box<Corner>& a, const boost::geometry::model::box<Corner>& b) {
   return is_same(a.min_corner(), b.min_corner()) && is_same(a.max_corner(), b.max_corner());
@@ -25,7 +25,7 @@ bool is_same(const boost::geometry::model::box<Corner>& a, const boost::geometry
 }  // namespace
 
 template <int D>
-Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices) {
+Tree_box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices) {
   Point<D> low, high;
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
@@ -39,8 +39,8 @@ Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> v
 }
 
 template <int D>
-Box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
-  Box<D> box = box_of<D>(snapshot.points(), snapshot.view(cells[0]).vertices);
+Tree_box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
+  Tree_box<D> box = box_of<D>(snapshot.points(), snapshot.view(cells[0]).vertices);
   for (const Cell c : cells)
     boost::geometry::expand(box, box_of<D>(snapshot.points(), snapshot.view(c).vertices));
   return box;
@@ -81,7 +81,7 @@ void Boundary_index<D>::replace(std::span<const Entry> old, std::span<const Entr
 }
 
 template <int D>
-std::vector<Half_facet> Boundary_index<D>::meeting(const Box<D>& box) const {
+std::vector<Half_facet> Boundary_index<D>::meeting(const Tree_box<D>& box) const {
   std::vector<Half_facet> result;
   for (auto it = tree_.qbegin(boost::geometry::index::intersects(box)); it != tree_.qend(); ++it)
     result.push_back(Half_facet{it->second});
@@ -89,10 +89,10 @@ std::vector<Half_facet> Boundary_index<D>::meeting(const Box<D>& box) const {
   return result;
 }
 
-template Box<2> box_of<2>(std::span<const Point<2>>, std::span<const std::uint32_t>);
-template Box<3> box_of<3>(std::span<const Point<3>>, std::span<const std::uint32_t>);
-template Box<2> box_of<2>(const Snapshot<2>&, std::span<const Cell>);
-template Box<3> box_of<3>(const Snapshot<3>&, std::span<const Cell>);
+template Tree_box<2> box_of<2>(std::span<const Point<2>>, std::span<const std::uint32_t>);
+template Tree_box<3> box_of<3>(std::span<const Point<3>>, std::span<const std::uint32_t>);
+template Tree_box<2> box_of<2>(const Snapshot<2>&, std::span<const Cell>);
+template Tree_box<3> box_of<3>(const Snapshot<3>&, std::span<const Cell>);
 template class Boundary_index<2>;
 template class Boundary_index<3>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Boundary facets by where they are, kept while an environment is edited. Internal.
+// An index of boundary facets by position, kept while an environment is edited. Internal.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_INDEX_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_INDEX_H
 
@@ -18,35 +18,37 @@ namespace cellwalk::detail {
 template <int D>
 using Box_corner = boost::geometry::model::point<double, D, boost::geometry::cs::cartesian>;
 template <int D>
-using Box = boost::geometry::model::box<Box_corner<D>>;
+using Tree_box = boost::geometry::model::box<Box_corner<D>>;
 
-/// The box of some points.
+/// The bounding box of points.
 template <int D>
-Box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices);
+Tree_box<D> box_of(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices);
 
-/// The box of some cells. \pre at least one
+/// The bounding box of cells.
+/// \pre there is at least one
 template <int D>
-Box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells);
+Tree_box<D> box_of(const Snapshot<D>& snapshot, std::span<const Cell> cells);
 
 /// An R-tree over the boxes of all boundary facets. Does not refer to the snapshot.
 template <int D>
 class Boundary_index {
  public:
   /// A boundary facet and its box.
-  using Entry = std::pair<Box<D>, std::uint32_t>;
+  using Entry = std::pair<Tree_box<D>, std::uint32_t>;
 
-  /// Cost: a look at each facet, and a sort of those on the boundary.
+  /// Cost: linear in the number of facets, and a sort of those on the boundary.
   explicit Boundary_index(const Snapshot<D>& snapshot);
 
-  /// The boundary facets of cells as they are now.
+  /// The current boundary facets of cells.
   static std::vector<Entry> entries(const Snapshot<D>& snapshot, std::span<const Cell> cells);
 
-  /// Follows an edit: `old` are the entries before, `now` those after it, of the cells that it changed.
-  /// Cost: logarithmic in the size of the boundary for each that differs.
+  /// Updates the index after an edit: `old` are the entries of the changed cells before it, `now` those
+  /// after.
+  /// Cost: logarithmic in the size of the boundary for each entry that differs.
   void replace(std::span<const Entry> old, std::span<const Entry> now);
 
   /// The facets whose boxes meet a box, ascending.
-  std::vector<Half_facet> meeting(const Box<D>& box) const;
+  std::vector<Half_facet> meeting(const Tree_box<D>& box) const;
 
  private:
   boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> tree_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The geometry of one cell, by signs only. Why the conditions suffice: docs/certification.md.
+// The geometry of one cell, by signs only. Proof that the conditions suffice: docs/certification.md.
 #include <algorithm>
 
 #include "polygon.h"
@@ -32,7 +32,8 @@ Cell_defect check_facet(Predicate_counts& counts, const Polygon<3>& polygon, Cor
                                                               : Cell_defect::none;
 }
 
-/// The side of every vertex of the cell: +1 strictly outside the facet, 0 on its plane. Vertices of the facet are 0.
+/// The side of every vertex of the cell: +1 strictly outside the facet, 0 on its plane. Vertices of the facet
+/// are 0.
 void sides_of_facet(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet,
                     const Corners& corners, Sides& sides) {
   const auto loop = cell.loop(facet);
@@ -46,7 +47,7 @@ void sides_of_facet(Predicate_counts& counts, const Cell_view<3>& cell, std::siz
       sides[v] = static_cast<signed char>(Exact::orientation(counts, p, q, r, cell.point(v)));
 }
 
-/// The other facets all of whose vertices have side 0.
+/// The other facets with side 0 at all their vertices.
 boost::container::small_vector<std::size_t, 8> coplanar_facets(const Cell_view<3>& cell, std::size_t facet,
                                                                const Sides& sides) {
   boost::container::small_vector<std::size_t, 8> found;
@@ -58,7 +59,8 @@ boost::container::small_vector<std::size_t, 8> coplanar_facets(const Cell_view<3
   return found;
 }
 
-/// True if a facet overlaps one of the facets in its plane. \pre all of them are convex and face the same way
+/// True if a facet overlaps one of the facets in its plane.
+/// \pre all of them are convex and have the same orientation
 bool overlaps(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet, const Corners& corners,
               std::span<const std::size_t> others) {
   const Polygon<2> own = drop(polygon_of(cell, facet), corners.axis);
@@ -100,12 +102,12 @@ Cell_check check_geometry<3>(const Cell_view<3>& cell) {
   for (std::size_t f = 0; f < facets; ++f) {
     const Cell_defect defect = check_facet(counts, polygon_of(cell, f), corners[f]);
     if (defect == Cell_defect::facet_not_convex)
-      not_convex = std::min(not_convex, f);  // said only where all facets are planar
+      not_convex = std::min(not_convex, f);  // reported only if all facets are planar
     else if (defect != Cell_defect::none)
       return {defect, f};
   }
   if (not_convex < facets) return {Cell_defect::facet_not_convex, not_convex};
-  // A facet with no other in its plane covers a part of the hull once, and then all of it is covered once.
+  // A facet without another one in its plane covers a part of the hull once; then all of it is covered once.
   bool is_covered_once = false;
   std::size_t inward = 0, first_not_outward = facets;
   Sides sides;
@@ -139,7 +141,7 @@ Cell_check check_geometry<2>(const Cell_view<2>& cell) {
   if (turning > 0) return {};
   if (turning < 0) return {Cell_defect::inverted, 0};
 
-  // Not convex: say where, and how.
+  // Not convex: find the facet and the defect.
   bool has_left = false;
   std::size_t right = n;
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The passes of certification in order, and the simplest of them. Why they suffice: docs/certification.md.
+// The passes of certification in order, and the simplest of them. Proof: docs/certification.md.
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -9,26 +9,20 @@
 #include <optional>
 
 #include "complex.h"
+#include "environment/soup/describe_place.h"
 #include "shape.h"
 
 namespace cellwalk {
 namespace detail {
 namespace {
 
-/// Where points are, for messages: 17 digits would hide the message, 6 suffice to find them.
-template <int D>
-std::string place(const Point<D>& p) {
-  std::string text = "(";
-  for (int i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
-  return text + ")";
-}
-
-/// The first facet by whose first vertices no side can be told: all signs against it would be 0. facet_count() if none.
+/// The first facet by whose first vertices no side can be told: all signs against it would be 0.
+/// facet_count() if none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
   std::size_t i = 0;
   for (; i < cell.facet_count(); ++i) {
     const auto loop = cell.loop(i);
-    // Triangles are known to be sound.
+    // Triangles have been checked with their cell.
     if (loop.size() > 3 && are_collinear(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2])))
       break;
   }
@@ -37,7 +31,7 @@ std::size_t first_without_plane(const Cell_view<3>& cell) {
 
 std::size_t first_without_plane(const Cell_view<2>& cell) { return cell.facet_count(); }
 
-/// What is wrong with a facet and its other side; empty if nothing is.
+/// The conflict between a facet and its other side; empty if there is none.
 template <int D>
 std::string flaw_of_link(const Complex<D>& complex, Half_facet f) {
   const Snapshot<D>& snapshot = complex.snapshot();
@@ -136,7 +130,7 @@ void certify_distinct_vertices(const Complex<D>& complex) {
   };
   refuse("vertices " + std::to_string(first) + " (of " + cell_with(first) + ") and " +
          std::to_string(second) + " (of " + cell_with(second) + ") lie in the same place " +
-         place<D>(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
+         describe_place(snapshot.point(first)) + ": merge them, or keep duplicate vertices");
 }
 
 }  // namespace detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What the passes of certification share. Internal.
+// The common parts of the passes of certification. Internal.
 //
-// Each pass runs over all cells in parallel. It fails with the failure of lowest input index, whatever the number of
-// threads: a pass looks for the lowest cell that fails, and only then says why.
+// Each pass runs over all cells in parallel. It fails with the failure of lowest input index, for any number
+// of threads: a pass first finds the lowest cell that fails, and then its reason.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 
@@ -34,7 +34,7 @@ class Complex {
   std::uint32_t first_corner(Cell c) const { return first_corner_[to_index(c)]; }
   std::size_t corner_count() const { return corner_count_; }
 
-  /// body(cell) for all cells, in parallel; make_body() makes one for each task.
+  /// Calls body(cell) for all cells, in parallel; make_body() makes one for each task.
   template <class Make_body>
   void for_each_cell(const Make_body& make_body) const {
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(is_cell_.size()), 2048),
@@ -45,7 +45,8 @@ class Complex {
                       });
   }
 
-  /// The lowest input index reported by any check(cell), or no_failure: check returns the index to blame.
+  /// The lowest input index returned by any check(cell), which returns that of the failing cell or
+  /// no_failure.
   template <class Make_check>
   std::uint32_t lowest_failure(const Make_check& make_check) const {
     std::atomic<std::uint32_t> lowest{no_failure};
@@ -70,11 +71,12 @@ class Complex {
   std::size_t corner_count_ = 0;
 };
 
-/// D points of a hyperplane, by index, positive side outwards.
+/// D points of a hyperplane, by index, with the positive side outwards.
 template <int D>
 using Plane_points = std::array<std::uint32_t, D>;
 
-/// Points of a facet that are not in one (D-2)-space. \pre the facet is sound (check_cell)
+/// D affinely independent points of a facet, which span its plane (2D: line).
+/// \pre the facet is sound (check_cell)
 template <int D>
 Plane_points<D> plane_of_facet(Predicate_counts& counts, const Cell_view<D>& cell, std::size_t facet);
 template <>
@@ -82,7 +84,7 @@ Plane_points<2> plane_of_facet<2>(Predicate_counts& counts, const Cell_view<2>& 
 template <>
 Plane_points<3> plane_of_facet<3>(Predicate_counts& counts, const Cell_view<3>& cell, std::size_t facet);
 
-/// The side of a point of a plane: +1 outside. The plane's own points need no sign.
+/// The side of a point with respect to a plane: +1 outside. The points of the plane itself need no sign.
 template <int D>
 int side(Predicate_counts& counts, std::span<const Point<D>> points, const Plane_points<D>& plane,
          std::uint32_t v) {
@@ -97,7 +99,7 @@ int side(Predicate_counts& counts, std::span<const Point<D>> points, const Plane
 /// "cell 5", by its input index.
 template <int D>
 std::string name(const Snapshot<D>& snapshot, Cell c);
-/// "facet (7 3 4)", by its vertices: a snapshot numbers facets in its own way.
+/// "facet (7 3 4)", by its vertices, since a snapshot renumbers facets.
 template <int D>
 std::string name(const Snapshot<D>& snapshot, Half_facet f);
 /// "facet (7 3 4) of cell 5".
@@ -106,33 +108,34 @@ std::string full_name(const Snapshot<D>& snapshot, Half_facet f);
 
 [[noreturn]] void refuse(const std::string& what);
 
-// --- the passes, in the order in which they run. Each refuses what it finds, and relies on those before it.
+// --- the passes, in the order in which they run; each relies on those before it
 
-/// Every cell by itself.
+/// Checks every cell by itself.
 template <int D>
 void certify_cells(const Complex<D>& complex);
 
-/// The two sides of each facet match, the boundary is wall, and walls part solid cells from free ones.
+/// Checks that the two sides of each facet match, that the boundary consists of walls, and that walls
+/// separate solid cells from free ones.
 template <int D>
 void certify_links(const Complex<D>& complex);
 
-/// No two vertices in the same place.
+/// Checks that no two vertices coincide.
 template <int D>
 void certify_distinct_vertices(const Complex<D>& complex);
 
-/// Cells turn once round each inner ridge and at most once round each boundary ridge. Returns the number of fans: the
-/// ridges as the combinatorial map counts them.
+/// Checks that cells turn once around each inner ridge and at most once around each boundary ridge. Returns
+/// the number of fans, which is the number of ridges of the combinatorial map.
 template <int D>
 std::size_t certify_turns(const Complex<D>& complex);
 
-/// No boundary facet has the interior of another cell on its inner side.
+/// Checks that no boundary facet has the interior of another cell on its inner side.
 template <int D>
 void certify_boundary(const Complex<D>& complex);
 
-/// The same for a certified snapshot in which a vertex of the boundary has moved since: `star` are the cells that have it, each
-/// still sound, and `near` at least those boundary facets of other cells whose boxes meet the box of the star. Only cells of the
-/// star are tried: docs/certification.md says why that suffices.
-/// Cost: a test of boxes a cell and facet, and an exact test where they meet.
+/// The same for a certified snapshot after a vertex of the boundary has moved: `star` are the cells at the
+/// vertex, each still sound, and `near` includes all boundary facets of other cells whose boxes meet the box
+/// of the star. Only cells of the star are tested; docs/certification.md proves that this suffices.
+/// Cost: a test of boxes a cell and facet, and an exact test if they meet.
 template <int D>
 void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell> star,
                               std::span<const Half_facet> near);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a certificate counts.
+// The counts of a certificate.
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Classes of joined numbers, joined from many threads. The least of a class is its root, so that the result does not
-/// depend on the order.
+/// Classes of joined numbers, joined from many threads. The least member of a class is its root, so the
+/// result does not depend on the order.
 class Classes {
  public:
   explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -59,7 +59,7 @@ void join_corners(const Complex<D>& complex, Half_facet f, Half_facet g, Classes
     corners.join(complex.first_corner(c) + loop[i], complex.first_corner(d) + reversed[(start + n - i) % n]);
 }
 
-/// D! times the volume (2D: area), rounded: exact where coordinates are small multiples of a power of two.
+/// D! times the volume (2D: area), rounded: exact if coordinates are small multiples of a power of two.
 double scaled_volume(const Cell_view<3>& cell) {
   const Point<3>& o = cell.point(0);
   double sum = 0;

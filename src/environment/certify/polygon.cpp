@@ -7,7 +7,7 @@
 namespace cellwalk::detail {
 
 int projection_axis(Predicate_counts& counts, const Point<3>& p, const Point<3>& q, const Point<3>& r) {
-  // The largest component of the rounded normal is only the best guess of where to look first.
+  // The axis of the largest component of the rounded normal is only the best first guess.
   const Vector<3> normal = cross(q - p, r - p);
   std::array<int, 3> axes{0, 1, 2};
   const auto before = [&](int i, int j) { return std::abs(normal[i]) < std::abs(normal[j]); };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Signs of polygons, in the plane and in planes of space. Internal to certification and splitting.
+// Signs of polygons, in 2D and in planes in 3D. Internal to certification and splitting.
 //
-// A polygon in a plane of space is decided in 2D: a coordinate is dropped along which its plane projects one to one,
-// so that every sign in the plane is the projected one up to a common factor.
+// A polygon in a plane in 3D is decided in 2D: a coordinate is dropped such that the projection of the plane
+// is one-to-one; then every sign in the plane is the projected one up to a common factor.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_POLYGON_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_POLYGON_H
 
@@ -21,7 +21,7 @@ namespace cellwalk::detail {
 template <int D>
 using Polygon = boost::container::small_vector<Point<D>, 12>;
 
-/// Drops a coordinate. The remaining two come in cyclic order, so that a projected turn has the sign of that
+/// Drops a coordinate. The other two keep their cyclic order, so that a projected turn has the sign of that
 /// component of the normal.
 inline Point<2> drop(const Point<3>& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
@@ -37,16 +37,16 @@ inline int turn(Predicate_counts& counts, const Point<3>& p, const Point<3>& q, 
   return Exact::orientation(counts, drop(p, axis), drop(q, axis), drop(r, axis));
 }
 
-/// An axis along which triangle pqr projects to one that is not flat; -1 if the points lie on one line.
+/// An axis along which triangle pqr projects to one of positive area; -1 if the points are collinear.
 int projection_axis(Predicate_counts& counts, const Point<3>& p, const Point<3>& q, const Point<3>& r);
 
-/// Three vertices of a polygon, ascending, that are not on one line, and an axis to project it along.
+/// Three vertices of a polygon, ascending, that are not collinear, and an axis of projection.
 struct Corners {
   std::array<std::size_t, 3> at{};
   int axis = -1;
 };
 
-/// False if all vertices lie on one line.
+/// False if all vertices are collinear.
 bool find_corners(Predicate_counts& counts, std::span<const Point<3>> polygon, Corners& corners);
 
 /// True if all vertices lie in the plane of the corners.
@@ -56,7 +56,7 @@ bool is_planar(Predicate_counts& counts, std::span<const Point<3>> polygon, cons
 /// Vertices inside a straight side are allowed, spikes and repeated vertices are not.
 int convex_turn(Predicate_counts& counts, std::span<const Point<2>> polygon);
 
-/// True if two convex polygons of the plane, both turning in direction `sign`, have disjoint interiors.
+/// True if two convex 2D polygons, both turning in direction `sign`, have disjoint interiors.
 bool are_apart(Predicate_counts& counts, std::span<const Point<2>> a, std::span<const Point<2>> b, int sign);
 
 }  // namespace cellwalk::detail

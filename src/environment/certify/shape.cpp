@@ -11,7 +11,7 @@ namespace cellwalk {
 namespace detail {
 namespace {
 
-/// One facet's use of an edge.
+/// The use of an edge by a facet.
 struct Edge_use {
   std::uint16_t low, high;
   bool ascending;

@@ -10,18 +10,21 @@
 
 namespace cellwalk::detail {
 
-/// Facets form one closed oriented surface of Euler characteristic 2 (2D: one cycle). Geometry is not looked at.
+/// Checks that the facets form one closed oriented surface of Euler characteristic 2 (2D: one cycle). Does
+/// not depend on the geometry.
 template <int D>
 Cell_check check_shape(const Cell_shape& shape);
 
-/// The rest of check_cell. \pre check_shape(*cell.shape) found no defect
+/// The rest of check_cell.
+/// \pre check_shape(*cell.shape) found no defect
 template <int D>
 Cell_check check_geometry(const Cell_view<D>& cell);
 
-/// describe(), with the facet concerned called as the caller likes.
+/// describe(), with the caller's name of the facet.
 std::string describe(Cell_defect defect, const std::string& facet);
 
-/// check_cell for many cells in turn: remembers shapes found sound. One per thread; the shapes must stay in place.
+/// check_cell() for many cells in turn: caches the shapes found sound. One per thread; the shapes must stay
+/// in place.
 template <int D>
 class Cell_checker {
  public:

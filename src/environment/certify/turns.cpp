@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How often cells turn round a ridge, by signs only.
+// The number of turns of cells around a ridge, by signs only.
 //
-// A fan is a ridge with the cells round it that are joined through facets holding it, walls included. Its facets are
-// rays of a half-turn scale: each lies in one of four classes relative to the first, in the same direction, to the left
-// of it, opposite, or to the right. From one facet to the next a convex cell turns by more than nothing and at most half
-// a turn, so that the classes tell when a full turn is completed: on leaving {opposite, right} for {same, left}.
+// A fan is a ridge with the cells around it that are joined through facets that contain it, walls included.
+// Its facets are rays of a half-turn scale: each lies in one of four classes relative to the first, in the
+// same direction, to the left of it, opposite, or to the right. From one facet to the next a convex cell
+// turns by more than 0 and at most half a turn. Therefore the classes show when a full turn is completed: at
+// the step from {opposite, right} to {same, left}.
 #include <algorithm>
 #include <atomic>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A vertex of the plane, or the two ends of an edge in space, in the direction in which the first cell's facet has it.
+/// A vertex in 2D, or the two ends of an edge in 3D, in the direction of the facet of the first cell.
 template <int D>
 using Ridge = std::array<std::uint32_t, D - 1>;
 
@@ -26,14 +27,14 @@ struct Fan {
   std::vector<std::uint32_t> rays;  ///< per facet, in turning order: a vertex off the ridge
 };
 
-/// Looks at the fans of a complex.
+/// Examines the fans of a complex.
 template <int D>
 class Fans {
  public:
   explicit Fans(const Complex<D>& complex) : complex_(complex), snapshot_(complex.snapshot()) {}
 
-  /// Gathers the fan of a ridge of cell c, turning from its facet f. If asked for own fans only, returns false where
-  /// the fan has a cell that stands before c in the snapshot: each fan is one cell's own.
+  /// Gathers the fan of a ridge of cell c, turning from its facet f. With only_own, returns false if the fan
+  /// has a cell before c in the snapshot, so that each fan belongs to one cell.
   bool gather(Cell c, std::size_t f, const Ridge<D>& ridge, bool only_own, Fan<D>& fan) {
     fan.rays.clear();
     fan.is_closed = false;
@@ -41,7 +42,7 @@ class Fans {
     fan.rays.push_back(ray(c, f, ridge));
     if (!turn(c, f, ridge, c, only_own, fan)) return false;
     if (fan.is_closed) return true;
-    // Open: what lies before the first facet goes in front.
+    // Open: the cells before the first facet go in front.
     const Half_facet before = complex_.opposite(snapshot_.half_facet(c, f));
     if (before == Half_facet::none) return true;
     Fan<D>& rest = rest_;
@@ -75,7 +76,7 @@ class Fans {
       if ((last == opposite || last == right) && (next == same || next == left)) ++turns;
       if (turns > 1 || (turns == 1 && next != same)) return false;
       last = next;
-      // After a full turn nothing may follow.
+      // Nothing may follow a full turn.
       if (turns == 1 && i + 1 < fan.rays.size()) return false;
     }
     return true;
@@ -93,7 +94,7 @@ class Fans {
     }
   }
 
-  /// The facet of a cell other than `facet` that holds the ridge.
+  /// The facet of a cell other than `facet` that contains the ridge.
   std::size_t other_facet(const Cell_view<D>& cell, std::size_t facet, const Ridge<D>& ridge) const {
     for (std::size_t g = 0; g < cell.facet_count(); ++g) {
       if (g == facet) continue;
@@ -104,7 +105,7 @@ class Fans {
     return facet;  // not reached: cells are closed
   }
 
-  /// Turns from facet f through cell c and on, adding rays, until the boundary or `start` is reached again.
+  /// Turns from facet f through cell c and further, adding rays, until the boundary or `start` is reached.
   bool turn(Cell c, std::size_t f, const Ridge<D>& ridge, Cell start, bool only_own, Fan<D>& fan) {
     for (;;) {
       const std::size_t g = other_facet(snapshot_.view(c), f, ridge);
@@ -134,18 +135,19 @@ class Fans {
           continue;
       return v;
     }
-    return ridge[0];  // not reached: facets do not lie on one line
+    return ridge[0];  // not reached: no facet has collinear vertices only
   }
 
-  /// +1 if b is less than half a turn on from a. The first cell's facet has its inside to the left of the ridge, seen
-  /// from outside; so turning into the cell is turning right about the ridge, left about the ridge reversed.
+  /// +1 if b is less than half a turn after a. The facet of the first cell has its interior to the left of
+  /// the ridge, seen from outside, so the turn into the cell is to the right about the ridge, and to the left
+  /// about the reversed ridge.
   int side_of_ray(const Ridge<D>& ridge, std::uint32_t a, std::uint32_t b) {
     if constexpr (D == 2) return Exact::orientation(counts_, point(ridge[0]), point(a), point(b));
     if constexpr (D == 3)
       return Exact::orientation(counts_, point(ridge[1]), point(ridge[0]), point(a), point(b));
   }
 
-  /// \pre ridge, a and b lie in one plane (2D: on one line)
+  /// \pre ridge, a and b are coplanar (2D: collinear)
   bool is_same_direction(const Ridge<D>& ridge, std::uint32_t a, std::uint32_t b) {
     if constexpr (D == 2) return (point(ridge[0]) < point(a)) == (point(ridge[0]) < point(b));
     if constexpr (D == 3) {
@@ -163,7 +165,7 @@ class Fans {
   Predicate_counts counts_;
 };
 
-/// visit(facet, ridge) for each ridge of a cell, once. In space the ridge is directed as the facet has it.
+/// Calls visit(facet, ridge) for each ridge of a cell, once. In 3D the ridge is directed as in the facet.
 template <int D, class Visit>
 void for_each_ridge(const Cell_view<D>& cell, const Visit& visit) {
   for (std::size_t f = 0; f < cell.facet_count(); ++f) {

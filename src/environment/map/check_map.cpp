@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The map's own exact check, cheap enough to run after every build: CGAL's is_valid() walks every orbit with marks.
+// An exact check of the map that is cheap enough to run after every build; CGAL's is_valid() visits every
+// orbit with marks.
 #include <cellwalk/environment/map.h>
 #include <cellwalk/kernel/error.h>
 
@@ -12,7 +13,7 @@
 namespace cellwalk {
 namespace {
 
-/// What a range of half-facets adds to the counts, and the first cell whose links are wrong.
+/// The contribution of a range of half-facets to the counts, and the first cell with a wrong link.
 struct Tally {
   std::size_t facets = 0, boundary_facets = 0, darts = 0;
   std::uint32_t bad_cell = no_facet;
@@ -34,7 +35,7 @@ class Checker {
     const Const_dart<D> first = storage_.dart_of_half_facet[slot];
     const Dart_info& info = map_.info(first);
     bool good = info.half_facet() == slot && info.cell() < storage_.cell_count;
-    // Links are followed only as long as they are good, or a damaged loop might not end.
+    // Links are followed only as long as they are valid, since a damaged loop might not end.
     Const_dart<D> d = first;
     do {
       good = good && map_.info(d) == info && is_linked_well(d);
@@ -53,7 +54,7 @@ class Checker {
   }
 
  private:
-  /// Of the two sides of a facet the one with the lower number counts it.
+  /// True if the facet is counted with this side: that of the lower number.
   bool is_lower_side(Const_dart<D> d) const {
     return map_.info(d).half_facet() < map_.info(map_.template beta<D>(d)).half_facet();
   }
@@ -71,7 +72,7 @@ class Checker {
     return map_.template is_free<D>(d) || is_linked_across(d, next);
   }
 
-  /// 3D: across the edge of d, in its cell.
+  /// Checks the link across the edge of d in its cell (3D).
   bool is_linked_in_cell(Const_dart<D> d, Const_dart<D> next) const {
     if (map_.template is_free<2>(d)) return false;
     const Const_dart<D> e = map_.template beta<2>(d);
@@ -80,7 +81,7 @@ class Checker {
            map_.info(e).half_facet() != map_.info(d).half_facet();
   }
 
-  /// To the other side of the facet of d.
+  /// Checks the link to the other side of the facet of d.
   bool is_linked_across(Const_dart<D> d, Const_dart<D> next) const {
     const Const_dart<D> e = map_.template beta<D>(d);
     const Dart_info &own = map_.info(d), &other = map_.info(e);
@@ -98,7 +99,8 @@ class Checker {
   throw Error(Error_code::other, "the map is damaged: " + what + "; edit it through Environment only");
 }
 
-/// Every vertex belongs to its point, and the references to vertices are as many as the darts.
+/// Checks that every vertex belongs to its point, and that vertices have as many references as there are
+/// darts.
 template <int D>
 void check_vertices(const Map_storage<D>& storage) {
   using Vertex = typename Map<D>::template Attribute_const_handle<0>::type;

@@ -42,11 +42,11 @@ Star<D> find_star(Map_storage<D>& storage, std::uint32_t point) {
     add(map.template dart_of_attribute<0>(vertex));
     while (next < star.darts.size())
       for_each_dart_in_corner<D>(map, star.darts[next++], [&](Dart<D> d) {
-        // Of a dart xv before the vertex, the other side vx starts from it.
+        // The dart before the vertex is xv; its other side vx starts from the vertex.
         const Dart<D> before = map.template beta<0>(d);
         cross(before, map.template beta<D>(before));
         if constexpr (D == 2) {
-          // The edge after the vertex: of its other side xv, the next edge starts from it.
+          // The edge after the vertex: the next edge of its other side xv starts from the vertex.
           const Dart<D> across = map.template beta<D>(d);
           cross(d, map.template is_free<D>(d) ? across : map.template beta<1>(across));
         }
@@ -65,8 +65,8 @@ Map_vertex<D> insert_vertex_in_cell(Map_storage<D>& storage, std::span<const Dar
   std::unordered_map<const void*, std::size_t> number;
   for (std::size_t i = 0; i < outer.size(); ++i) number.emplace(&*outer[i], i);
 
-  // Everything that may fail for want of memory comes first.
-  // For each dart the new ones of the face behind its edge (2D: of its triangle), in the order of their loop.
+  // All allocations come first, since they may fail. For each dart: the new ones of the face behind its edge
+  // (2D: of its triangle), in the order of their loop.
   std::vector<New_darts<D>> created(outer.size());
   storage.vertex_of_point.reserve(storage.vertex_of_point.size() + 1);
   const Map_vertex<D> apex = map.create_vertex_attribute(to_map_point(position), point);

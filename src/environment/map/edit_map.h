@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Surgery on the map. What it does to the snapshot is Environment's business.
+// Local changes of the map. The snapshot is updated by Environment.
 #ifndef CELLWALK_ENVIRONMENT_MAP_EDIT_MAP_H
 #define CELLWALK_ENVIRONMENT_MAP_EDIT_MAP_H
 
@@ -22,11 +22,11 @@ struct Star {
 template <int D>
 Star<D> find_star(Map_storage<D>& storage, std::uint32_t point);
 
-/// Replaces a cell by the star of a new vertex inside it: over each of its facets a pyramid (2D: over each edge a
-/// triangle) with the new vertex as its apex. The facets between them are passable.
-/// `facets` are the first darts of the half-facets of the cell, all of them. Afterwards they name the new cells: each
-/// lies in one. New darts carry the cell and half-facet of the old cell until they get their own.
-/// Nothing is changed if memory runs out.
+/// Replaces a cell by the star of a new vertex inside it: a pyramid over each of its facets (2D: a triangle
+/// over each edge) with the new vertex as its apex. The facets between them are passable. `facets` are the
+/// first darts of all half-facets of the cell. Afterwards each of them lies in one of the new cells, and
+/// identifies it. New darts have the cell and half-facet of the old cell until they are renumbered. If memory
+/// runs out, nothing is changed.
 /// Cost: constant (linear in the size of the cell).
 template <int D>
 Map_vertex<D> insert_vertex_in_cell(Map_storage<D>& storage, std::span<const Dart<D>> facets,

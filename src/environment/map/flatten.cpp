@@ -33,7 +33,7 @@ void sort_by_cell(const Map_storage<D>& storage, Flat_cells<D>& flat) {
     if (d != Dart<D>{}) flat.darts[next[cell_of(d)]++] = d;
 }
 
-/// Puts the edges of cell c of the plane in their order round the cell.
+/// Sorts the edges of 2D cell c into their order around the cell.
 void turn_round(const Map_storage<2>& storage, Flat_cells<2>& flat, std::size_t c) {
   Const_dart<2> d = flat.darts[flat.soup.cell_begin[c]];
   for (std::uint32_t f = flat.soup.cell_begin[c]; f < flat.soup.cell_begin[c + 1]; ++f) {
@@ -50,7 +50,7 @@ std::uint32_t loop_size(const Map<D>& map, Const_dart<D> d) {
   return n;
 }
 
-/// Writes loop and mark of half-facet f, and whether its cell is solid.
+/// Writes the loop and mark of half-facet f, and whether its cell is solid.
 template <int D>
 void write_facet(const Map_storage<D>& storage, Flat_cells<D>& flat, std::size_t f) {
   const Map<D>& map = storage.map;
@@ -65,7 +65,7 @@ void write_facet(const Map_storage<D>& storage, Flat_cells<D>& flat, std::size_t
   flat.soup.impassable[f] = map.info(d).is_impassable();
 }
 
-/// With cell_begin and darts given: everything else but points and gluing.
+/// Given cell_begin and darts, fills everything else except points and gluing.
 template <int D>
 void write_facets(const Map_storage<D>& storage, Flat_cells<D>& flat) {
   Cell_soup<D>& soup = flat.soup;
@@ -83,8 +83,8 @@ void write_facets(const Map_storage<D>& storage, Flat_cells<D>& flat) {
   });
 }
 
-/// The half-facets of the cell of d, breadth first from that of d (3D) or round the cell (2D); `facet_of` receives the
-/// number of the half-facet of each dart, by its address.
+/// The half-facets of the cell of d, breadth first from that of d (3D) or around the cell (2D); `facet_of`
+/// receives the number of the half-facet of each dart, by the address of the dart.
 template <int D>
 void append_cell(Map<D>& map, Dart<D> start, Flat_cells<D>& flat,
                  std::unordered_map<const void*, std::uint32_t>& facet_of) {

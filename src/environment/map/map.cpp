@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Darts are created in the order of the soup, those of a half-facet one after the other; then cells and facets are
-// linked in parallel: every link writes only into the darts it joins.
+// Darts are created in the order of the soup, those of a half-facet consecutively; then cells and facets are
+// linked in parallel: every link writes only into the darts that it joins.
 #include <cellwalk/environment/map.h>
 #include <cellwalk/kernel/error.h>
 
@@ -18,7 +18,7 @@
 namespace cellwalk {
 namespace {
 
-/// \throw Error(not_certified) for the first cell of the plane whose edges do not follow each other
+/// \throw Error(not_certified) for the first 2D cell whose edges do not form a chain
 void check_chains(const Cell_soup<2>& soup) {
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
     for (std::uint32_t f = soup.cell_begin[c], end = soup.cell_begin[c + 1]; f < end; ++f) {
@@ -118,7 +118,8 @@ std::vector<std::uint32_t> cells_of_facets(const Cell_soup<D>& soup) {
   return cell_of;
 }
 
-/// The marks of each half-facet: impassable if either side says so, on the boundary, and where solid meets free.
+/// The marks of each half-facet: impassable if either side is marked, on the boundary, and between a solid
+/// and a free cell.
 template <int D>
 std::vector<Dart_info> make_infos(const Cell_soup<D>& soup, const Gluing& gluing) {
   const std::vector<std::uint32_t> cell_of = cells_of_facets(soup);
@@ -133,7 +134,7 @@ std::vector<Dart_info> make_infos(const Cell_soup<D>& soup, const Gluing& gluing
   return infos;
 }
 
-/// The vertices of the map, one for each orbit of darts, found by dart while the darts are created.
+/// The vertices of the map, one for each orbit of darts, and their lookup by dart while darts are created.
 template <int D>
 class Vertices {
  public:
@@ -157,9 +158,9 @@ class Vertices {
                      [](const auto& a, const auto& b) { return a.first < b.first; });
   }
 
-  /// The vertex that dart d of the soup starts from.
+  /// The vertex from which dart d of the soup starts.
   Map_vertex<D> of(std::uint32_t d) const {
-    // Nearly all maps have no pinched vertex: then the table of orbits is not looked at.
+    // Nearly all maps have no pinched vertex, and need no lookup in the table of orbits.
     if (!pinched_orbits_.empty()) {
       const auto before = [](const auto& entry, std::uint32_t orbit) { return entry.first < orbit; };
       const auto it = std::lower_bound(pinched_orbits_.begin(), pinched_orbits_.end(), orbit_[d], before);
@@ -175,14 +176,15 @@ class Vertices {
   std::vector<std::pair<std::uint32_t, Map_vertex<D>>> pinched_orbits_;  // sorted by orbit
 };
 
-/// Creates the darts of all cells, linked round their facets (2D: round their cells), with marks and vertices.
+/// Creates the darts of all cells, linked around their facets (2D: around their cells), with marks and
+/// vertices.
 template <int D>
 void create_darts(Map_storage<D>& storage, const Cell_soup<D>& soup, const Gluing& gluing) {
   Map<D>& map = storage.map;
   const Soup_darts<D> darts{soup};
   std::vector<std::uint32_t> orbit;
   std::vector<Dart_info> infos;
-  // Reserving touches every page of the map for the first time, which takes as long as the rest.
+  // Reserving memory touches every page of the map for the first time, which takes as long as the rest.
   tbb::parallel_invoke([&] { map.darts().reserve(darts.count()); },
                        [&] {
                          infos = make_infos(soup, gluing);
@@ -229,7 +231,7 @@ std::vector<Map_vertex<D>> Map_storage<D>::vertices_of(std::uint32_t point) cons
 
 template <int D>
 std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing) {
-  if (soup.facet_count() >= Dart_info::max_half_facets)
+  if (soup.facet_count() >= Dart_info::most_half_facets)
     throw Error(Error_code::input, "more than 2^29 facets of cells: split the environment");
   if constexpr (D == 2) check_chains(soup);
   auto storage = std::make_unique<Map_storage<D>>();
@@ -246,7 +248,7 @@ std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing
 template <int D>
 void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
                         std::span<const Half_facet> half_facets, std::size_t slots) {
-  if (slots >= Dart_info::max_half_facets)
+  if (slots >= Dart_info::most_half_facets)
     throw Error(Error_code::input, "more than 2^29 slots of half-facets: split the environment");
   std::vector<Dart<D>> dart_of_half_facet(slots, Dart<D>{});
   for_each_parallel(darts.size(), [&](std::size_t i) {

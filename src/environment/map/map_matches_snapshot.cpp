@@ -10,7 +10,7 @@
 namespace cellwalk {
 namespace {
 
-/// The points of a half-facet of the map, from its lowest on.
+/// The points of a half-facet of the map, starting at its lowest point.
 template <int D>
 std::vector<std::uint32_t> loop_of(const Map_storage<D>& storage, Const_dart<D> d) {
   std::vector<std::uint32_t> loop;

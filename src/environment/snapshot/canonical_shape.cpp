@@ -13,13 +13,14 @@ namespace {
 
 constexpr std::uint16_t unseen = std::numeric_limits<std::uint16_t>::max();
 
-/// Where the traversal enters a facet: its number in the cell, and the position in its loop that comes first.
+/// The entry of the traversal into a facet: its number in the cell, and the position in its loop at which the
+/// traversal starts.
 struct Entry {
   std::uint16_t facet;
   std::uint16_t start;
 };
 
-/// Facet entered through each directed edge of the cell, by local vertex numbers of first appearance.
+/// The facet at each directed edge of the cell, by local vertex numbers of first appearance.
 class Edge_table {
  public:
   void reset(std::size_t vertex_count) {
@@ -89,7 +90,7 @@ void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points,
   s.edges.reset(s.points.size());
   for (std::size_t f = 0; f < facets; ++f) {
     const auto loop = loop_of(f);
-    // In 2D a facet is one directed edge; the next one round the cell starts where it ends.
+    // In 2D a facet is one directed edge; the next one around the cell starts at its end.
     const std::size_t edges_of_loop = D == 2 ? 1 : loop.size();
     for (std::size_t i = 0; i < edges_of_loop; ++i) {
       const Entry entry{static_cast<std::uint16_t>(f), static_cast<std::uint16_t>(i)};

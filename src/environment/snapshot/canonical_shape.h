@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Numbering the vertices and facets of a cell so that cells of one combinatorial type get one shape.
+// The numbering of the vertices and facets of a cell by which cells of one combinatorial type share one
+// shape.
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
 
@@ -12,8 +13,8 @@
 
 namespace cellwalk {
 
-/// A cell of a soup with its facets and vertices renumbered. Reused from cell to cell: no allocation once
-/// warm.
+/// A cell of a soup with its facets and vertices renumbered. It is reused from cell to cell, so that nothing
+/// is allocated after the first cells.
 struct Canonical_cell {
   Cell_shape shape;
   std::vector<std::uint32_t> vertices;  ///< point index of each local vertex
@@ -21,14 +22,14 @@ struct Canonical_cell {
 };
 
 /// Renumbers cell c by a breadth-first traversal of its facets from the first vertex of its first facet, then
-/// turns each loop until its first three vertices (3D) do not lie on one line. Facets that the traversal does
-/// not reach (the cell is not closed; certification refuses it) follow in input order.
+/// rotates each loop until its first three vertices (3D) are not collinear. Facets that the traversal does
+/// not reach (then the cell is not closed, and certification refuses it) follow in input order.
 template <int D>
 void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
                   Canonical_cell& out);
 
-/// Turns a loop until its first three vertices do not lie on one line, if three in a row do not. `vertices` are the points of
-/// the cell's local vertices.
+/// Rotates a loop until its first three vertices are not collinear, if it has three such consecutive
+/// vertices. `vertices` are the points of the cell's local vertices.
 void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
                    std::span<std::uint16_t> loop);
 

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> curve_order(const Cell_soup<D>& soup, const Plane_fra
       for (std::size_t i = begin; i < end; ++i)
         sum += (soup.points[soup.vertices[i]][k] - frame.centre[k]) * frame.scale;
       const double mean = begin == end ? 0 : sum / static_cast<double>(end - begin);
-      // Where the frame maps nothing, the mean is not a number and the order is that of the input.
+      // If the frame maps nothing, the mean is not a number, and the order is that of the input.
       const double t = (mean + 1) / 2 * ((1 << curve_bits) - 1);
       grid[k] = t >= 0 ? static_cast<std::uint32_t>(std::min(t, double{(1 << curve_bits) - 1})) : 0;
     }
@@ -52,7 +52,7 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
   const std::size_t cells = soup.cell_count();
   const std::vector<std::uint32_t> order = curve_order(soup, s.frame_);
 
-  // Upper bounds where each cell starts; vertices of a cell are at most its loop entries, fewer once counted.
+  // Upper bounds of the start of each cell; a cell has at most as many vertices as loop entries.
   std::vector<std::uint32_t> first_block(cells), first_vertex(cells), vertex_count(cells);
   for_each_parallel(cells, [&](std::size_t c) {
     thread_local std::vector<std::uint32_t> distinct;

@@ -11,7 +11,7 @@
 namespace cellwalk {
 namespace {
 
-/// Side of x against facet i of a cell: > 0 strictly outside.
+/// The side of x with respect to facet i of a cell: > 0 strictly outside.
 int side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
   Predicate_counts counts;
   const auto loop = cell.loop(i);
@@ -24,8 +24,8 @@ int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x) {
   return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), x);
 }
 
-/// The facet of a cell other than `facet` with the ridge that leads from point u to point v in facet's loop
-/// (2D: with the vertex u); facet_count() if there is none.
+/// The facet of a cell other than `facet` with the ridge from point u to point v in the loop of `facet` (2D:
+/// with the vertex u); facet_count() if there is none.
 template <int D>
 std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint32_t u, std::uint32_t v) {
   for (std::size_t i = 0; i < cell.facet_count(); ++i) {
@@ -43,7 +43,8 @@ std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint3
   return cell.facet_count();
 }
 
-/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its plane.
+/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its
+/// plane.
 template <int D>
 bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::uint32_t u, std::uint32_t v) {
   const auto loop = cell.loop(j);
@@ -58,7 +59,7 @@ bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::
 template <int D>
 std::uint32_t Snapshot_compiler<D>::shape_number(const Cell_shape& shape) {
   const std::lock_guard lock(shapes_mutex_);
-  // Meshes have a handful of shapes, polyhedral ones up to thousands: the last one found is the likeliest.
+  // Meshes have a handful of shapes, polyhedral ones up to thousands: the latest is the most likely.
   for (std::size_t i = s_.shapes_.size(); i-- > 0;)
     if (s_.shapes_[i] == shape) return static_cast<std::uint32_t>(i);
   s_.shapes_.push_back(shape);
@@ -188,7 +189,8 @@ void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
           if (s > 0) return false;
           in_one_plane &= s == 0;
         }
-        // Where that plane is the one of the shared facet, both cells go on in it without being glued: a slit.
+        // If that plane is also that of the shared facet, both cells continue in it without being glued: a
+        // slit.
         if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
       }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Writes cells into the arrays of a snapshot: all of them when it is compiled, a few when it is edited.
+// Writes cells into the arrays of a snapshot: all of them at compilation, some of them after an edit.
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_COMPILER_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_COMPILER_H
 
@@ -21,13 +21,16 @@ class Snapshot_compiler {
   /// Writes a canonical cell into the blocks from `block` on and the vertices from `vertex` on.
   void write_cell(const Canonical_cell& cell, std::uint32_t block, std::uint32_t vertex, std::uint32_t index,
                   bool solid);
-  /// Marks a cell as removed: everything is outside of it, and walls are all round. What it holds stays in bounds.
+  /// Marks a cell as removed: every point is outside of it, and all its facets are walls. Its indices stay
+  /// valid.
   void remove_cell(Cell c);
-  /// Where the first three vertices of a facet's loop lie on one line, turns it so that they do not, if it has three that do not.
+  /// Rotates each loop whose first three vertices are collinear until they are not, if it has three such
+  /// consecutive vertices.
   void turn_loops(Cell c);
-  /// Recomputes the planes of a cell. Returns how many could not be certified.
+  /// Recomputes the planes of a cell. Returns the number of those that could not be certified.
   std::size_t write_planes(Cell c);
-  /// How many of the planes of a cell, as they are, certify nothing. None of a cell that was just written has a plane yet: 0.
+  /// The number of current planes of a cell that certify nothing; 0 for a cell just written, which has no
+  /// planes yet.
   std::size_t count_uncertified(Cell c) const;
   /// Recomputes the convex-pair bit of a facet on both sides. One thread per facet.
   void write_convex_pair(Half_facet f);
@@ -40,7 +43,7 @@ class Snapshot_compiler {
  private:
   /// The number of a shape, added if new. Thread-safe.
   std::uint32_t shape_number(const Cell_shape& shape);
-  /// No facets, no neighbours.
+  /// Removes all facets and neighbours.
   void clear_block(std::uint32_t block);
 
   Snapshot<D>& s_;

@@ -10,15 +10,16 @@ namespace {
 
 constexpr double float_unit = 0x1p-24;
 constexpr double double_unit = 0x1p-53;
-/// What planes.h promises of a stored plane.
+/// The error bound that planes.h states for a stored plane.
 constexpr double coefficient_error = 3 * float_unit;
 
 /// Covers the roundings below in double: mapping the point, normalising, the scalar product and the sum of
 /// the bound itself are fewer than 40 operations on values of magnitude at most 4.
 constexpr double double_slack = 256 * double_unit;
 
-/// Rounds n and -n.y0 to float and accepts them if the error over the box is within the promise.
-/// `normal` has absolute errors `normal_error`, neither yet normalised; y0 is the mapped point on the plane.
+/// Rounds n and -n.y0 to float and accepts them if the error over the box is within the bound. The components
+/// of `normal` have absolute errors `normal_error`, neither yet normalised; y0 is the mapped point on the
+/// plane.
 template <int D>
 Float_plane<D> certify_plane(const Vector<D>& normal, const Vector<D>& normal_error, const Point<D>& y0) {
   const double size = length(normal);

@@ -10,12 +10,12 @@
 
 namespace cellwalk {
 
-/// The frame of a point set: a power of two scales the box of the points into [-1,1]^D. Where the coordinates
-/// are too large or too small for that, the frame maps nothing (everything is decided exactly).
+/// The frame of a point set: a power of two scales the box of the points into [-1,1]^D. If the coordinates
+/// are too large or too small for that, the frame maps nothing, and everything is decided exactly.
 template <int D>
 Plane_frame<D> make_frame(std::span<const Point<D>> points);
 
-/// One plane, ready for a lane. normal = offset = 0: not certified, every sign is in doubt.
+/// One plane for a lane. normal = offset = 0: not certified, every sign is undecided.
 template <int D>
 struct Float_plane {
   std::array<float, D> normal{};

@@ -11,7 +11,7 @@
 namespace cellwalk {
 namespace {
 
-/// The lowest free run of a length, taken, or else one at the end of its array; and whether it is that.
+/// Takes the lowest free run of a length, or the end of its array if there is none; true in the latter case.
 std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::uint32_t>>& runs,
                                         std::size_t length, std::size_t end) {
   const auto run = runs.lower_bound({static_cast<std::uint32_t>(length), 0});
@@ -76,7 +76,7 @@ template <int D>
 void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
   geometry_epoch_ = ++epoch_;
   Snapshot_compiler<D> compiler(*this);
-  // Convex pairs are told by the first vertices of loops, those of neighbours too.
+  // Convex pairs depend on the first vertices of loops, including those of neighbours.
   for (const Cell c : cells) compiler.turn_loops(c);
   for (const Cell c : cells) {
     uncertified_planes_ -= compiler.count_uncertified(c);
@@ -93,7 +93,7 @@ void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
     }
 }
 
-/// Finds room for a cell, and writes all of it but its links and certificates.
+/// Finds space for a cell, and writes all of it except its links and certificates.
 template <int D>
 Cell Snapshot<D>::add_cell(const Canonical_cell& cell, std::uint32_t index, bool solid) {
   const std::size_t blocks = Snapshot_compiler<D>::blocks_for(cell.shape.facet_count());
@@ -116,11 +116,11 @@ Cell Snapshot<D>::add_cell(const Canonical_cell& cell, std::uint32_t index, bool
 template <int D>
 std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                              const Gluing& gluing, std::vector<Half_facet>* slots) {
-  // What can fail for want of sense comes first.
+  // All checks of the input come first.
   std::vector<Canonical_cell> cells(soup.cell_count());
   for (std::size_t c = 0; c < cells.size(); ++c) canonicalize(soup, points_, c, cells[c]);
 
-  // The outer facets that the removed cells leave open: neighbours keep them, whoever comes.
+  // The outer facets that the removed cells leave open; the neighbours keep them.
   std::vector<Half_facet> open;
   for (const Cell c : removed) {
     free_indices_.insert(index(c));
@@ -131,9 +131,10 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     }
   }
   std::vector<bool> open_is_wall;
+  open_is_wall.reserve(open.size());
   for (const Half_facet g : open) open_is_wall.push_back(is_impassable(g));
 
-  // The indices of those that go in their order, then the lowest free ones, then new ones.
+  // The indices of the removed cells in their order, then the lowest free ones, then new ones.
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < std::min(removed.size(), cells.size()); ++i) {
     indices.push_back(index(removed[i]));
@@ -161,11 +162,11 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     for (std::size_t k = 0; k < cells[c].facets.size(); ++k)
       slot[cells[c].facets[k]] = half_facet(added.back(), k);
   }
-  // Not before: a name that went now must not be that of another cell at once.
+  // Not before: a name removed by this call must not be reused by it.
   free_blocks_.merge(left_blocks);
   free_vertices_.merge(left_vertices);
 
-  for (const Half_facet g : open) compiler.link_boundary(g);  // until a new cell comes there
+  for (const Half_facet g : open) compiler.link_boundary(g);  // until a new cell is linked there
   for (std::size_t f = 0; f < soup.facet_count(); ++f) {
     const std::uint32_t g = gluing.opposite[f];
     if (g != no_facet) {

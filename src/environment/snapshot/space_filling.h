@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Order of cells along a Hilbert curve, so that neighbours in space are neighbours in memory.
+// Order of cells along a Hilbert curve, so that neighbouring cells are close in memory. Not by CGAL's
+// hilbert_sort(), which leaves the order of equal positions to the standard library: here it is the same on
+// all machines.
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_SPACE_FILLING_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_SPACE_FILLING_H
 

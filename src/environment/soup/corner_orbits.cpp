@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Union-find over darts without locks: a root is only ever linked to a lower one, so the root of a finished orbit is its
-// lowest dart, whatever the order of the unions.
+// A lock-free union-find structure of darts, since Boost's disjoint_sets is for one thread: a root is linked
+// only to a lower one, so the root of a finished orbit is its lowest dart, for any order of the unions.
 #include "corner_orbits.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class Orbits {
  public:
   explicit Orbits(std::size_t n) : parent_(n) {}
 
-  /// Before any union: dart d belongs to the orbit of a lower dart, or its own.
+  /// Before any union: puts dart d into the orbit of a lower dart, or its own.
   void start(std::uint32_t d, std::uint32_t lower) { parent_[d] = lower; }
 
   std::uint32_t find(std::uint32_t d) {
@@ -50,7 +50,7 @@ class Orbits {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Joins the darts of one cell that start from the same point: all to the first of them.
+/// Joins the darts of one cell that start from the same point: all with the first of them.
 template <int D>
 void start_cell(const Soup_darts<D>& darts, std::size_t c, Orbits& orbits) {
   const std::uint32_t begin = darts.begin_of_cell(c), end = darts.end_of_cell(c);
@@ -72,7 +72,7 @@ void start_cell(const Soup_darts<D>& darts, std::size_t c, Orbits& orbits) {
   }
 }
 
-/// The dart after edge d of cell c of the plane.
+/// The dart after edge d of 2D cell c.
 std::uint32_t next_edge(const Cell_soup<2>& soup, std::size_t c, std::uint32_t d) {
   return d + 1 == soup.cell_begin[c + 1] ? soup.cell_begin[c] : d + 1;
 }

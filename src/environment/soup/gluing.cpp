@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Half-facets are bucketed by their lowest vertex (counting sort), then sorted in each bucket by their second
-// lowest and highest vertices: for triangles that is the whole vertex set. Buckets are small, and matched in
-// parallel.
+// Half-facets are put into buckets by their lowest vertex (counting sort), then sorted in each bucket by
+// their second lowest and highest vertices: for triangles that is the whole vertex set. Buckets are small,
+// and are matched in parallel.
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
@@ -23,10 +23,10 @@ struct Record {
   std::uint64_t rest;   ///< second lowest vertex, then highest
   std::uint32_t facet;  ///< the half-facet
   bool is_simplex;      ///< D vertices: lowest and rest are the vertex set
-  bool is_ascending;    ///< of a simplex: the loop, begun at the lowest vertex, goes on to the second lowest
+  bool is_ascending;    ///< of a simplex: in the loop, the second lowest vertex follows the lowest
 };
 
-/// Why two half-facets cannot both be there.
+/// The reason why two half-facets exclude each other.
 struct Conflict {
   enum class Kind { crowded, same_side, different_order, slit } kind;
   std::uint32_t first, second;
@@ -76,7 +76,7 @@ bool is_loop_size(std::size_t n) {
   return D == 2 ? n == 2 : n >= 3;
 }
 
-/// The arrays agree in length, and rows do not run backwards.
+/// Checks that the lengths of the arrays agree, and that rows do not run backwards.
 template <int D>
 void check_arrays(const Cell_soup<D>& soup) {
   const auto is_row_index = [](const std::vector<std::uint32_t>& begin, std::size_t end) {

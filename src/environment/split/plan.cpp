@@ -106,7 +106,7 @@ void Split_plan::find_stars() {
 }
 
 void Split_plan::repair() {
-  // A cell mended may let a neighbour be mended that could not be before: until nothing changes.
+  // A repaired cell may allow the repair of a neighbour, so this repeats until nothing changes.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t slot = 0; slot < stars_.size(); ++slot) {
@@ -133,7 +133,7 @@ bool Split_plan::has_open_neighbour(std::uint32_t slot) const {
 }
 
 bool Split_plan::repair(std::uint32_t slot) {
-  // More attempts than this are not made: a hexahedron has 63 other ways to cut its facets.
+  // The maximum number of attempts: a hexahedron has 63 other combinations of diagonals.
   constexpr std::size_t most_attempts = 512;
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   struct Alternative {
@@ -153,7 +153,7 @@ bool Split_plan::repair(std::uint32_t slot) {
     for (std::size_t o = 0; o < options.back().size(); ++o)
       if (options.back()[o] != cuts_[cuts.back()].triangles) alternatives.push_back({index, o});
   }
-  // Breadth first: one facet cut otherwise, then two, and so on; ascending, each facet at most once.
+  // Breadth first: one facet with another cut, then two, and so on; ascending, each facet at most once.
   std::vector<std::vector<std::size_t>> queue{{}};
   std::size_t attempts = 0;
   for (std::size_t head = 0; head < queue.size() && attempts < most_attempts; ++head) {
@@ -184,7 +184,8 @@ bool Split_plan::try_cuts(std::uint32_t slot, const std::vector<std::uint32_t>& 
     former.push_back(cuts_[cuts[i]].triangles);
     cuts_[cuts[i]].triangles = *triangles[i];
   }
-  // Neighbours that had a star must keep one. Those that are not split stay convex however their facets are cut.
+  // Neighbours that have a star must keep one. Those that are not split stay convex for all cuts of their
+  // facets.
   std::vector<std::pair<std::uint32_t, Star>> found{{slot, find_star_of(slot)}};
   bool holds = found.front().second.found;
   for (std::size_t i = 0; holds && i < cuts.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which facets of a soup are cut into which triangles, and from which points its cells are cut into tetrahedra.
-// Internal to splitting.
+// The plan of a split: the triangles into which facets of a soup are cut, and the points from which its cells
+// are cut into tetrahedra. Internal to splitting.
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_PLAN_H
 #define CELLWALK_ENVIRONMENT_SPLIT_PLAN_H
 
@@ -16,19 +16,19 @@
 
 namespace cellwalk::detail {
 
-/// A facet that is cut, alike on both sides.
+/// A facet that is cut, in the same way on both sides.
 struct Facet_cut {
   std::uint32_t half_facet;            ///< one of its sides
   std::array<std::uint32_t, 2> cells;  ///< both cells; twice the same on the boundary
-  Triangulation triangles;             ///< they run the way the canonical loop does
+  Triangulation triangles;             ///< in the direction of the canonical loop
 };
 
-/// A decision about every facet with more than three vertices of every cell that is to be split, and about every such
-/// cell.
+/// The decisions about every facet with more than three vertices of every cell that is to be split, and about
+/// every such cell.
 class Split_plan {
  public:
-  /// Cuts facets in the preferred way, looks for stars, and tries other cuts where there is none.
-  /// \throw Error(not_certified) naming a cell that cannot be split, and why
+  /// Cuts facets in the preferred way, searches for stars, and tries other cuts if there is none.
+  /// \throw Error(not_certified) naming a cell that cannot be split, and the reason
   Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks);
 
   bool is_split(std::size_t cell) const { return slot_of_cell_[cell] != none; }
@@ -48,9 +48,9 @@ class Split_plan {
   void cut_facets_of_split_cells();
   void find_stars();
   void repair();
-  /// Looks for other cuts of the facets of one cell that give it a star and leave its neighbours theirs.
+  /// Searches for other cuts of the facets of one cell that give it a star and keep those of its neighbours.
   bool repair(std::uint32_t slot);
-  /// True if a neighbour that shares a cut has no star yet: mending it may change the cut.
+  /// True if a neighbour that shares a cut has no star yet; its repair may change the cut.
   bool has_open_neighbour(std::uint32_t slot) const;
   bool try_cuts(std::uint32_t slot, const std::vector<std::uint32_t>& cuts,
                 const std::vector<const Triangulation*>& triangles);

@@ -10,7 +10,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// \pre a, b and p are on one line
+/// \pre a, b and p are collinear
 bool is_between(const Point<2>& a, const Point<2>& b, const Point<2>& p) {
   return a < b ? !(p < a) && !(b < p) : !(p < b) && !(a < p);
 }
@@ -50,9 +50,9 @@ Triangulation fan(Predicate_counts& counts, std::span<const Point<2>> p, int sig
   return triangles;
 }
 
-/// Cuts the first ear in the given order of vertices until one triangle is left. An ear's closed triangle holds no
-/// other vertex, so that what is left is a simple polygon without spikes. In a triangulation of the polygon (one
-/// exists) a triangle with two sides on the boundary is such an ear.
+/// Cuts the first ear in the given order of vertices until one triangle is left. The closed triangle of an
+/// ear contains no other vertex, so the rest is a simple polygon without spikes. In a triangulation of the
+/// polygon (one exists) a triangle with two sides on the boundary is such an ear.
 Triangulation cut_ears(Predicate_counts& counts, std::span<const Point<2>> p, int sign,
                        std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> ring(p.size());
@@ -98,7 +98,7 @@ void add(std::vector<Triangulation>& list, Triangulation triangles) {
   if (std::find(list.begin(), list.end(), triangles) == list.end()) list.push_back(std::move(triangles));
 }
 
-/// Replaces positions in a loop by what the loop holds.
+/// Replaces positions in a loop by the point indices there.
 void to_points(std::vector<Triangulation>& list, std::span<const std::uint32_t> loop) {
   for (Triangulation& triangles : list)
     for (Triangle& t : triangles) t = {loop[t[0]], loop[t[1]], loop[t[2]]};
@@ -167,7 +167,8 @@ std::vector<Triangulation> facet_triangulations(Predicate_counts& counts, std::s
     list = triangulations(counts, flat_points, sign, loop, most);
     break;
   }
-  // Off the plane any fan without flat triangles may be what a cell needs, folded in that projection or not.
+  // In a facet that is not planar, any fan without flat triangles may suit the cell, even if its projection
+  // is folded.
   Corners corners;
   if (list.size() >= most || !find_corners(counts, corners_of, corners) ||
       is_planar(counts, corners_of, corners)) {

@@ -51,7 +51,7 @@ class Soup_checker {
   std::vector<std::uint32_t> vertices_;
 };
 
-/// What a Cell_shape cannot say.
+/// Refuses cells that a Cell_shape cannot describe.
 template <int D>
 void refuse_malformed(const Cell_soup<D>& soup) {
   const auto bad = std::find_if(soup.vertices.begin(), soup.vertices.end(),

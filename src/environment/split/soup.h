@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cells of a soup, seen as check_cell sees them. Internal to splitting.
+// Cells of a soup as arguments of check_cell(). Internal to splitting.
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_SOUP_H
 #define CELLWALK_ENVIRONMENT_SPLIT_SOUP_H
 
@@ -16,12 +16,13 @@ namespace cellwalk::detail {
 inline std::string cell_name(std::size_t c) { return "cell " + std::to_string(c); }
 
 /// The result of check_cell for every cell of a soup. Parallel.
-/// \throw Error(input) where a vertex index is out of range or a cell has more vertices than its shape can number
+/// \throw Error(input) if a vertex index is out of range or a cell has more vertices than its shape can
+///        number
 template <int D>
 std::vector<Cell_check> check_soup(const Cell_soup<D>& soup);
 
-/// The lowest cell that has a defect no split can mend is refused.
-/// \throw Error(not_certified), or Error(input) where a coordinate is not finite
+/// Refuses the lowest cell with a defect that no split can repair.
+/// \throw Error(not_certified), or Error(input) if a coordinate is not finite
 void refuse_hopeless(const std::vector<Cell_check>& checks);
 
 }  // namespace cellwalk::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Conforming split in space: facets into triangles, then cells into stars of tetrahedra.
+// The conforming split in 3D: facets into triangles, then cells into stars of tetrahedra.
 #include <cellwalk/environment/split.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Writer {
     result_.points = soup.points;
   }
 
-  /// Copies a cell, its cut facets replaced by triangles.
+  /// Copies a cell, with its cut facets replaced by triangles.
   void keep(std::size_t c) {
     for (std::size_t f = soup_.cell_begin[c]; f < soup_.cell_begin[c + 1]; ++f) {
       if (!plan_.is_cut(f)) {
@@ -73,7 +73,7 @@ class Writer {
     }
   }
 
-  /// Adds a side of a tetrahedron that has the apex; a wall if it lies in a wall of the cell.
+  /// Adds a side of a tetrahedron that contains the apex; it is a wall if it lies in a wall of the cell.
   void add_side(std::uint32_t apex, std::uint32_t u, std::uint32_t v) {
     bool wall = false;
     for (std::size_t i = 0; i < surface_.size() && !wall; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Split in the plane: polygons into triangles. Edges are never cut, so that neighbours need not know.
+// The split in 2D: polygons into triangles. Edges are never cut, so neighbours are not affected.
 #include <cellwalk/environment/split.h>
 #include <cellwalk/kernel/error.h>
 

@@ -18,7 +18,7 @@ bool share_edge(const Triangle& s, const Triangle& t) {
   return (has(s, t[0]) + has(s, t[1]) + has(s, t[2])) >= 2;
 }
 
-/// Looks at triangles from one point.
+/// The triangles as seen from one point.
 class Viewpoint {
  public:
   Viewpoint(Predicate_counts& counts, std::span<const Point<3>> points, const Point<3>& eye)
@@ -28,10 +28,10 @@ class Viewpoint {
     return Exact::orientation(counts_, points_[t[0]], points_[t[1]], points_[t[2]], eye_) < 0;
   }
 
-  /// True if the open cones over two triangles are disjoint. A plane through the eye separates them, and can be turned
-  /// until it holds two of their vertices.
+  /// True if the open cones over two triangles are disjoint. A plane through the eye separates them, and can
+  /// be rotated until it contains two of their vertices.
   bool are_apart(const Triangle& s, const Triangle& t) const {
-    // Over a common edge they lie on either side, as both are seen from inside.
+    // They lie on different sides of a common edge, since both are seen from inside.
     if (share_edge(s, t)) return true;
     for (int i = 0; i < 3; ++i) {
       if (separates(s[i], s[(i + 1) % 3], s, t) || separates(t[i], t[(i + 1) % 3], s, t)) return true;
@@ -61,8 +61,8 @@ class Viewpoint {
   const Point<3>& eye_;
 };
 
-/// True if the tetrahedra from `eye` (the vertex `apex`, unless it is no_vertex) over all triangles without apex are
-/// positive and do not overlap.
+/// True if the tetrahedra from `eye` (the vertex `apex`, unless it is no_vertex) over all triangles without
+/// apex are positive and do not overlap.
 bool is_star(Predicate_counts& counts, std::span<const Point<3>> points, const Triangulation& surface,
              const Point<3>& eye, std::uint32_t apex) {
   const Viewpoint view(counts, points, eye);
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> vertices_of(const Triangulation& surface) {
   return vertices;
 }
 
-/// True if every edge is used once each way: diagonals of different facets may coincide.
+/// True if every edge is used once in each direction; diagonals of different facets may coincide.
 bool is_edge_manifold(const Triangulation& surface) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const Triangle& t : surface)
@@ -103,7 +103,8 @@ struct Half_space {
 }  // namespace
 
 bool middle_of_kernel(std::span<const Point<3>> points, const Triangulation& surface, Point<3>& middle) {
-  // All corners of the kernel are intersections of three planes; work grows with the fourth power of their number.
+  // All corners of the kernel are intersections of three planes; the cost grows with the fourth power of
+  // their number.
   constexpr std::size_t most_triangles = 96;
   // Slack for rounding, in units of the cell's size: candidates only, the signs decide.
   constexpr double slack = 1e-12;

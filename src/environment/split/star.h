@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cutting a polyhedron with triangular facets into the star of one point. Internal to splitting.
+// The cut of a polyhedron with triangular facets into the star of one point. Internal to splitting.
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_STAR_H
 #define CELLWALK_ENVIRONMENT_SPLIT_STAR_H
 
@@ -9,7 +9,7 @@
 
 namespace cellwalk::detail {
 
-/// The point that a polyhedron is cut from.
+/// The apex of the star of a polyhedron.
 struct Star {
   bool found = false;
   bool is_vertex = false;
@@ -17,14 +17,14 @@ struct Star {
   Point<3> point{};          ///< otherwise: a point inside
 };
 
-/// Finds the lowest vertex, else an interior point, from which the tetrahedra over the triangles are all exactly
-/// positive and do not overlap. Interior points tried: the mean of the vertices, the mean of the triangles, and the
-/// middle of the kernel, where there are at most 96 triangles to search it by.
+/// Finds the lowest vertex, otherwise an interior point, from which the tetrahedra over the triangles are all
+/// exactly positive and do not overlap. The interior points tried are the mean of the vertices, the mean of
+/// the triangles, and the middle of the kernel, if there are at most 96 triangles.
 /// \pre the triangles form a closed surface, counterclockwise seen from outside
 Star find_star(Predicate_counts& counts, std::span<const Point<3>> points, const Triangulation& surface);
 
-/// The middle of the set of points that see all triangles from inside, as far as rounded arithmetic can tell: a
-/// candidate, to be checked. False if none was found.
+/// The middle of the kernel, the set of points that see all triangles from inside, in rounded arithmetic: a
+/// candidate that must be checked. False if none was found.
 bool middle_of_kernel(std::span<const Point<3>> points, const Triangulation& surface, Point<3>& middle);
 
 /// The enclosed volume, rounded; negative if the triangles face inwards.

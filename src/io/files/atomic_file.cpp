@@ -16,15 +16,16 @@
 namespace cellwalk::io {
 namespace {
 
-/// Bytes gathered before they are handed to the system.
+/// The size of the buffer of bytes before they are written.
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
-/// Bytes of a name that a temporary name repeats: names end at 255 bytes.
+/// The bytes of a name that its temporary name repeats; names have at most 255 bytes.
 constexpr std::size_t repeated_length = 200;
-/// Links from one name to the next, as many as Linux follows.
+/// The largest number of links followed from one name to the next, as in Linux.
 constexpr int most_links = 40;
 
-/// The descriptor of this process that a path such as /dev/stdout or /proc/self/fd/3 stands for. Opened by its path, a file that it
-/// leads to would be written from its beginning, and replaced it would not be the file any more that the shell gave.
+/// The descriptor of this process to which a path such as /dev/stdout or /proc/self/fd/3 refers. A file
+/// opened by that path would be written from its beginning; a file that replaced it would not be the one that
+/// the shell opened.
 std::optional<int> own_descriptor(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(
@@ -32,7 +33,7 @@ std::optional<int> own_descriptor(const std::filesystem::path& path) {
   if (error) return std::nullopt;
   std::filesystem::path entry = folder / path.filename();
   const std::filesystem::path own = std::filesystem::canonical("/proc/self/fd", error);
-  // /dev/stdout leads to /proc/self/fd/1, which itself leads to a file and is not to be followed.
+  // /dev/stdout leads to /proc/self/fd/1, which itself leads to a file and must not be followed.
   for (int i = 0; i < most_links && entry.parent_path() != own && std::filesystem::is_symlink(entry, error);
        ++i) {
     entry = entry.parent_path() / std::filesystem::read_symlink(entry, error);
@@ -49,7 +50,7 @@ std::optional<int> own_descriptor(const std::filesystem::path& path) {
 
 Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::move(destination)) {
   if (destination_.empty()) throw Error(Error_code::usage, "an output file without a name: give one");
-  constexpr mode_t permissions = 0666;  // less the umask of the user
+  constexpr mode_t permissions = 0666;  // without the umask of the user
   struct stat old;
   const bool exists = stat(destination_.c_str(), &old) == 0;
   if (!exists && errno == ENAMETOOLONG) fail("cannot be written");  // the temporary name is shorter
@@ -60,7 +61,7 @@ Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::
     if (descriptor_ < 0) fail("cannot be written");
     return;
   }
-  // A rename would replace a file that its owner has protected.
+  // A rename would replace a file that its owner has write-protected.
   if (exists && access(destination_.c_str(), W_OK) != 0) fail("cannot be written");
   std::error_code error;
   target_ = std::filesystem::weakly_canonical(destination_, error);
@@ -111,7 +112,7 @@ void Atomic_file::put() {
   if (is_direct_) return;
   struct stat now;
   const bool is_directory = stat(target_.c_str(), &now) == 0 && S_ISDIR(now.st_mode);
-  if (is_directory) errno = EISDIR;  // a file and a directory could exchange names
+  if (is_directory) errno = EISDIR;  // an exchange of names would replace a directory by the file
   if (is_directory || !replacement_.put(temporary_, target_)) fail("cannot be put in place");
 }
 

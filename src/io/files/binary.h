@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: numbers out of binary files, never past their end, and into them.
+// Private to io: numbers in binary files, read with a check of the end, and written.
 #ifndef CELLWALK_IO_FILES_BINARY_H
 #define CELLWALK_IO_FILES_BINARY_H
 
@@ -21,7 +21,8 @@ class Binary_reader {
         rest_(bytes),
         swap_(big_endian == (std::endian::native == std::endian::little)) {}
 
-  /// The next number. \throw Error(input) naming `what` where the bytes end
+  /// The next number.
+  /// \throw Error(input) naming `what` at the end of the bytes
   template <class T>
   T take(const char* what) {
     if (rest_.size() < sizeof(T))
@@ -35,7 +36,8 @@ class Binary_reader {
     return value;
   }
 
-  /// The next bytes, as they are. \pre so many are left
+  /// The next bytes, as they are.
+  /// \pre so many are left
   std::string_view take_bytes(std::size_t count) {
     const std::string_view bytes = rest_.substr(0, count);
     rest_.remove_prefix(count);
@@ -52,7 +54,7 @@ class Binary_reader {
   bool swap_;
 };
 
-/// Values as they lie in memory, to be written.
+/// The bytes of values in memory, for writing.
 template <class T>
 std::string_view bytes_of(const T* values, std::size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof(T)};

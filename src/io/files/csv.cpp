@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view s) {
   return first == std::string_view::npos ? std::string_view{} : s.substr(first, last - first + 1);
 }
 
-/// The fields of a line; "" within quotes is one quote.
+/// The fields of a line; "" within quotes stands for one quote.
 std::vector<std::string> split(const Line_reader& in) {
   std::string_view rest = in.rest();
   std::vector<std::string> fields;
@@ -86,7 +86,7 @@ std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {
 
 std::size_t Csv_table::column(std::string_view name) const {
   if (const auto found = find_column(name)) return *found;
-  constexpr std::size_t most = 20;  // names that one line can show
+  constexpr std::size_t most = 20;  // names shown in one line
   const std::size_t named = std::min(most, columns_.size());
   std::string names = shown(columns_[0]);
   for (std::size_t c = 1; c < named; ++c) names.append(",").append(shown(columns_[c]));
@@ -113,12 +113,12 @@ std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
   return fmt::format("{} fields, where the header has {}", count, columns_.size());
 }
 
-Csv_writer::Csv_writer(std::filesystem::path path, std::vector<std::string> columns)
+Csv_writer::Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns)
     : own_(std::make_unique<Atomic_file>(std::move(path))), file_(*own_), column_count_(columns.size()) {
   header(columns);
 }
 
-Csv_writer::Csv_writer(Atomic_file& file, std::vector<std::string> columns)
+Csv_writer::Csv_writer(Atomic_file& file, const std::vector<std::string>& columns)
     : file_(file), column_count_(columns.size()) {
   header(columns);
 }

@@ -27,7 +27,7 @@ class Deflater {
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
 
-  /// Gives what comes out to `take`. After the last piece nothing may follow.
+  /// Passes the compressed bytes to `take`. Nothing may follow the last piece.
   template <class Take>
   void put(std::string_view bytes, bool is_last, Take&& take) {
     constexpr std::size_t most = std::numeric_limits<uInt>::max();

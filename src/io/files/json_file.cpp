@@ -6,7 +6,7 @@
 namespace cellwalk::io {
 
 void write_json(Atomic_file& file, const nlohmann::ordered_json& value) {
-  // A text that is no UTF-8, such as a file name, must not keep a report from being written.
+  // Text that is not UTF-8, such as a file name, must not prevent a report.
   file.write(value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 

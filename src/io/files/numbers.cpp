@@ -15,20 +15,20 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// Longest run of digits taken for an integer of a fraction: twice what the smallest double needs.
+/// The longest integer of a fraction in digits: twice as many as the smallest double needs.
 constexpr std::size_t most_digits = 2200;
 
 bool is_digits(std::string_view s) {
   return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// n / d for positive integers, where that is a double exactly.
+/// n / d for positive integers, if that is exactly a double.
 std::optional<double> exact_quotient(Integer n, Integer d) {
   const Integer common = gcd(n, d);
   n /= common;
   d /= common;
   const auto power = static_cast<long>(msb(d));
-  if (Integer(1) << power != d) return std::nullopt;  // the denominator is no power of two
+  if (Integer(1) << power != d) return std::nullopt;  // the denominator is not a power of two
   const auto low = static_cast<long>(lsb(n)), high = static_cast<long>(msb(n));
   using limits = std::numeric_limits<double>;
   constexpr long lowest_bit = limits::min_exponent - limits::digits;  // weight 2^-1074
@@ -45,7 +45,7 @@ Parsed_number parse_fraction(std::string_view text, std::size_t slash) {
   if (!is_digits(n) || !is_digits(d))
     return {0, fmt::format("'{}' is not a fraction of integers", shown(text))};
   if (n.size() > most_digits || d.size() > most_digits) return {0, "a fraction with too many digits"};
-  // A leading zero would make it octal.
+  // A leading zero would make the number octal.
   auto trimmed = [](std::string_view s) {
     const std::size_t first = s.find_first_not_of('0');
     return first == std::string_view::npos ? std::string("0") : std::string(s.substr(first));
@@ -83,7 +83,7 @@ std::optional<double> parse_decimal(std::string_view text) noexcept {
   if (end != text.data() + text.size() || text.empty()) return std::nullopt;
   if (error == std::errc{}) return value;
   if (error != std::errc::result_out_of_range) return std::nullopt;
-  // from_chars does not say which way it is out of range. A number too small is nearest to zero.
+  // from_chars does not distinguish overflow from underflow. A number too small is rounded to zero.
   const std::size_t exponent = text.find_first_of("eE");
   const bool tiny = exponent == std::string_view::npos ? text.find_first_not_of("-0.") > 300
                                                        : text.substr(exponent + 1).starts_with('-');

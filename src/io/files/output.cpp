@@ -15,7 +15,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// Names a signal handler can clean up at a time.
+/// The number of names that a signal handler can clean up.
 constexpr std::size_t slot_count = 32;
 constexpr std::size_t longest_path = 4096;  // PATH_MAX of Linux
 
@@ -28,7 +28,8 @@ std::array<Slot, slot_count> slots;
 
 std::atomic<bool> names_change = false;
 
-/// While it lives, signals that end the program wait: on this thread they are blocked, on others the handler waits.
+/// Holds signals that end the program during its lifetime: on this thread they are blocked, on others the
+/// handler waits.
 class Hold_signals {
  public:
   Hold_signals() {
@@ -58,7 +59,7 @@ bool exchange(const std::filesystem::path& a, const std::filesystem::path& b) no
 
 bool detail::exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept {
   const std::string aside = a.string() + ".old";
-  const bool is_linked = link(b.c_str(), aside.c_str()) == 0;  // a directory cannot be
+  const bool is_linked = link(b.c_str(), aside.c_str()) == 0;  // not possible for a directory
   if (!is_linked && std::rename(b.c_str(), aside.c_str()) != 0) return false;
   if (std::rename(a.c_str(), b.c_str()) == 0) return std::rename(aside.c_str(), a.c_str()) == 0;
   const int why = errno;
@@ -114,7 +115,8 @@ bool Replacement::put(const std::filesystem::path& from, const std::filesystem::
   return had_old_ ? exchange(from, to) : std::rename(from.c_str(), to.c_str()) == 0;
 }
 
-void Replacement::take_back(const std::filesystem::path& from, const std::filesystem::path& to) noexcept {
+void Replacement::take_back(const std::filesystem::path& from,
+                            const std::filesystem::path& to) const noexcept {
   if (had_old_)
     exchange(from, to);
   else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: a folder for a library that reads nothing but files.
+// Private to io: a folder for a library that reads only files.
 #ifndef CELLWALK_IO_FILES_TEMPORARY_FOLDER_H
 #define CELLWALK_IO_FILES_TEMPORARY_FOLDER_H
 
@@ -15,7 +15,7 @@
 
 namespace cellwalk::io {
 
-/// A folder of a fresh name among the temporary files for one file, removed with it at the end.
+/// A temporary folder with a new name for one file, removed with it at the end of its lifetime.
 class Temporary_folder {
  public:
   Temporary_folder() : path_((std::filesystem::temp_directory_path() / "cellwalk-XXXXXX").string()) {
@@ -30,9 +30,10 @@ class Temporary_folder {
   Temporary_folder(const Temporary_folder&) = delete;
   Temporary_folder& operator=(const Temporary_folder&) = delete;
 
-  /// Writes the file into the folder; returns its path. \throw Error(other) where the device is full
+  /// Writes the file into the folder; returns its path.
+  /// \throw Error(other) if the device is full
   std::string write(const std::string& name, std::string_view bytes) {
-    const std::string path = path_ + "/" + name;
+    std::string path = path_ + "/" + name;
     unfinished_file_.hold(path);
     std::ofstream out(path, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

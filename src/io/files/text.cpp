@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
 
-/// A message on one line, whatever bytes of a file it quotes.
+/// A message in one line, for any bytes of a file that it quotes.
 std::string one_line(std::string message) {
   constexpr char first_printed = ' ', delete_character = 0x7f;
   for (char& c : message)

@@ -11,35 +11,39 @@
 
 namespace cellwalk::io {
 
-/// The bytes of a file; a gzip'ed file is inflated, whatever it is called.
+/// The bytes of a file; a file compressed with gzip is inflated, whatever its name.
 /// \throw Error(input) if it cannot be read, or its gzip stream is damaged
 std::string load(const std::filesystem::path& path);
 
-/// The bytes of a file as they are. \throw Error(input) if it cannot be read
+/// The bytes of a file, unchanged.
+/// \throw Error(input) if it cannot be read
 std::string load_packed(const std::filesystem::path& path);
-/// What a gzip stream holds; `file` stands for it in errors. \throw Error(input) if it is damaged
+/// The content of a gzip stream.
+/// \param file stands for the file in errors
+/// \throw Error(input) if it is damaged
 std::string unpack(const std::string& file, const std::string& packed);
 
 /// True if the bytes begin like a gzip stream.
 bool is_gzip(std::string_view bytes);
 
-/// A word as error messages show it: the beginning of a long one.
+/// A word for error messages; a long one is shortened.
 std::string shown(std::string_view word);
 
-/// \throw Error(input) "file: what" always, on one line
+/// \throw Error(input) "file: what", always, in one line
 [[noreturn]] void fail(const std::string& file, const std::string& what);
-/// \throw Error(input) "file:line: what" always, on one line
+/// \throw Error(input) "file:line: what", always, in one line
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what);
 
-/// Walks over the lines of a text that outlives it, and over the words of the current line.
-/// Blank lines are skipped; what follows a comment character is ignored. Line ends may be \n or \r\n.
+/// The lines of a text, one after the other, and the words of the current line. Blank lines and the text
+/// after a comment character are skipped. Line ends may be \n or \r\n. Refers to the text, which must outlive
+/// it.
 class Line_reader {
  public:
   Line_reader(std::string file, std::string_view text, char comment = '#');
 
   /// Moves to the next line that has words. False at the end of the text.
   bool next_line();
-  /// As next_line(), but the end of the text is an error: "ends where `expected` should be".
+  /// The same as next_line(), but the end of the text is an error: "ends where `expected` should be".
   void need_line(std::string_view expected);
   /// Makes the next call of next_line() return the current line again.
   void unread() { position_ = line_begin_, --line_number_; }
@@ -47,21 +51,25 @@ class Line_reader {
   /// The text after the current line.
   std::string_view remaining() const { return text_.substr(position_); }
 
-  /// Words of the current line, separated by blanks and tabs. Empty at its end.
+  /// The next word of the current line; words are separated by blanks and tabs. Empty at the end of the line.
   std::string_view word();
   bool at_line_end();
-  std::string_view rest() const { return rest_; }  ///< what is left of the current line
+  std::string_view rest() const { return rest_; }  ///< the rest of the current line
 
-  /// The next word as a finite number. \throw Error(input) naming `what`
+  /// The next word as a finite number.
+  /// \throw Error(input) naming `what`
   double number(std::string_view what);
-  /// The next word as an integer >= 0. \throw Error(input) naming `what`
+  /// The next word as an integer >= 0.
+  /// \throw Error(input) naming `what`
   std::uint64_t count(std::string_view what);
-  /// The next word as an index below `size`, `base` taken off. \throw Error(input) naming `what`
+  /// The next word as an index below `size`, after subtraction of `base`.
+  /// \throw Error(input) naming `what`
   std::uint32_t index(std::string_view what, std::size_t size, std::uint32_t base = 0);
-  /// Refuses a line that has further words. \throw Error(input)
+  /// Refuses a line that has further words.
+  /// \throw Error(input)
   void expect_line_end(std::string_view after);
 
-  /// A bound for how many lines of at least `bytes` bytes are left: what may be reserved in advance.
+  /// A bound of the number of remaining lines of at least `bytes` bytes, for reserving memory.
   std::size_t plausible(std::uint64_t announced, std::size_t bytes) const;
 
   const std::string& file() const { return file_; }
@@ -76,7 +84,7 @@ class Line_reader {
   char comment_;
 };
 
-/// True if two words are equal but for the case of their letters (ASCII).
+/// True if two words are equal up to the case of ASCII letters.
 bool same_word(std::string_view a, std::string_view b);
 
 /// Letters of ASCII in lower case.

@@ -19,10 +19,10 @@
 namespace cellwalk::io {
 namespace {
 
-/// The content of a file before it is known to be one of the plane.
+/// The content of a file before its dimension is checked.
 struct Content {
   Body_parts<3> parts;
-  bool has_volumes = false;  ///< whose inner facets occur twice, as they should
+  bool has_volumes = false;  ///< then inner facets occur twice, as they should
 };
 
 void add_cells(Content& content, const Cell_soup<3>& cells) {
@@ -63,7 +63,7 @@ Content from_table(const std::string& name, std::string_view text, Read_report& 
   return content;
 }
 
-/// What the other readers of meshes give.
+/// Collects the results of the other mesh readers.
 struct From_mesh {
   Content operator()(Surface_soup& surface) const {
     return {{std::move(surface.points), std::move(surface.facets), {}}};
@@ -130,7 +130,8 @@ Content content_of(const std::string& name, const Recognized_file& file, Read_re
   }
 }
 
-/// The same parts in D dimensions. \throw Error(input) where a point does not lie in the plane
+/// The same parts in D dimensions.
+/// \throw Error(input) if a point of a 2D body has z other than 0
 template <int D>
 Body_parts<D> in_dimension(const std::string& name, Body_parts<3> parts) {
   if constexpr (D == 3) {

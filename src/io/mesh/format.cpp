@@ -31,7 +31,7 @@ constexpr std::array<Named, 17> extensions{{{".off", Format::off},
                                             {".vtp", Format::vtk_xml},
                                             {".csv", Format::csv}}};
 
-/// Openings that occur in one format only.
+/// The first bytes that occur in one format only.
 constexpr std::array<Named, 10> openings{{{"OVM", Format::ovm},
                                           {"$", Format::msh},
                                           {"MeshVersionFormatted", Format::medit},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: which format some bytes are in.
+// Private to io: the recognition of formats.
 #ifndef CELLWALK_IO_MESH_FORMAT_H
 #define CELLWALK_IO_MESH_FORMAT_H
 
@@ -11,22 +11,23 @@ namespace cellwalk::io {
 
 enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv, vtk, vtk_xml, csv };
 
-/// By what the bytes begin with; unknown where that does not tell.
+/// The format by the first bytes; unknown if these are inconclusive.
 Format format_by_content(std::string_view bytes);
 
-/// By the extension, `.gz` after it left out.
+/// The format by the extension, without a final `.gz`.
 Format format_by_extension(const std::filesystem::path& path);
 
-/// Such as "Gmsh".
+/// The name of a format, such as "Gmsh".
 std::string_view format_name(Format format);
 
-/// The bytes of a file, inflated, and the format they are in: by the content where that tells, else by the extension.
+/// The bytes of a file, inflated, and their format: by the content if that is conclusive, otherwise by the
+/// extension.
 struct Recognized_file {
   std::string bytes;
   Format format;
-  std::string note;  ///< where content and extension contradict each other, else empty
+  std::string note;  ///< if content and extension contradict each other, otherwise empty
 };
-/// \throw Error(input) where the file cannot be read or is empty
+/// \throw Error(input) if the file cannot be read or is empty
 Recognized_file load_recognized(const std::filesystem::path& path);
 
 }  // namespace cellwalk::io

@@ -34,7 +34,7 @@ class Binary_msh {
     refuse("the file ends inside its nodes or elements: it is cut short, or broken");
   }
 
-  /// The name on the next line that begins with $; nothing at the end. The position is after that line.
+  /// The name in the next line that begins with $; empty at the end. The position is after that line.
   std::string next_section() {
     while (at_ < bytes_.size() && bytes_[at_] != '$') {
       const std::size_t end = bytes_.find('\n', at_);
@@ -47,7 +47,7 @@ class Binary_msh {
   void read(const std::string& section) {
     if (section.starts_with("$End")) return;
     for (const char* known :
-         {"$MeshFormat", "$Nodes", "$Elements", "$ParametricNodes"})  // Gmsh looks at the beginning only
+         {"$MeshFormat", "$Nodes", "$Elements", "$ParametricNodes"})  // Gmsh compares only the beginning
       if (section.starts_with(known) && section != known)
         refuse(fmt::format("text follows '{}', where the line should end", known));
     if (section == "$MeshFormat") {
@@ -65,7 +65,7 @@ class Binary_msh {
     } else if (section == "$ParametricNodes") {
       refuse("binary nodes with parameters are not read: write them without, or the mesh as text");
     } else {
-      // Of other sections nothing is known but where they end.
+      // Of other sections only the end is known.
       const std::size_t end = bytes_.find("$End" + section.substr(1), at_);
       if (end == std::string_view::npos) refuse(fmt::format("the section '{}' has no end", shown(section)));
       at_ = end;
@@ -161,7 +161,7 @@ class Binary_msh {
     }
   }
 
-  /// The number of blocks, and of all that they hold.
+  /// The number of blocks, and the total number of their members.
   std::pair<Number, Number> section_head() {
     const Number blocks = take_size(), total = take_size();
     skip(2, sizeof(std::uint64_t));
@@ -220,7 +220,8 @@ class Binary_msh {
 }  // namespace
 
 int nodes_of_msh_type(std::int64_t type) {
-  // As in Gmsh's GmshDefines.h: lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids, up to high orders.
+  // As in Gmsh's GmshDefines.h: lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms and pyramids,
+  // up to high orders.
   constexpr std::array<int, 32> first{0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                       8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
   constexpr std::array<std::pair<int, int>, 18> others{{{36, 16},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: as gmsh_nodes.h, for binary files.
+// Private to io: the check of gmsh_nodes.h for binary files.
 #ifndef CELLWALK_IO_MESH_GMSH_BINARY_H
 #define CELLWALK_IO_MESH_GMSH_BINARY_H
 
@@ -11,8 +11,8 @@
 namespace cellwalk::io {
 
 /// \pre the header is that of a binary file of version 2 or 4.1
-/// \throw Error(input) where an element names a node that is not there before it, or is of a type that is not known, a node's number is
-///        not one, blocks hold more than was announced, or a section occurs twice
+/// \throw Error(input) if an element names a node that is not defined before it, or is of an unknown type, a
+///        node's number is invalid, blocks contain more than was announced, or a section occurs twice
 void check_binary_msh_nodes(const std::string& name, std::string_view bytes, const Msh_header& header);
 
 }  // namespace cellwalk::io

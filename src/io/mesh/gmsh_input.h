@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what Gmsh is given of a file. Whatever would crash it, be run by it as a script, or lose cells, is found before.
+// Private to io: the input of Gmsh. Everything that would crash it, be executed by it as a script, or lose
+// cells, is found before.
 #ifndef CELLWALK_IO_MESH_GMSH_INPUT_H
 #define CELLWALK_IO_MESH_GMSH_INPUT_H
 
@@ -14,13 +15,13 @@
 namespace cellwalk::io {
 
 struct Gmsh_input {
-  std::string file_name;  ///< makes Gmsh choose the right reader
+  std::string file_name;  ///< by which Gmsh chooses the right reader
   std::string changed;    ///< the bytes to read instead of the file's, if not empty
   Msh_counts counts;
 };
 
 /// Fills in the report's format and notes.
-/// \throw Error(input) with file and line where the bytes are no mesh of that format, or name nodes that are not there
+/// \throw Error(input) with file and line if the bytes are not a mesh of that format, or name undefined nodes
 Gmsh_input prepare_for_gmsh(const std::string& name, std::string_view bytes, Format format,
                             Read_report& report);
 

@@ -45,7 +45,7 @@ class Msh_nodes {
     seen = true;
   }
 
-  /// Gmsh looks at the beginning of a line only.
+  /// True if a line opens a section. Gmsh compares only the beginning of the line.
   bool is_section(std::string_view found, std::string_view section) {
     if (!found.starts_with(section)) return false;
     if (found != section || !in_.at_line_end())
@@ -53,7 +53,7 @@ class Msh_nodes {
     return true;
   }
 
-  /// Moves on to the next line at the end of one, as Gmsh does.
+  /// Continues with the next line at the end of one, as Gmsh does.
   void need_word(std::string_view what) {
     while (in_.at_line_end()) in_.need_line(what);
   }
@@ -90,14 +90,14 @@ class Msh_nodes {
       in_.fail(fmt::format("element {} names node {}, which does not exist", element, node));
   }
 
-  /// The nodes of an element whose type is not listed are what is left of its line.
+  /// The nodes of an element of a type that is not listed are the rest of its line.
   void check_nodes(Number element, Number type, Number count) {
     if (count == listed) count = nodes_of_msh_type(type);
     for (Number i = 0; i < count; ++i) check_node(element, number("a node"));
     while (count == 0 && !in_.at_line_end()) check_node(element, number("a node"));
   }
 
-  /// Versions 1 and 2: a line each. What follows the coordinates of a node are its parameters.
+  /// Versions 1 and 2: one line each. The coordinates of a node are followed by its parameters.
   void nodes() {
     const Number count = number("the number of nodes");
     for (Number i = 0; i < count; ++i) {
@@ -121,7 +121,7 @@ class Msh_nodes {
     }
   }
 
-  /// The head of a section of version 4: the number of blocks, and of all that they hold.
+  /// The head of a section of version 4: the number of blocks, and the total number of their members.
   struct Section {
     Number blocks, total;
   };
@@ -132,7 +132,8 @@ class Msh_nodes {
     return {blocks, total};
   }
 
-  /// The head of a block: how its members are written (their type, or whether they have parameters), and how many there are.
+  /// The head of a block: the form of its members (their type, or whether they have parameters), and their
+  /// number.
   struct Block {
     Number dimension, kind, size;
   };

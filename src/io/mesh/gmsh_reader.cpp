@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The module that reads .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, from its own session.
+// The module that reads .msh, MEDIT and UNV by the Gmsh API, whose state is global: one file at a time, each
+// in its own session.
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -16,7 +17,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// Puts the program's locale back at the end: Gmsh sets that of the user.
+/// Restores the program's locale at the end of its lifetime, since Gmsh sets that of the user.
 class Keep_locale {
  public:
   Keep_locale() : locale_(std::setlocale(LC_ALL, nullptr)) {}
@@ -28,7 +29,7 @@ class Keep_locale {
   std::string locale_;
 };
 
-/// Gmsh for the lifetime of this object: silent, without the user's configuration, ended whatever happens.
+/// Gmsh during the lifetime of this object: silent, and without the user's configuration.
 class Session {
  public:
   Session() {
@@ -41,13 +42,13 @@ class Session {
     try {
       gmsh::logger::stop();
       gmsh::finalize();
-    } catch (...) {  // nothing is left that could be done
+    } catch (...) {  // a destructor cannot report it
     }
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// What Gmsh had to say at one of its levels, such as "Error".
+  /// The messages of Gmsh at one of its levels, such as "Error".
   std::vector<std::string> messages(const std::string& level) const {
     std::vector<std::string> log, found;
     gmsh::logger::get(log);
@@ -60,7 +61,7 @@ class Session {
   Keep_locale keep_locale_;
 };
 
-/// One element as the file has it: its tag tells the order, its corners are tags of nodes.
+/// An element of the file: its tag determines the order, its corners are tags of nodes.
 struct Element {
   std::size_t tag;
   int dimension;
@@ -68,11 +69,11 @@ struct Element {
 };
 
 struct Kinds {
-  std::size_t left_out = 0;  ///< of a dimension below the lowest that is wanted
+  std::size_t left_out = 0;  ///< below the lowest dimension requested
   std::size_t higher_order = 0;
 };
 
-/// Elements of at least the dimension that is wanted with their corner nodes, in the order of the file.
+/// The elements of at least the given dimension with their corner nodes, in the order of the file.
 std::vector<Element> elements(const std::string& name, int lowest_dimension, Kinds& kinds) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
@@ -119,7 +120,7 @@ Node_index points(const std::string& name, std::vector<Point<3>>& out) {
     const Point<3> p{coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
     if (!is_finite(p)) fail(name, fmt::format("node {} has a coordinate that is not finite", tags[i]));
     const bool is_new = index.emplace(tags[i], static_cast<std::uint32_t>(out.size())).second;
-    if (is_new) out.push_back(p);  // else a node of several entities
+    if (is_new) out.push_back(p);  // otherwise it is a node of several entities
   }
   return index;
 }
@@ -131,7 +132,7 @@ std::array<std::uint32_t, N> fixed(const std::vector<std::uint32_t>& v) {
   return a;
 }
 
-/// The order of corners in Gmsh is that of the soup's functions for every volume element.
+/// Adds a volume element. The order of corners in Gmsh is that of the soup's functions for all of them.
 void add_volume(const std::string& name, Cell_soup<3>& soup, const std::vector<std::uint32_t>& v,
                 std::size_t tag) {
   switch (v.size()) {
@@ -152,7 +153,7 @@ void add_volume(const std::string& name, Cell_soup<3>& soup, const std::vector<s
   }
 }
 
-/// Gmsh leaves out what it cannot place, and says nothing.
+/// Checks that Gmsh read everything, since it omits elements that it cannot place without a message.
 void compare_counts(const std::string& name, const Msh_counts& announced, std::size_t nodes,
                     std::size_t elements, Read_report& report) {
   if (announced.elements && *announced.elements != elements)
@@ -210,7 +211,7 @@ Element_soup read_with_gmsh(const std::string& name, const Reader_input& input, 
   const auto errors = session.messages("Error");
   if (!errors.empty()) why = errors.front();
   if (!why.empty()) {
-    for (std::size_t at; (at = why.find(input.path)) != std::string::npos;)
+    for (std::size_t at = 0; (at = why.find(input.path)) != std::string::npos;)
       why.replace(at, input.path.size(), name);
     fail(name, fmt::format("broken or cut short: Gmsh cannot read it as {} ({})", report.format, why));
   }

@@ -14,7 +14,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// Where the line after the one that begins with `keyword` starts; npos without such a line.
+/// The start of the line after the one that begins with `keyword`; npos if there is no such line.
 std::size_t line_after(std::string_view bytes, std::string_view keyword) {
   std::size_t at = bytes.find(keyword);
   while (at != std::string_view::npos && at > 0 && bytes[at - 1] != '\n') at = bytes.find(keyword, at + 1);

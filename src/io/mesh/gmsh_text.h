@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what a .msh file says about itself, beside what Gmsh reads from it.
+// Private to io: the header and the announced counts of a .msh file, beside the content that Gmsh reads.
 #ifndef CELLWALK_IO_MESH_GMSH_TEXT_H
 #define CELLWALK_IO_MESH_GMSH_TEXT_H
 
@@ -15,21 +15,21 @@ struct Msh_header {
   bool binary = false;
 };
 
-/// \throw Error(input) with file and line where this is no .msh file. Gmsh takes what it does not recognise for a script
-///        that could do anything: nothing but meshes may reach it.
+/// \throw Error(input) with file and line if this is not a .msh file. Gmsh takes other input for a script,
+///        which could do anything, so only meshes may reach it.
 Msh_header read_msh_header(const std::string& name, std::string_view bytes);
 
 struct Msh_counts {
-  std::optional<std::uint64_t> nodes, elements;  ///< as announced; nothing where they stand in binary
+  std::optional<std::uint64_t> nodes, elements;  ///< as announced; none if they are binary
 };
 Msh_counts announced_counts(std::string_view bytes, const Msh_header& header);
 
-/// Gmsh passes over what it does not know in a MEDIT file.
-/// \throw Error(input) with file and line where that would lose cells, or this is no ASCII MEDIT file
+/// Checks a MEDIT file, of which Gmsh skips unknown parts.
+/// \throw Error(input) with file and line if that would lose cells, or if this is not an ASCII MEDIT file
 Msh_counts check_medit(const std::string& name, std::string_view text);
 
-/// Gmsh keeps only one of several elements that have the same number. If numbers repeat in a text of version 1 or 2,
-/// returns the text with all elements numbered in order; else nothing.
+/// Gmsh keeps only one of several elements with the same number. If numbers repeat in a text of version 1 or
+/// 2, returns the text with all elements numbered in order; otherwise none.
 std::optional<std::string> renumbered_elements(std::string_view text, const Msh_header& header);
 
 }  // namespace cellwalk::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: the numbers that .msh files give to types of elements and to nodes.
+// Private to io: the numbers of element types and of nodes in .msh files.
 #ifndef CELLWALK_IO_MESH_GMSH_TYPES_H
 #define CELLWALK_IO_MESH_GMSH_TYPES_H
 
@@ -10,13 +10,13 @@
 
 namespace cellwalk::io {
 
-/// The nodes of an element by the number of its type; 0 where it is not known.
+/// The number of nodes of an element by its type; 0 if the type is unknown.
 int nodes_of_msh_type(std::int64_t type);
 
 /// The numbers of the nodes of a file, in any order and with gaps.
 class Node_numbers {
  public:
-  /// Gmsh holds them in int.
+  /// True for a valid number of a node, which Gmsh stores as an int.
   static bool is_number(std::int64_t node) {
     return node >= 0 && node <= std::numeric_limits<std::int32_t>::max();
   }

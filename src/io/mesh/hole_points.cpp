@@ -9,7 +9,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// How often a candidate is drawn nearer to its corner when rounding has put it on the wrong side of something.
+/// The number of times that a candidate is moved towards its corner if rounding has put it on the wrong side.
 constexpr int most_halvings = 40;
 
 class Search {
@@ -19,7 +19,7 @@ class Search {
 
   std::vector<Point<2>> run() {
     const Point_ring& ring = rings_[hole_];
-    // The corner that is lowest, then leftmost, is convex: it tells which way round the ring runs.
+    // The lowest corner, of these the leftmost, is convex, so it determines the orientation of the ring.
     const std::size_t n = ring.size();
     std::size_t lowest = 0;
     for (std::size_t i = 1; i < n; ++i)
@@ -53,8 +53,9 @@ class Search {
     return false;
   }
 
-  /// In the triangle a, b, c of a convex corner b, the corner of any ring that is farthest from ac is seen from b, so
-  /// the line between them lies in the hole; without one, the middle of ac is seen. Take a point on it.
+  /// A point on a segment from the convex corner b into the hole. In the triangle a, b, c, the corner of any
+  /// ring that is farthest from ac is visible from b, so the segment between them lies in the hole; if there
+  /// is none, the middle of ac is visible.
   std::optional<Point<2>> beside_corner(std::size_t i, int side) {
     const Point<2>&a = at(before(i)), &b = at(i), &c = at(after(i));
     Point<2> seen{a[0] / 2 + c[0] / 2, a[1] / 2 + c[1] / 2};
@@ -73,14 +74,14 @@ class Search {
     return std::nullopt;
   }
 
-  /// A preference only: rounded products will do, the point found is proven.
+  /// Rounded products suffice for this preference, since the point found is checked exactly.
   static bool is_farther(const Point<2>& a, const Point<2>& c, const Point<2>& p, const Point<2>& q,
                          int side) {
     const Vector<2> along = c - a, d = p - q;
     return side * (along[0] * d[1] - along[1] * d[0]) < 0;
   }
 
-  /// True if p lies on no ring, inside the hole's, and in an even number of rings.
+  /// True if p lies on no ring, inside the ring of the hole, and in an even number of rings.
   bool is_in_hole(const Point<2>& p) {
     bool in_domain = false;
     for (std::size_t r = 0; r < rings_.size(); ++r) {

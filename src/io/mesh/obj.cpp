@@ -12,7 +12,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// How many of the keywords that were ignored a note names.
+/// The largest number of ignored keywords that a note names.
 constexpr std::size_t named_keywords = 12;
 
 bool is_keyword(std::string_view word) {
@@ -62,7 +62,7 @@ class Obj_reader {
     std::vector<std::uint32_t> result;
     while (!in_.at_line_end()) {
       const std::string_view w = in_.word();
-      if (w == "\\")  // it goes on in the next line
+      if (w == "\\")  // the statement continues in the next line
         in_.need_line(fmt::format("the rest of a {}", kind));
       else
         result.push_back(corner(kind, w));
@@ -72,8 +72,8 @@ class Obj_reader {
     return result;
   }
 
-  /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`: counted from 1, or backward from the last vertex.
-  /// A vertex that is still to come is allowed here and checked at the end.
+  /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from the last vertex. A
+  /// vertex that is not yet defined is allowed here and checked at the end.
   std::uint32_t corner(const char* kind, std::string_view word) {
     const std::string_view digits = word.substr(0, word.find('/'));
     std::int64_t index = 0;
@@ -99,7 +99,7 @@ class Obj_reader {
     return fmt::format("statements ignored: {}{}", list, n > named_keywords ? " and others" : "");
   }
 
-  /// A vertex that is named before it is given.
+  /// A vertex that is used before its definition.
   struct Ahead {
     std::uint32_t vertex;
     std::size_t line;

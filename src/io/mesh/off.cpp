@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// OFF, as text and binary. CGAL's reader names no line, refuses `group` lines and takes some broken files for good.
+// OFF, as text and binary. CGAL's reader names no line, refuses `group` lines and accepts some broken files.
 #include <fmt/format.h>
 
 #include "io/files/binary.h"
@@ -13,7 +13,7 @@ struct Header {
   bool binary = false, colours = false, normals = false;
 };
 
-/// `[ST][C][N][4][n]OFF [BINARY]`, the counts on the same line or the next; the keyword may be missing.
+/// `[ST][C][N][4][n]OFF [BINARY]`, with the counts in the same line or the next; the keyword may be missing.
 Header read_header(Line_reader& in, Read_report& report) {
   in.need_line("'OFF'");
   std::string_view keyword = in.word();
@@ -43,7 +43,8 @@ Header read_header(Line_reader& in, Read_report& report) {
   return header;
 }
 
-/// Binary: counts of vertices, facets and edges; vertices; facets with their colours. All big endian, of 32 bits.
+/// Binary: counts of vertices, facets and edges; vertices; facets with their colours. All big endian, of 32
+/// bits.
 Surface_soup parse_binary(const std::string& name, std::string_view data, const Header& header,
                           Read_report& report, Body_elements* body) {
   if (header.colours || header.normals) fail(name, "binary OFF is read without colours and normals only");

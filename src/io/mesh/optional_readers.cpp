@@ -15,7 +15,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// The states of the libraries are global: one file at a time.
+/// Reads one file at a time, since the states of the libraries are global.
 Element_soup read_by(const Loaded_module& loaded, const char* library, const std::string& name,
                      const Reader_input& input, Read_report& report) {
   if (loaded.module == nullptr)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: readers of libraries that a build may lack. What can be judged without them is judged first.
+// Private to io: readers that need libraries that a build may lack. All checks without the library come
+// first.
 #ifndef CELLWALK_IO_MESH_OPTIONAL_READERS_H
 #define CELLWALK_IO_MESH_OPTIONAL_READERS_H
 
@@ -13,14 +14,15 @@
 namespace cellwalk::io {
 
 /// .msh, .mesh and .unv by Gmsh. `bytes` are the whole file, inflated.
-/// \throw Error(input) also where this build lacks Gmsh, or its module cannot be loaded
+/// \throw Error(input) also if this build lacks Gmsh, or its module cannot be loaded
 Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
                            Read_report& report);
 
-/// Legacy VTK and VTK XML, unstructured grids and polygonal data. \throw Error(input) as above
+/// Legacy VTK and VTK XML, unstructured grids and polygonal data.
+/// \throw Error(input) as above
 Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format format);
 
-/// Whether this build was made with them.
+/// True if this build includes the reader.
 bool has_gmsh();
 bool has_vtk();
 

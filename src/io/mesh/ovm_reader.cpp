@@ -14,7 +14,8 @@
 namespace cellwalk::io {
 namespace {
 
-/// The file as it stands: rows of halfedges and halffaces, 2i in the direction of edge or face i, 2i+1 against it.
+/// The content of the file: rows of halfedges and halffaces, 2i in the direction of edge or face i, 2i+1
+/// against it. Read here, since OpenVolumeMesh would be a further dependency for a single format.
 struct Raw {
   std::vector<Point<3>> points;
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -61,7 +62,7 @@ class Ovm_reader {
           "only OVM ASCII is read: load the binary file with OpenVolumeMesh and write it as .ovm "
           "(OpenVolumeMesh::IO::FileManager::writeFile)");
     if (!same_word(magic, "OVM")) in_.fail("not an OpenVolumeMesh file: it does not begin with 'OVM ASCII'");
-    // OpenVolumeMesh's own files leave the encoding out.
+    // Files written by OpenVolumeMesh omit the encoding.
     if (!encoding.empty() && !same_word(encoding, "ASCII"))
       in_.fail(fmt::format("'{}' is no encoding of OpenVolumeMesh: only OVM ASCII is read", shown(encoding)));
   }
@@ -148,7 +149,7 @@ class Ovm_reader {
           "'EProp bool' and 'FProp bool': rename or change it",
           shown(entity), shown(type), shown(name)));
     report_.notes.push_back(fmt::format("property {} \"{}\" ignored", shown(entity), shown(name)));
-    // Values of unknown types are not understood: skip to the next line that opens a property.
+    // Values of unknown types cannot be parsed: skip to the next line that opens a property.
     while (in_.next_line())
       if (is_property(in_.word())) return in_.unread();
   }
@@ -182,7 +183,8 @@ class Ovm_reader {
     return !values.empty() && values[i];
   }
 
-  /// A face that many cells name would be written out as often: a short file could ask for any amount of memory.
+  /// Refuses a face of more than two cells. It would be copied for each of them, so a short file could demand
+  /// any amount of memory.
   void check_sides() const {
     std::uint64_t corners = 0;
     for (const std::uint32_t halfface : raw_.cell_halffaces)

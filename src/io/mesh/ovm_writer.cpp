@@ -19,7 +19,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// Edges of all loops, each once, numbered by first occurrence; the halfedge of every corner of every loop.
 struct Edges {
   std::vector<std::array<std::uint32_t, 2>> ends;
-  std::vector<std::uint32_t> halfedge;  ///< of the corner that starts it
+  std::vector<std::uint32_t> halfedge;  ///< of the corner at which it starts
 };
 
 /// The corner after `i` in the loop [begin, end).
@@ -63,7 +63,7 @@ Edges number_edges(const std::vector<std::uint32_t>& loop_begin, const std::vect
   return edges;
 }
 
-/// Which half-facets are two sides of one face, the second a loop in opposite order.
+/// The pairs of half-facets that are the two sides of one face, the second with its loop in opposite order.
 class Faces {
  public:
   explicit Faces(const Cell_soup<3>& soup) : soup_(soup), halfface_(soup.facet_count(), none) {
@@ -96,8 +96,8 @@ class Faces {
   const std::vector<std::uint8_t>& impassable() const { return impassable_; }
 
  private:
-  /// The lowest vertex of a loop and its two neighbours, the lower one first: alike on both sides of a face, and hardly
-  /// ever alike otherwise.
+  /// The lowest vertex of a loop and its two neighbours, the lower one first: equal on both sides of a face,
+  /// and hardly ever equal otherwise.
   struct Corner {
     std::array<std::uint32_t, 3> key;
     std::uint32_t facet;
@@ -152,7 +152,7 @@ class Writer {
     for (const auto& [a, b] : edges.ends) line("{} {}", a, b);
   }
 
-  /// A flag of each entity; left out where all are zero.
+  /// Writes a flag of each entity; omitted if all are zero.
   void property(std::string_view entity, std::string_view name, const std::vector<std::uint8_t>& values) {
     if (std::find(values.begin(), values.end(), 1) == values.end()) return;
     line("{} bool \"{}\"", entity, name);
@@ -181,7 +181,7 @@ void check(const Cell_soup<D>& soup) {
           throw Error(Error_code::input, fmt::format("cell {}: a facet has vertex {} twice in a row", c, v));
       }
     }
-  // Halfedges and halffaces are numbered with one bit more.
+  // The numbers of halfedges and halffaces have one bit more.
   if (soup.vertices.size() >= none / 2)
     throw Error(Error_code::input, "the mesh is too large for 32-bit indices");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: a mesh out of bytes whose format is known.
+// Private to io: meshes from bytes of a known format.
 #ifndef CELLWALK_IO_MESH_PARSE_MESH_H
 #define CELLWALK_IO_MESH_PARSE_MESH_H
 
@@ -11,7 +11,7 @@
 
 namespace cellwalk::io {
 
-/// \throw Error(input) where the bytes are broken, or the format is none of a mesh
+/// \throw Error(input) if the bytes are broken, or the format is not one of meshes
 Mesh_file parse_mesh(const std::string& name, const std::string& bytes, Format format);
 
 }  // namespace cellwalk::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// PLY, as text and binary. CGAL's reader trusts header and list lengths: a damaged byte makes it read for minutes, or
-// behave in undefined ways.
+// PLY, as text and binary. CGAL's reader trusts header and list lengths: a damaged byte makes it read for
+// minutes, or behave in undefined ways.
 #include <cellwalk/internal/io/numbers.h>
 
 #include <fmt/format.h>
@@ -17,12 +17,12 @@
 namespace cellwalk::io {
 namespace {
 
-/// Where values come from, one after the other.
+/// A source of values, one after the other.
 class Source {
  public:
   virtual ~Source() = default;
   virtual double next(Ply_type type, const char* what) = 0;
-  /// A bound for how many values are left.
+  /// A bound of the number of remaining values.
   virtual std::size_t left() const = 0;
   [[noreturn]] virtual void fail(const std::string& what) const = 0;
 };
@@ -167,13 +167,13 @@ class Ply_reader {
   }
 
   std::uint32_t index(const char* kind, std::uint64_t i, double value) const {
-    constexpr double most = 0xfffffffe;  // an index of 32 bits
+    constexpr double most = 0xfffffffe;  // the largest index of 32 bits
     if (!(value >= 0 && value <= most && value == static_cast<std::uint32_t>(value)))
       in_->fail(fmt::format("{} {} names vertex {}", kind, i, value));
     return static_cast<std::uint32_t>(value);
   }
 
-  /// The length of a list: no more than the file can hold.
+  /// The length of a list, not more than the file can contain.
   std::size_t length(const Ply_property& property) {
     const double n = in_->next(*property.count_type, "the length of a list");
     if (!(n >= 0 && n <= static_cast<double>(in_->left()) &&
@@ -182,7 +182,7 @@ class Ply_reader {
     return static_cast<std::size_t>(n);
   }
 
-  /// A value, or the last of a list: what is not used only has to be passed over.
+  /// A value, or the last value of a list; unused values only have to be skipped.
   double value(const Ply_property& property, const char* what) {
     if (!property.count_type) return in_->next(property.type, what);
     double last = 0;

@@ -25,7 +25,7 @@ struct Ply_element {
   std::uint64_t count;
   std::vector<Ply_property> properties;
 
-  /// The place of a property, nothing if there is none of that name and kind.
+  /// The position of a property; none if there is none of that name and kind.
   std::optional<std::size_t> find(std::string_view property, bool list) const;
 };
 
@@ -36,7 +36,7 @@ struct Ply_header {
   std::size_t lines = 0;  ///< lines of the header
 };
 
-/// \throw Error(input) with file and line where the header is no good
+/// \throw Error(input) with file and line if the header is malformed
 Ply_header read_ply_header(const std::string& name, std::string_view bytes);
 
 }  // namespace cellwalk::io

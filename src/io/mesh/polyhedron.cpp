@@ -27,7 +27,8 @@ Edge_sides sides_of_edges(const Loops& loops) {
   return sides;
 }
 
-/// Which loops to turn so that all agree with the first; nothing if the surface is not closed, or not orientable.
+/// The loops to be reversed so that all agree with the first; none if the surface is not closed or not
+/// orientable.
 std::optional<std::vector<bool>> agreement(const Loops& loops, const Edge_sides& sides) {
   for (const auto& [edge, both] : sides)
     if (both.size() != 2) return std::nullopt;

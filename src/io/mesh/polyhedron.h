@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: facets of one polyhedron that a file gives in any orientation.
+// Private to io: the orientation of the facets of one polyhedron, which a file may give in any orientation.
 #ifndef CELLWALK_IO_MESH_POLYHEDRON_H
 #define CELLWALK_IO_MESH_POLYHEDRON_H
 
@@ -11,9 +11,9 @@
 
 namespace cellwalk::io {
 
-/// Turns loops so that every edge is run through once in each direction, and the volume (rounded) is positive. Loops
-/// that already agree with each other, or cannot be made to, are left as they are: certification judges them.
-/// Returns true if a loop was turned.
+/// Reverses loops so that every edge is used once in each direction, and the volume (rounded) is positive.
+/// Loops that already agree with each other, or cannot be made to, are left unchanged; certification decides
+/// about them. Returns true if a loop was reversed.
 bool turn_alike(std::vector<std::vector<std::uint32_t>>& loops, const std::vector<Point<3>>& points);
 
 }  // namespace cellwalk::io

@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A module runs as part of the program: nobody else may have put it there.
+/// True if the file belongs to root or to the user, since it is executed as a part of the program.
 bool is_trusted(const fs::path& file) {
   struct stat status;
   return stat(file.c_str(), &status) == 0 && (status.st_uid == 0 || status.st_uid == geteuid());
 }
 
-/// The program, and the shared library that this is a part of, if it is.
+/// The files of the program and of the shared library that contains this code, if it is in one.
 std::vector<fs::path> own_files() {
   std::vector<fs::path> files;
   std::error_code ignored;
@@ -32,7 +32,7 @@ std::vector<fs::path> own_files() {
   return files;
 }
 
-/// What dlopen() is to try, in this order: names with a folder, and one without.
+/// The names for dlopen(), in this order: those with a folder, and one without.
 std::vector<fs::path> candidates(const std::string& file) {
   const fs::path folder = fs::path(CELLWALK_INSTALL_LIBDIR) / "cellwalk";
   std::vector<fs::path> found;
@@ -51,7 +51,8 @@ Loaded_module load_module(const std::string& file) {
     void* const handle = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
       const char* why = dlerror();
-      // What is not there at all says less than what is there and cannot be loaded.
+      // The message about a file that exists and cannot be loaded is more helpful than one about a missing
+      // file.
       if (problem.empty() || is_trusted(candidate)) problem = why != nullptr ? why : "no reason given";
       continue;
     }

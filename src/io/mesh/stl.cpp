@@ -13,13 +13,13 @@
 namespace cellwalk::io {
 namespace {
 
-/// Gives corners of equal coordinates one index: STL repeats every vertex in every triangle.
+/// Gives corners of equal coordinates one index, since STL repeats every vertex in every triangle.
 class Merged_points {
  public:
   explicit Merged_points(std::vector<Point<3>>& points) : points_(points) {}
 
   std::uint32_t operator()(Point<3> p) {
-    for (double& x : p) x += 0.0;  // -0 and 0 are one place
+    for (double& x : p) x += 0.0;  // -0 and 0 are one position
     const auto [it, is_new] = index_.try_emplace(p, static_cast<std::uint32_t>(points_.size()));
     if (is_new) points_.push_back(p);
     return it->second;
@@ -37,7 +37,7 @@ class Merged_points {
   std::unordered_map<Point<3>, std::uint32_t, Hash> index_;
 };
 
-// Binary: 80 bytes of anything, a 32-bit count, then 50 bytes a triangle: normal, corners, two bytes of anything.
+// Binary: 80 arbitrary bytes, a 32-bit count, then 50 bytes a triangle: normal, corners, two arbitrary bytes.
 constexpr std::size_t header_size = 84, triangle_size = 50, count_offset = 80, corner_offset = 12;
 
 std::uint32_t triangle_count(std::string_view bytes) {
@@ -47,7 +47,7 @@ std::uint32_t triangle_count(std::string_view bytes) {
   return n;
 }
 
-/// Fails as the other readers do, for a binary file, which has no lines.
+/// Fails like the other readers, for a binary file, which has no lines.
 struct Whole_file {
   const std::string& name;
   [[noreturn]] void fail(const std::string& what) const { io::fail(name, what); }
@@ -123,7 +123,7 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
 
 Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report,
                        Body_elements* body) {
-  // Binary files may begin with `solid` too: the size decides, then whether there are bytes that no text has.
+  // Binary files may begin with `solid` too: the size decides, then the presence of bytes that no text has.
   const bool sized = bytes.size() >= header_size;
   if (sized && header_size + std::uint64_t{triangle_count(bytes)} * triangle_size == bytes.size())
     return parse_binary(name, bytes, report, body);

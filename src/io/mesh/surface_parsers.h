@@ -13,10 +13,10 @@
 
 namespace cellwalk::io {
 
-/// What a body may have beside polygons. A parser that is given none leaves lines out: surfaces have no use for them.
+/// The parts of a body beside polygons. A parser without one skips lines, which a surface does not need.
 struct Body_elements {
-  bool planar = false;  ///< asked: a body of the plane, points whose z is not zero are refused
-  std::vector<std::array<std::uint32_t, 2>> edges;  ///< answered: lines, cut into edges
+  bool planar = false;  ///< input: true for a 2D body, of which points with z other than 0 are refused
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< output: lines, cut into edges
 };
 
 Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report,
@@ -28,11 +28,11 @@ Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_rep
 Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
                        Body_elements* body = nullptr);
 
-/// The parser of a format; whether there are polygons is left to the caller.
+/// The parser of a format. The caller checks whether there are polygons.
 Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Surface_format format,
                             Read_report& report, Body_elements* body = nullptr);
 
-/// Refuses a point off the plane where a body of the plane is asked for; `in` knows the place in the file.
+/// Refuses a point with z other than 0 of a 2D body; `in` has its place in the file.
 template <class Reader>
 void check_planar(const Reader& in, const Body_elements* body, const Point<3>& p) {
   if (body && body->planar && p[2] != 0)

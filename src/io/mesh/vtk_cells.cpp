@@ -36,7 +36,7 @@ std::vector<Point<3>> read_points(const std::string& name, vtkPoints* from) {
   return points;
 }
 
-/// Rows of point indices, each checked: VTK's readers trust what the file says.
+/// Rows of point indices, each checked, since VTK's readers trust the file.
 class Rows {
  public:
   Rows(const std::string& name, vtkCellArray* cells, std::size_t point_count)
@@ -73,11 +73,11 @@ class Rows {
   vtkDataArray *offsets_, *values_;
 };
 
-/// What a type of VTK is read as: its first `corners` points, in the order that the soup's functions expect.
+/// The reading of a VTK cell type: its first `corners` points, in the order of the soup's functions.
 struct Shape {
   int dimension;
   std::size_t corners;
-  bool straightened = false;  ///< of higher order: read by its corners
+  bool straightened = false;  ///< of higher order: only its corners are read
 };
 
 std::optional<Shape> shape_of(int type) {
@@ -219,7 +219,7 @@ class Cell_reader {
       case 5:
         add_pyramid(soup(), {v[0], v[1], v[2], v[3], v[4]});
         return;
-      // VTK has the triangles of a wedge the other way round.
+      // VTK has the triangles of a wedge in the opposite direction.
       case 6:
         add_prism(soup(), {v[0], v[2], v[1], v[3], v[5], v[4]});
         return;
@@ -237,8 +237,8 @@ class Cell_reader {
     const std::size_t n = v.size() / 2;
     soup().add_facet(Indices(v.rend() - static_cast<std::ptrdiff_t>(n), v.rend()));
     soup().add_facet(Indices(v.begin() + static_cast<std::ptrdiff_t>(n), v.end()));
-    for (std::size_t i = 0, j; i < n; ++i) {
-      j = (i + 1) % n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = (i + 1) % n;
       soup().add_facet({v[i], v[j], v[n + j], v[n + i]});
     }
     soup().end_cell();
@@ -255,7 +255,8 @@ class Cell_reader {
                                          : Indices{v[i], v[i + 1], v[i + 2]});
   }
 
-  /// The faces of a polyhedron stand in a stream of their own: count, then per face count and points.
+  /// The faces of a polyhedron are in a stream of their own: the count, then for each face its count and
+  /// points.
   void polyhedron(vtkUnstructuredGrid& grid, const Rows& rows, std::size_t c) {
     vtkIdTypeArray *faces = grid.GetFaces(), *locations = grid.GetFaceLocations();
     const auto broken = [&] {

@@ -18,7 +18,7 @@ struct Read_elements {
   std::vector<std::string> notes;
 };
 
-/// \throw Error(input) where an index or offset is out of range, or for cells of a type that is not read
+/// \throw Error(input) if an index or offset is out of range, or for cells of an unsupported type
 Read_elements read_cells(const std::string& name, vtkUnstructuredGrid& grid);
 Read_elements read_cells(const std::string& name, vtkPolyData& surface);
 

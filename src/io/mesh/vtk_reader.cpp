@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The module that reads legacy VTK and VTK XML by VTK's readers, from memory. What VTK prints is caught and becomes the error.
+// The module that reads legacy VTK and VTK XML by VTK's readers, from memory. Messages of VTK become the
+// error instead of being printed.
 #include <fmt/format.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkLogger.h>
@@ -24,11 +25,10 @@
 namespace cellwalk::io {
 namespace {
 
-/// Keeps the first complaint instead of printing it.
+/// Keeps the first message instead of printing it.
 class Listener : public vtkOutputWindow {
  public:
-  static Listener* New();
-  vtkTypeMacro(Listener, vtkOutputWindow);
+  static Listener* New() { VTK_STANDARD_NEW_BODY(Listener); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
@@ -44,9 +44,8 @@ class Listener : public vtkOutputWindow {
  private:
   std::string first_;
 };
-vtkStandardNewMacro(Listener);
 
-/// Puts a listener in the place of VTK's output and log, which are global, for its own lifetime.
+/// Replaces VTK's output and log, which are global, by a listener during its lifetime.
 class Silence {
  public:
   Silence() : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
@@ -67,7 +66,7 @@ class Silence {
   vtkNew<Listener> listener_;
 };
 
-/// What a complaint says, on one line, without file names of VTK and addresses of its objects.
+/// The text of a message in one line, without file names of VTK and addresses of its objects.
 std::string essence(const std::string& complaint) {
   static const std::regex head(R"(^(ERROR|Warning|Generic Warning): In [^\n]*\n(\w+ \(0x[0-9a-f]+\): )?)");
   std::string text = std::regex_replace(complaint, head, "", std::regex_constants::format_first_only);
@@ -127,7 +126,7 @@ Read_elements parse_xml_by(const std::string& name, const std::string& bytes, co
 
 Read_elements parse_xml(const std::string& name, const std::string& bytes, Read_report& report) {
   static const std::regex tag(R"(<VTKFile[^>]*\btype\s*=\s*["'](\w+)["'][^>]*>)");
-  constexpr std::ptrdiff_t searched = 4096;  // the opening tag stands at the beginning
+  constexpr std::ptrdiff_t searched = 4096;  // the opening tag is at the beginning
   std::smatch match;
   const auto end =
       bytes.begin() + std::min<std::ptrdiff_t>(searched, static_cast<std::ptrdiff_t>(bytes.size()));

@@ -13,11 +13,12 @@
 namespace cellwalk::io {
 namespace {
 
-/// Numbers that one byte can stand for: as text, a digit and a blank each; compressed, at most 1032 bytes of data (the bound of deflate),
-/// twelve of which a point has at least, and a cell about as many.
+/// The largest number of values a byte can encode: as text, a value needs a digit and a blank; compressed, a
+/// byte gives at most 1032 bytes of data (the bound of deflate), of which a point needs at least twelve, and
+/// a cell about as many.
 constexpr double per_byte_plain = 0.5, per_byte_compressed = 1032.0 / 12;
 
-/// The digits at the beginning of a text as a number; as large as there is where they are too many.
+/// The digits at the beginning of a text as a number; the largest number if there are too many.
 std::uint64_t leading_number(std::string_view text) {
   std::uint64_t value = 0;
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
@@ -36,7 +37,7 @@ void check_count(const std::string& name, std::string_view what, std::uint64_t c
                            count, lower(shown(what)), bytes));
 }
 
-/// Attributes such as NumberOfPoints="8" of the tags that have some.
+/// Checks attributes such as NumberOfPoints="8" of the tags that have some.
 void check_xml(const std::string& name, std::string_view bytes) {
   constexpr std::string_view attribute = "NumberOf";
   const bool is_compressed = bytes.substr(0, 4096).find("compressor") != std::string_view::npos;
@@ -46,7 +47,7 @@ void check_xml(const std::string& name, std::string_view bytes) {
     for (std::size_t at = bytes.find(tag); at != std::string_view::npos; at = bytes.find(tag, at)) {
       std::string_view rest = bytes.substr(at, bytes.find('>', at) - at);
       at += rest.size();  // a tag that is not closed is looked through once
-      for (std::size_t found; (found = rest.find(attribute)) != std::string_view::npos;) {
+      for (std::size_t found = 0; (found = rest.find(attribute)) != std::string_view::npos;) {
         rest.remove_prefix(found + attribute.size());
         const std::size_t word = std::min(rest.find_first_of("= \t\r\n"), rest.size());
         const std::size_t digits = rest.find_first_of("0123456789");
@@ -56,7 +57,7 @@ void check_xml(const std::string& name, std::string_view bytes) {
     }
 }
 
-/// Lines such as POINTS 8 double, CELLS 2 10.
+/// Checks lines such as POINTS 8 double, CELLS 2 10.
 void check_legacy(const std::string& name, std::string_view bytes) {
   constexpr std::array<std::string_view, 9> keywords{"POINTS",          "CELLS",      "CELL_TYPES",
                                                      "POLYGONS",        "LINES",      "VERTICES",

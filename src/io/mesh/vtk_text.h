@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what a VTK file announces, before VTK asks for as much memory.
+// Private to io: the counts that a VTK file announces, checked before VTK allocates memory for them.
 #ifndef CELLWALK_IO_MESH_VTK_TEXT_H
 #define CELLWALK_IO_MESH_VTK_TEXT_H
 
@@ -10,7 +10,7 @@
 
 namespace cellwalk::io {
 
-/// \throw Error(input) where a file announces more points, cells or values than its bytes can hold
+/// \throw Error(input) if a file announces more points, cells or values than its bytes can encode
 void check_vtk_counts(const std::string& name, std::string_view bytes, Format format);
 
 }  // namespace cellwalk::io

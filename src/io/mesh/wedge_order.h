@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: wedges whose corners stand in either of two orders.
+// Private to io: the two orders of the corners of wedges.
 #ifndef CELLWALK_IO_MESH_WEDGE_ORDER_H
 #define CELLWALK_IO_MESH_WEDGE_ORDER_H
 
@@ -11,14 +11,14 @@
 
 namespace cellwalk::io {
 
-/// VTK documents one order of the corners of wedges, and many programs write the other. In a file with other cells, too,
-/// these tell: if all of them are oriented one way and all wedges the other way, the wedges are meant the other way
-/// round. (A file of nothing but wedges is flipped as a whole when the environment is built.)
+/// VTK documents one order of the corners of wedges, and many programs write the other. Other cells in the
+/// file decide: if all of them have one orientation and all wedges the other, the wedges are reversed. (A
+/// file of wedges only is inverted as a whole when the environment is built.)
 class Wedge_order {
  public:
   explicit Wedge_order(Cell_soup<3>& soup) : soup_(soup) {}
 
-  /// Looks at the cell that was just added. Exact.
+  /// Notes the orientation of the cell that was just added. Exact.
   void note_cell(bool is_wedge) {
     const std::size_t c = soup_.cell_count() - 1;
     // The first two facets share no vertex, or (tetrahedra, pyramids) the second has a vertex off the first.
@@ -33,7 +33,7 @@ class Wedge_order {
     if (is_wedge) wedges_.push_back(c);
   }
 
-  /// Turns all wedges if the other cells say so. Returns how many were turned.
+  /// Reverses all wedges if the other cells require it. Returns the number of reversed wedges.
   std::size_t settle() {
     const bool against_upright = upright_others_ > 0 && inverted_others_ == 0 && upright_wedges_ == 0;
     const bool against_inverted = inverted_others_ > 0 && upright_others_ == 0 && inverted_wedges_ == 0;

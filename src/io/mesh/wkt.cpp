@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Well-known text: POLYGON and MULTIPOLYGON. Parsed here, so that errors name the line; Boost.Geometry's reader cannot.
+// Well-known text: POLYGON and MULTIPOLYGON. Not by Boost.Geometry, whose reader reports no position in the
+// text, so that errors could not name the line.
 #include <cellwalk/internal/io/numbers.h>
 #include <cellwalk/io/planar_file.h>
 
@@ -111,7 +112,7 @@ class Parser {
   }
 
   std::uint32_t index(Point<2> p) {
-    for (double& x : p) x += 0.0;  // -0 and 0 are one place
+    for (double& x : p) x += 0.0;  // -0 and 0 are one position
     const auto [it, is_new] = index_.try_emplace(p, static_cast<std::uint32_t>(points_.size()));
     if (is_new) points_.push_back(p);
     return it->second;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
   throw Error(Error_code::other, fmt::format("{}: {} ({})", path.string(), what, error.message()));
 }
 
-/// Makes a directory and those above it; returns the ones that were missing, outermost first.
+/// Makes a directory and its missing ancestors; returns those that were missing, outermost first.
 std::vector<fs::path> make_directories(const fs::path& directory) {
   std::vector<fs::path> missing;
   for (fs::path p = directory; !p.empty() && !fs::exists(p); p = p.parent_path())
@@ -71,7 +71,7 @@ Frame_series::~Frame_series() {
   if (committed_) return;
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
-  for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);  // those that are empty
+  for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);  // fails if not empty
 }
 
 void Frame_series::add(double time, const std::string& part, const Vtu_grid& grid) {
@@ -96,7 +96,7 @@ void Frame_series::commit() {
   }
   committed_ = true;
   fs::remove_all(old, error);
-  // Parts are numbered in order of their names: ParaView takes numbers only.
+  // Parts are numbered in order of their names, since ParaView accepts numbers only.
   std::map<std::string, std::size_t> number;
   for (const auto& [part, frames] : count_) number.emplace(part, number.size());
   std::vector<Pvd_entry> numbered = entries_;

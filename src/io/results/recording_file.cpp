@@ -67,14 +67,14 @@ void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>&
   file.write(bytes_of(corners));
 }
 
-/// Numbers of either sign that are near zero become small ones: 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
+/// Encodes numbers of either sign near zero as small ones: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 template <class Unsigned>
 Unsigned folded(Unsigned difference) {
   constexpr int top_bit = 8 * sizeof(Unsigned) - 1;
   return static_cast<Unsigned>(difference << 1) ^ static_cast<Unsigned>(-(difference >> top_bit));
 }
 
-/// First the lowest bytes of all numbers, then the next ones: those of small numbers compress well.
+/// First the lowest bytes of all numbers, then the next ones, so that small numbers compress well.
 template <class Unsigned>
 void append_planes(std::string& out, const std::vector<Unsigned>& values) {
   for (std::size_t byte = 0; byte < sizeof(Unsigned); ++byte)
@@ -117,7 +117,7 @@ void Recording_writer::add(const Recording_frame& record) {
       now.push_back(static_cast<std::uint16_t>(std::lround(share * steps_of_16_bits)));
     }
   }
-  // What went on evenly is zero; the first record stands for itself.
+  // Uniform motion gives zeros; the first frame is stored as it is.
   for (std::size_t i = 0; i < now.size(); ++i) {
     const int expected = records_ > 1 ? 2 * last_[i] - before_last_[i] : last_[i];
     left.push_back(folded(static_cast<std::uint16_t>(now[i] - expected)));

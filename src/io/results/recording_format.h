@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: what reader and writer of motion files agree on.
+// Private to io: the common part of the reader and writer of recordings.
 #ifndef CELLWALK_IO_RESULTS_RECORDING_FORMAT_H
 #define CELLWALK_IO_RESULTS_RECORDING_FORMAT_H
 
@@ -13,14 +13,15 @@ namespace cellwalk::io {
 
 inline constexpr std::string_view recording_magic = "CWMOTN01";
 
-/// Bytes of one record: 16 bits a coordinate, 32 a cell, 8 a decision.
+/// The bytes of one frame: 16 bits a coordinate, 32 a cell, 8 a decision.
 inline std::uint64_t recording_frame_size(const Recording_scene& scene) {
   const auto axes = static_cast<std::uint64_t>(scene.dimension);
   return scene.moving_count() * (2 * axes + sizeof(std::uint32_t)) + scene.bodies.size();
 }
 
-/// Reads a motion out of its bytes, inflated; `name` stands for the file in errors.
-/// \throw Error(input) where they are no motion, or damaged
+/// Reads a recording from its inflated bytes.
+/// \param name stands for the file in errors
+/// \throw Error(input) if they are not a recording, or damaged
 Recording_scene parse_recording(const std::string& name, std::string_view bytes);
 
 }  // namespace cellwalk::io

@@ -14,7 +14,7 @@
 namespace cellwalk::io {
 namespace {
 
-/// Reads the parts of a motion one after the other.
+/// Reads the parts of a recording one after the other.
 class Motion_parser {
  public:
   Motion_parser(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -43,7 +43,7 @@ class Motion_parser {
     fail(name_, "is damaged: " + what + "; run the scene again");
   }
 
-  /// A number of the head that counts something.
+  /// A count in the head.
   std::uint32_t counted(const nlohmann::json& value) const {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) damaged("its head cannot be read");
@@ -68,7 +68,7 @@ class Motion_parser {
     for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] = counted(head.at(count_names[i]));
   }
 
-  /// As the scene has it, in 64 bits: a step after each of 2^32 - 1 makes one record more than that.
+  /// The same as Recording_scene::frame_count(), in 64 bits, since 2^32 - 1 steps have one frame more.
   std::uint64_t frame_count() const {
     return 1 + std::uint64_t{scene_.steps} / scene_.every + (scene_.steps % scene_.every != 0);
   }

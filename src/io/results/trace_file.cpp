@@ -21,7 +21,7 @@ static_assert(sizeof(Point<3>) == point_size && std::endian::native == std::endi
 /// Obstacles are followed by zero bytes up to a multiple of eight.
 std::size_t padding(std::uint64_t obstacles) { return obstacles % 2 == 0 ? 0 : index_size; }
 
-/// True if the grid has cells, and all their indices have 32 bits.
+/// True if the grid has cells, and all their indices fit into 32 bits.
 bool is_indexable(const Trace& trace) {
   constexpr std::uint64_t most = std::uint64_t{1} << 32;
   if (trace.nx == 0 || trace.ny == 0 || trace.nz == 0) return false;
@@ -44,8 +44,8 @@ Trace take_header(Binary_reader& in, std::uint32_t& obstacles) {
   return trace;
 }
 
-/// Compares what the header announces with the bytes there are. The counts have 32 bits: no sum or product here has more
-/// than 64, since the steps are compared by division.
+/// Compares the header with the number of bytes. The counts have 32 bits, and steps are compared by division,
+/// so that no sum or product here has more than 64.
 void check_size(const std::string& name, const Trace& trace, std::uint64_t obstacles, std::uint64_t bytes) {
   const std::uint64_t vertices = std::uint64_t{trace.bodies} * trace_vertices;
   const std::uint64_t before_steps = index_size * obstacles + padding(obstacles) + vertices * point_size;
@@ -60,7 +60,7 @@ void check_size(const std::string& name, const Trace& trace, std::uint64_t obsta
                            rest, announced));
 }
 
-/// What is wrong with the values of a trace whose arrays have their lengths; empty if nothing.
+/// The defect of the values of a trace whose arrays have the right lengths; empty if there is none.
 std::string flaw(const Trace& trace) {
   if (!is_indexable(trace))
     return fmt::format(
@@ -92,7 +92,8 @@ std::string flaw(const Trace& trace) {
   return {};
 }
 
-/// The next `count` values. \pre so many bytes are left
+/// The next `count` values.
+/// \pre as many bytes are left
 template <class T>
 std::vector<T> take_array(std::string_view& bytes, std::size_t count) {
   std::vector<T> values(count);

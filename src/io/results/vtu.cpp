@@ -65,7 +65,7 @@ class Text {
       for (std::size_t i = 0; i < values.size(); i += width)
         line("{}", fmt::join(values.subspan(i, std::min(width, values.size() - i)), " "));
     } else {
-      // The number of bytes, encoded by itself, stands before them.
+      // The bytes are preceded by their number, which is encoded by itself.
       const std::uint64_t size = values.size_bytes();
       append_base64(text_, {reinterpret_cast<const unsigned char*>(&size), sizeof size});
       append_base64(text_, {reinterpret_cast<const unsigned char*>(values.data()), size});

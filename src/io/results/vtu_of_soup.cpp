@@ -24,7 +24,8 @@ bool all_of_size(const std::vector<Loop>& loops, std::size_t n) {
   return std::all_of(loops.begin(), loops.end(), [n](const Loop& loop) { return loop.size() == n; });
 }
 
-/// The only vertex of the cell that is joined to v by an edge and not on the first facet, if there is just one.
+/// The vertex of the cell that is joined to v by an edge and does not lie on the first facet, if there is
+/// exactly one.
 std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t v) {
   const Loop& base = loops[0];
   std::optional<std::uint32_t> found;
@@ -41,7 +42,7 @@ std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t
   return found;
 }
 
-/// The corners in VTK's order if the cell is a tetrahedron or hexahedron by its combinatorics; else nothing.
+/// The corners in VTK's order if the cell is combinatorially a tetrahedron or hexahedron; otherwise none.
 std::optional<Loop> corners_of_known_type(const std::vector<Loop>& loops) {
   const bool tetrahedron = loops.size() == 4 && all_of_size(loops, 3);
   const bool hexahedron = loops.size() == 6 && all_of_size(loops, 4);

@@ -15,7 +15,7 @@ namespace cellwalk::io::detail {
 using nlohmann::json;
 
 std::unique_ptr<json> parse_json(const std::string& name, std::string_view text) {
-  // The library keeps the last of two equal keys without a word; a scene that says two things is refused.
+  // The library silently keeps the last of two equal keys; such a scene is refused.
   std::vector<std::set<std::string>> open;
   std::optional<std::string> repeated;
   const auto watch = [&](int depth, json::parse_event_t event, json& value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A JSON value that knows its place in the file, so that every complaint names the key it is about.
+// A JSON value with its place in the file, so that every error names the key.
 #ifndef CELLWALK_IO_SCENE_JSON_NODE_H
 #define CELLWALK_IO_SCENE_JSON_NODE_H
 
@@ -18,11 +18,12 @@
 
 namespace cellwalk::io::detail {
 
-/// Lists and objects within each other: far more than anything that is read has. What writes JSON calls itself as often.
+/// The maximum depth of nested lists and objects, far more than any valid file has. The JSON writer recurses
+/// as deeply.
 inline constexpr int deepest_nesting = 64;
 
 /// Parses JSON; comments (// and /* */) are allowed.
-/// \throw Error(input) naming the line, also for keys that are given twice, and for what is nested too deeply
+/// \throw Error(input) naming the line, also for repeated keys and for nesting that is too deep
 std::unique_ptr<nlohmann::json> parse_json(const std::string& name, std::string_view text);
 
 /// A read-only view of a value. Does not own the document.
@@ -38,13 +39,14 @@ class Json_node {
   bool is_array() const;
 
   /// \throw Error(input) unless the value is an object that has only these keys
-  void expect_keys(std::span<const std::string_view> keys) const;
+  void expect_keys(std::span<const std::string_view> allowed) const;
   void expect_keys(std::initializer_list<std::string_view> keys) const {
     expect_keys(std::span(keys.begin(), keys.size()));
   }
   std::vector<std::string> keys() const;
   bool has(std::string_view key) const;
-  /// The value of a key. \throw Error(input) if it is missing
+  /// The value of a key.
+  /// \throw Error(input) if it is missing
   Json_node at(std::string_view key) const;
   std::optional<Json_node> find(std::string_view key) const;
   /// The elements of an array.

@@ -15,7 +15,7 @@ using detail::Json_node;
 
 constexpr const char* record_format = "cellwalk motion 1";
 
-/// Facets with their vertices, in 2D the corners of a cell in order, and which of them are walls.
+/// Facets with their vertices, in 2D the corners of a cell in order, and their wall marks.
 template <int D>
 nlohmann::ordered_json to_json(const Cell_soup<D>& soup, std::size_t cell) {
   auto facets = nlohmann::ordered_json::array(), walls = nlohmann::ordered_json::array();

@@ -12,7 +12,7 @@ namespace {
 
 using detail::Json_node;
 
-constexpr std::uint64_t max_steps = 100'000'000;
+constexpr std::uint64_t most_steps = 100'000'000;
 constexpr double default_twist = 10;  // degrees a step
 
 Environment_source environment_source(const Json_node& node) {
@@ -44,7 +44,7 @@ std::variant<Particle_start<D>, Particle_cloud> particle_source(const Json_node&
   return start;
 }
 
-/// The curved part of the tip, and how its base is turned.
+/// The curved part of the tip, and the rotation of the base.
 template <int D>
 void curve(const Json_node& node, Catheter<D>& result) {
   if (const auto steering = node.find("steering")) {
@@ -76,12 +76,12 @@ Catheter<D> catheter(const Json_node& node) {
   result.spacing = node.at("spacing").positive();
   result.advance = result.spacing / 2;
   if (const auto n = node.find("particles"))
-    result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::max_particles));
+    result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::most_particles));
   if (const auto advance = node.find("advance")) result.advance = advance->positive();
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
   curve(node, result);
-  result.path = detail::way_points<D>(node.at("path"));
+  result.path = detail::waypoints<D>(node.at("path"));
   return result;
 }
 
@@ -107,9 +107,9 @@ Scene_output output(const Json_node& node) {
   node.expect_keys({"frame_every", "picture", "motion_every"});
   Scene_output result;
   if (const auto every = node.find("frame_every"))
-    result.frame_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+    result.frame_every = static_cast<std::uint32_t>(every->integer_in(0, most_steps));
   if (const auto every = node.find("motion_every"))
-    result.motion_every = static_cast<std::uint32_t>(every->integer_in(0, max_steps));
+    result.motion_every = static_cast<std::uint32_t>(every->integer_in(0, most_steps));
   if (const auto request = node.find("picture")) {
     if (request->is_object())
       result.picture = picture(*request);
@@ -137,7 +137,7 @@ Scene<D> scene(const Json_node& node) {
   if (const auto restitution = node.find("restitution")) result.restitution = restitution->number_in(0, 1);
   if (const auto friction = node.find("friction")) result.friction = friction->number_in(0, 1);
   if (const auto time_step = node.find("time_step")) result.time_step = time_step->positive();
-  result.steps = static_cast<std::uint32_t>(node.at("steps").integer_in(1, max_steps));
+  result.steps = static_cast<std::uint32_t>(node.at("steps").integer_in(1, most_steps));
   if (const auto o = node.find("output")) result.output = output(*o);
   return result;
 }

@@ -12,9 +12,9 @@
 namespace cellwalk::io::detail {
 namespace {
 
-constexpr std::uint64_t max_vertices = 1 << 24, max_subdivisions = 10;  // as the generators have them
-constexpr std::uint64_t max_seed = std::uint64_t{1} << 53;              // kept exactly by every JSON reader
-constexpr double max_speed = 1e300;
+constexpr std::uint64_t most_vertices = 1 << 24, most_subdivisions = 10;  // as the generators have them
+constexpr std::uint64_t largest_seed = std::uint64_t{1} << 53;            // kept exactly by every JSON reader
+constexpr double largest_speed = 1e300;                                   // units a second
 
 double positive(const Json_node& node, std::string_view key, double otherwise) {
   const auto given = node.find(key);
@@ -42,7 +42,7 @@ Box_shape box(const Json_node& node) {
     const std::vector<Json_node> counts = cells->elements();
     if (counts.size() != 3) cells->fail("expected 3 integers");
     for (std::size_t k = 0; k < 3; ++k)
-      shape.cells[k] = static_cast<std::uint32_t>(counts[k].integer_in(1, max_vertices));
+      shape.cells[k] = static_cast<std::uint32_t>(counts[k].integer_in(1, most_vertices));
   }
   shape.faces = flag(node, "faces");
   return shape;
@@ -51,7 +51,8 @@ Box_shape box(const Json_node& node) {
 template <int D>
 Catheter_shape<D> catheter(const Json_node& node) {
   const Catheter_shape<D> shape;
-  return {positive(node, "length", shape.length), integer(node, "vertices", 2, max_vertices, shape.vertices)};
+  return {positive(node, "length", shape.length),
+          integer(node, "vertices", 2, most_vertices, shape.vertices)};
 }
 
 template <int D>
@@ -62,7 +63,7 @@ Polyline_shape<D> polyline(const Json_node& node) {
   return shape;
 }
 
-/// A shape by its name, with the keys that are its own.
+/// A shape by its name, with its own keys.
 template <int D>
 struct Known_shape {
   std::string_view name;
@@ -82,7 +83,7 @@ const std::vector<Known_shape<2>>& known_shapes<2>() {
       {"polygon",
        {"corners", "radius"},
        [](Node node) -> Shape {
-         return Polygon_shape{integer(node, "corners", 3, max_vertices, Polygon_shape{}.corners),
+         return Polygon_shape{integer(node, "corners", 3, most_vertices, Polygon_shape{}.corners),
                               positive(node, "radius", Polygon_shape{}.radius)};
        }},
       {"polyline", {"points"}, [](Node node) -> Shape { return polyline<2>(node); }},
@@ -112,7 +113,7 @@ const std::vector<Known_shape<3>>& known_shapes<3>() {
        [](Node node) -> Shape {
          return Icosphere_shape{
              positive(node, "radius", Icosphere_shape{}.radius),
-             integer(node, "subdivisions", 0, max_subdivisions, Icosphere_shape{}.subdivisions)};
+             integer(node, "subdivisions", 0, most_subdivisions, Icosphere_shape{}.subdivisions)};
        }},
       {"polyline", {"points"}, [](Node node) -> Shape { return polyline<3>(node); }},
       {"tetrahedron", {"side"}, [](Node node) -> Shape {
@@ -164,7 +165,7 @@ Rotation<D> rotation(const Json_node& node) {
 template <int D>
 Guided_motion<D> guided_motion(const Json_node& node) {
   node.expect_keys({"path", "speed"});
-  return {way_points<D>(node.at("path")), node.at("speed").positive()};
+  return {waypoints<D>(node.at("path")), node.at("speed").positive()};
 }
 
 Shape_material material(const Json_node& node) {
@@ -200,21 +201,21 @@ void refuse_beside(const Json_node& node, std::initializer_list<const char*> key
 
 Particle_cloud cloud(const Json_node& node) {
   Particle_cloud result;
-  result.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, max_particles));
-  if (const auto seed = node.find("seed")) result.seed = seed->integer_in(0, max_seed);
-  if (const auto speed = node.find("speed")) result.speed = speed->number_in(0, max_speed);
+  result.count = static_cast<std::uint32_t>(node.at("count").integer_in(1, most_particles));
+  if (const auto seed = node.find("seed")) result.seed = seed->integer_in(0, largest_seed);
+  if (const auto speed = node.find("speed")) result.speed = speed->number_in(0, largest_speed);
   return result;
 }
 
 template <int D>
-std::vector<Point<D>> way_points(const Json_node& node) {
+std::vector<Point<D>> waypoints(const Json_node& node) {
   std::vector<Point<D>> path;
   for (const Json_node& point : node.elements()) {
     path.push_back(point.tuple<D>());
     if (path.size() > 1 && path.back() == path[path.size() - 2])
-      point.fail("the same way point twice in a row");
+      point.fail("the same waypoint twice in a row");
   }
-  if (path.size() < 2) node.fail("expected at least 2 way points");
+  if (path.size() < 2) node.fail("expected at least 2 waypoints");
   return path;
 }
 
@@ -242,7 +243,7 @@ Body_start<D> body_start(const Json_node& node) {
   if (start.guided) {
     refuse_beside(node, {"material"}, "not for a body on a path, which is rigid");
     refuse_beside(node, {"position", "velocity", "count", "seed", "speed"},
-                  "not for a body on a path, which starts at the first way point");
+                  "not for a body on a path, which starts at the first waypoint");
     start.placement.position = start.guided->path[0];
   }
   if (node.has("count")) {
@@ -256,7 +257,7 @@ Body_start<D> body_start(const Json_node& node) {
 
 template Body_start<2> body_start(const Json_node&);
 template Body_start<3> body_start(const Json_node&);
-template std::vector<Point<2>> way_points<2>(const Json_node&);
-template std::vector<Point<3>> way_points<3>(const Json_node&);
+template std::vector<Point<2>> waypoints<2>(const Json_node&);
+template std::vector<Point<3>> waypoints<3>(const Json_node&);
 
 }  // namespace cellwalk::io::detail

@@ -9,23 +9,25 @@
 
 namespace cellwalk::io::detail {
 
-constexpr std::uint64_t max_particles = 10'000'000;
+constexpr std::uint64_t most_particles = 10'000'000;
 
 /// `count`, `seed` and `speed` of a random cloud; `node` has the first.
 Particle_cloud cloud(const Json_node& node);
 
-/// One entry of `bodies`. \throw Error(input) naming the key
+/// One entry of `bodies`.
+/// \throw Error(input) naming the key
 template <int D>
 Body_start<D> body_start(const Json_node& node);
 
-/// Way points, at least two, none twice in a row. \throw Error(input) naming the way point
+/// Waypoints, at least two, successive ones different.
+/// \throw Error(input) naming the waypoint
 template <int D>
-std::vector<Point<D>> way_points(const Json_node& node);
+std::vector<Point<D>> waypoints(const Json_node& node);
 
 extern template Body_start<2> body_start(const Json_node&);
 extern template Body_start<3> body_start(const Json_node&);
-extern template std::vector<Point<2>> way_points<2>(const Json_node&);
-extern template std::vector<Point<3>> way_points<3>(const Json_node&);
+extern template std::vector<Point<2>> waypoints<2>(const Json_node&);
+extern template std::vector<Point<3>> waypoints<3>(const Json_node&);
 
 }  // namespace cellwalk::io::detail
 

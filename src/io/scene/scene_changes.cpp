@@ -22,7 +22,7 @@ using nlohmann::json;
               fmt::format("{}: {}; give KEY=VALUE, as environment.cells=[10,10,10]", shown(change), why));
 }
 
-/// JSON is UTF-8, and what is not cannot be written as JSON.
+/// True if a text is UTF-8, as JSON must be.
 bool is_utf8(const std::string& text) {
   try {
     static_cast<void>(json(text).dump());
@@ -32,14 +32,14 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// The value that a key such as `bodies[0].count` stands for.
+/// The value at a key such as `bodies[0].count`.
 json& at_key(json& document, std::string_view key, const std::string& change) {
   json* here = &document;
   while (!key.empty()) {
     if (key.front() == '[') {
       const std::size_t end = key.find(']');
       std::size_t index = 0;
-      if (end == key.npos) refuse(change, "] is missing");
+      if (end == std::string_view::npos) refuse(change, "] is missing");
       const auto read = std::from_chars(key.data() + 1, key.data() + end, index);
       if (read.ec != std::errc() || read.ptr != key.data() + end) refuse(change, "expected an index in []");
       if (!here->is_array() || index >= here->size())
@@ -69,7 +69,7 @@ std::string change_scene(const std::string& name, std::string_view text,
   const auto document = detail::parse_json(name, text);
   for (const std::string& change : changes) {
     const std::size_t equals = change.find('=');
-    if (equals == change.npos || equals == 0) refuse(change, "no key");
+    if (equals == std::string::npos || equals == 0) refuse(change, "no key");
     if (!is_utf8(change)) refuse("a change", "is not written in UTF-8");
     const std::string value = change.substr(equals + 1);
     const auto watch = [&](int depth, json::parse_event_t, json&) {

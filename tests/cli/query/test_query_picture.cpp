@@ -5,9 +5,9 @@
 namespace cellwalk::test {
 namespace {
 
-class Query_picture : public Program {
+class QueryPicture : public Program {
  protected:
-  Query_picture() {
+  QueryPicture() {
     succeed({"generate", "squares", "--cells", "6", "4", "--solid", "0.2", "--seed", "7", "-o", "env.ovm"});
     write_text(path("moves.csv"),
                "ax,ay,bx,by\n0.25,0.25,3.75,3.75\n0.5,1.375,5.5,2.625\n1.5,0.5,1,1\nx,1,2,2\n2.25,1,2.5,1\n");
@@ -29,7 +29,7 @@ class Query_picture : public Program {
   }
 };
 
-TEST_F(Query_picture, DrawsWhateverTheAnswerIs) {
+TEST_F(QueryPicture, DrawsWhateverTheAnswerIs) {
   std::vector<std::string> pictures;
   for (const char* row : {"0", "1", "2", "4"}) pictures.push_back(picture("moves.csv", row));
   EXPECT_EQ(read_table(path("out.csv")).at(1).at(1), "free");
@@ -44,9 +44,9 @@ TEST_F(Query_picture, DrawsWhateverTheAnswerIs) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(pictures[i], pictures[j]) << i << " and " << j;
 }
 
-TEST_F(Query_picture, IsTheSameEveryTime) { EXPECT_EQ(picture("moves.csv", "0"), picture("moves.csv", "0")); }
+TEST_F(QueryPicture, IsTheSameEveryTime) { EXPECT_EQ(picture("moves.csv", "0"), picture("moves.csv", "0")); }
 
-TEST_F(Query_picture, RefusesRowsThatAreNotThereAndSpace) {
+TEST_F(QueryPicture, RefusesRowsThatAreNotThereAndSpace) {
   expect_failure(2, query("moves.csv", "3"), {"--row 3", "no such valid row"});
   expect_failure(2, query("moves.csv", "5"), {"--row 5", "no such valid row"});
   expect_failure(2, query("edges.csv", "3"), {"--row 3", "no such valid row"});

@@ -12,12 +12,12 @@
 namespace cellwalk::test {
 namespace {
 
-class Query_sweep : public Query_table {
+class QuerySweep : public Query_table {
  protected:
   /// Of the answers.
   enum Column { row, status, time, x, y, z, kind, body, nx, ny, nz, cells, cell };
 
-  Query_sweep()
+  QuerySweep()
       : Query_table(
             {"row", "status", "time", "x", "y", "z", "kind", "body", "nx", "ny", "nz", "cells", "cell"}) {
     always_ = {"--mode", "sweep"};
@@ -37,7 +37,7 @@ constexpr const char* space = "px,py,pz,tx,ty,tz,qx,qy,qz\n";
 constexpr const char* round_obstacle_2 = "0.5,0.5,4.5,0.5,2.5,4.5\n";
 constexpr const char* round_obstacle_3 = "0.5,2.5,0.5,4.5,2.5,0.5,2.5,2.5,4.5\n";
 
-TEST_F(Query_sweep, AnswersEveryStatusInThePlane) {
+TEST_F(QuerySweep, AnswersEveryStatusInThePlane) {
   make_room(2);
   const auto rows = query(std::string(plane) +
                           "0.5,0.5,4.5,0.5,2.5,0.5\n"   // in one line
@@ -69,7 +69,7 @@ TEST_F(Query_sweep, AnswersEveryStatusInThePlane) {
   EXPECT_NE(warned_.find("rows marked invalid: 1"), std::string::npos) << warned_;
 }
 
-TEST_F(Query_sweep, AnswersInSpace) {
+TEST_F(QuerySweep, AnswersInSpace) {
   make_room(3);
   const auto rows = query(std::string(space) + round_obstacle_3 +
                           "0.5,0.5,0.5,0.5,0.5,3.5,4.5,0.5,0.5\n"    // free
@@ -88,7 +88,7 @@ TEST_F(Query_sweep, AnswersInSpace) {
   EXPECT_EQ(rows[3][status], "outside");
 }
 
-TEST_F(Query_sweep, ThreeSegmentsMissWhatFitsBetween) {
+TEST_F(QuerySweep, ThreeSegmentsMissWhatFitsBetween) {
   for (const int dimension : {2, 3}) {
     make_room(dimension);
     const std::string motion =
@@ -102,26 +102,27 @@ TEST_F(Query_sweep, ThreeSegmentsMissWhatFitsBetween) {
   }
 }
 
-/// The solid cell is left behind by the edge before half of the motion, and the wall of the room is met at its end.
-TEST_F(Query_sweep, BisectionOfTheSegmentMayBeLate) {
+/// The solid cell is left behind by the edge before half of the motion, and the wall of the room is met at
+/// its end.
+TEST_F(QuerySweep, BisectionOfTheSegmentMayBeLate) {
   succeed({"generate", "squares", "--cells", "7", "5", "-o", "env.ovm"});
   write("env.ovm", Ovm_text(text("env.ovm")).set_solid(8).set_solid(13).text());  // at (1,1) and (6,1)
   const std::string motion = std::string(plane) + "0.25,0.75,6.75,0.75,0.5,4.75\n";
   const double first = (31.0 / 30 - 0.25) / 6.5, second = (0.5 + 5.5 * 16 / 15 - 0.25) / 6.5;
   const auto time_of = [&](const std::vector<std::string>& options) {
-    const Row row = query(motion, options).at(0);
-    EXPECT_EQ(row[status] + " " + row[body], "contact edge");
-    return std::stod(row[time]);
+    const Row answer = query(motion, options).at(0);
+    EXPECT_EQ(answer[status] + " " + answer[body], "contact edge");
+    return std::stod(answer[time]);
   };
   EXPECT_NEAR(time_of({"--contact", "dichotomic", "--tolerance", "0.0078125"}), first, 0x1p-7);
   EXPECT_NEAR(time_of({"--contact", "dichotomic_segment", "--tolerance", "0.0078125"}), second, 0x1p-7);
   EXPECT_NEAR(time_of({"--contact", "exhaustive", "--search-limit", "none"}), first, 1e-15);
 }
 
-TEST_F(Query_sweep, TouchStopEndsWhereTouchPassGoesOn) {
+TEST_F(QuerySweep, TouchStopEndsWhereTouchPassGoesOn) {
   make_room(2);
-  // The edge turns round q till it lies along the upper side of the obstacle, and p comes to the outer wall; then an edge
-  // that lies there begins, and one that meets nothing.
+  // The edge turns round q till it lies along the upper side of the obstacle, and p comes to the outer wall;
+  // then an edge that lies there begins, and one that meets nothing.
   const std::string motions = std::string(plane) +
                               "1.5,3.5,1.5,3,3.5,3\n"
                               "1.5,4.5,1.5,5,3.5,3.5\n"
@@ -138,9 +139,9 @@ TEST_F(Query_sweep, TouchStopEndsWhereTouchPassGoesOn) {
   EXPECT_EQ(query(motions), pass) << "the default";
 }
 
-TEST_F(Query_sweep, AStartOnAWallBelongsToTheSideThatGetsFurthest) {
-  // Two halves of a square of side 4 with a membrane between them, and in each an obstacle beside it: left from y = 1 to 2,
-  // right from 2 to 3.
+TEST_F(QuerySweep, AStartOnAWallBelongsToTheSideThatGetsFurthest) {
+  // Two halves of a square of side 4 with a membrane between them, and in each an obstacle beside it: left
+  // from y = 1 to 2, right from 2 to 3.
   succeed({"generate", "squares", "--cells", "4", "-o", "env.ovm"});
   Ovm_text room(text("env.ovm"));
   for (const std::size_t left : {1, 5, 9, 13}) room.separate(left, left + 1);
@@ -171,7 +172,7 @@ TEST_F(Query_sweep, AStartOnAWallBelongsToTheSideThatGetsFurthest) {
   }
 }
 
-TEST_F(Query_sweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
+TEST_F(QuerySweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
   // A membrane from (2,0) to (2,1), and edges in its line.
   succeed({"generate", "squares", "--cells", "4", "-o", "env.ovm"});
   write("env.ovm", Ovm_text(text("env.ovm")).separate(1, 2).text());
@@ -184,7 +185,8 @@ TEST_F(Query_sweep, AnEdgePastTheRimOfAWallMayEndOnEitherSideOfIt) {
   for (const Row& r : rows) EXPECT_EQ(r[status], "free") << r[row];
 }
 
-/// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of them short.
+/// Motions of edges in the box [0,size]^3, half of them between points of the half-integer lattice, most of
+/// them short.
 std::string random_sweeps(int count, int size) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> anywhere(0, size), near(-1, 1);
@@ -205,7 +207,7 @@ std::string random_sweeps(int count, int size) {
   return text;
 }
 
-class Query_sweep_random : public Query_sweep {
+class QuerySweepRandom : public QuerySweep {
  protected:
   void SetUp() override {
     succeed({"generate", "lattice", "--cells", "4", "--seed", "3", "-o", "env.ovm"});
@@ -216,7 +218,7 @@ class Query_sweep_random : public Query_sweep {
   std::vector<Row> exact_;
 };
 
-TEST_F(Query_sweep_random, ThreadsGiveTheSameAnswers) {
+TEST_F(QuerySweepRandom, ThreadsGiveTheSameAnswers) {
   const auto report = nlohmann::json::parse(text("counts.json"));
   EXPECT_EQ(report.at("motions"), 1500);
   for (const char* s : {"free", "contact", "outside"}) EXPECT_GT(report.at("status").at(s), 100) << s;
@@ -238,7 +240,7 @@ TEST_F(Query_sweep_random, ThreadsGiveTheSameAnswers) {
   }
 }
 
-TEST_F(Query_sweep_random, DichotomicIsWithinItsBoundAndNeverLater) {
+TEST_F(QuerySweepRandom, DichotomicIsWithinItsBoundAndNeverLater) {
   const auto rows = query(motions_, {"--contact", "dichotomic", "--tolerance", "0x1p-10"});
   int earlier = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -251,7 +253,7 @@ TEST_F(Query_sweep_random, DichotomicIsWithinItsBoundAndNeverLater) {
   EXPECT_GT(earlier, 20);
 }
 
-TEST_F(Query_sweep_random, ExhaustiveFindsAContactWhereverThereIsOne) {
+TEST_F(QuerySweepRandom, ExhaustiveFindsAContactWhereverThereIsOne) {
   int equal = 0, other = 0;
   const auto flooded = query(motions_, {"--contact", "exhaustive", "--json", "counts.json"});
   EXPECT_GT(nlohmann::json::parse(text("counts.json")).at("counts").at("searches"), 50);
@@ -275,7 +277,7 @@ TEST_F(Query_sweep_random, ExhaustiveFindsAContactWhereverThereIsOne) {
   EXPECT_GT(later, 0) << "the first obstacle is not always in the cells that the edge passes at its end";
 }
 
-TEST_F(Query_sweep_random, ThreeSegmentsFindNothingElseAndTouchesComeFirst) {
+TEST_F(QuerySweepRandom, ThreeSegmentsFindNothingElseAndTouchesComeFirst) {
   const auto segments = query(motions_, {"--sweep", "three_segments"});
   const auto stop = query(motions_, {"--touch", "stop"});
   int missed = 0, touched = 0;
@@ -293,7 +295,7 @@ TEST_F(Query_sweep_random, ThreeSegmentsFindNothingElseAndTouchesComeFirst) {
   EXPECT_GT(touched, 50);
 }
 
-TEST_F(Query_sweep, RefusesTablesAndOptionsThatMakeNoSense) {
+TEST_F(QuerySweep, RefusesTablesAndOptionsThatMakeNoSense) {
   make_room(2);
   expect_refused(3, "px,py,tx,ty\n", {"queries.csv", "no column 'qx'"});
   expect_refused(3, "ax,ay,bx,by\n", {"queries.csv", "no column 'px'"});

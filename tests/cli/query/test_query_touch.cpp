@@ -10,16 +10,16 @@
 namespace cellwalk::test {
 namespace {
 
-class Query_touch : public Query_table {
+class QueryTouch : public Query_table {
  protected:
   /// Of the answers.
   enum Column { row, status, time, x, y, z, kind, nx, ny, nz, cells, cell };
 
-  Query_touch()
+  QueryTouch()
       : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {}
 };
 
-TEST_F(Query_touch, StopsWhereAWallIsMet) {
+TEST_F(QueryTouch, StopsWhereAWallIsMet) {
   succeed({"generate", "squares", "--cells", "5", "-o", "env.ovm"});
   write("env.ovm", Ovm_text(text("env.ovm")).set_solid(12).text());
   const std::string moves =
@@ -48,7 +48,7 @@ TEST_F(Query_touch, StopsWhereAWallIsMet) {
   EXPECT_EQ(stop[7][status] + " " + stop[7][time], "contact 0");
 }
 
-TEST_F(Query_touch, ComesNoLaterThanACrossingAndAtTheSameTimeInGeneralPosition) {
+TEST_F(QueryTouch, ComesNoLaterThanACrossingAndAtTheSameTimeInGeneralPosition) {
   succeed({"generate", "lattice", "--cells", "4", "--seed", "3", "-o", "env.ovm"});
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> anywhere(0, 4);
@@ -84,7 +84,7 @@ TEST_F(Query_touch, ComesNoLaterThanACrossingAndAtTheSameTimeInGeneralPosition) 
   EXPECT_EQ(text("out.csv"), expected);
 }
 
-TEST_F(Query_touch, NeedsTheExactKernel) {
+TEST_F(QueryTouch, NeedsTheExactKernel) {
   succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
   for (const char* kernel : {"lazy", "double", "float"})
     expect_refused(2, "ax,ay,bx,by\n", {"--touch stop needs --kernel exact"},

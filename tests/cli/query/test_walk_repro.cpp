@@ -9,9 +9,9 @@
 namespace cellwalk::test {
 namespace {
 
-class Repro_walk : public Query_table {
+class ReproWalk : public Query_table {
  protected:
-  Repro_walk()
+  ReproWalk()
       : Query_table({"row", "status", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cells", "cell"}) {
     succeed({"generate", "squares", "--cells", "3", "-o", "env.ovm"});
     write("env.ovm", Ovm_text(text("env.ovm")).set_solid(4).text());
@@ -28,7 +28,7 @@ void expect_holds(const std::string& text, const std::vector<std::string>& parts
   for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-TEST_F(Repro_walk, ShowsWhereARoundedSignIsWrong) {
+TEST_F(ReproWalk, ShowsWhereARoundedSignIsWrong) {
   // The target lies beyond x = 1 by less than a float can tell.
   const std::string log = replay("0.5,0.5,1.000000000001,0.5", "float");
   expect_holds(log, {"note: row 0 of a query: free", "cells: 9", "from: 0.5 0.5  = 0x1p-1 0x1p-1",
@@ -37,7 +37,7 @@ TEST_F(Repro_walk, ShowsWhereARoundedSignIsWrong) {
                      "arrives in cell 1, on a cell of dimension 2", "the walks part after step 1"});
 }
 
-TEST_F(Repro_walk, FindsNoDifferenceWhereThereIsNone) {
+TEST_F(ReproWalk, FindsNoDifferenceWhereThereIsNone) {
   for (const char* kernel : {"exact", "lazy", "rational", "double", "double_1e-9", "double_1e-6", "float"}) {
     const std::string log = replay("0.5,1.5,1.5,1.25", kernel);
     expect_holds(log, {"is blocked in cell 3 at time 0.5 by a wall of cell 3: facet", ", wall;",
@@ -46,12 +46,12 @@ TEST_F(Repro_walk, FindsNoDifferenceWhereThereIsNone) {
   EXPECT_NE(replay("0.5,0.5,1.5,1.25", "double").find("line against its ridges"), std::string::npos);
 }
 
-TEST_F(Repro_walk, FollowsAWalkRoundAVertex) {
+TEST_F(ReproWalk, FollowsAWalkRoundAVertex) {
   expect_holds(replay("0.5,0.5,2.5,0.5", "lazy"), {"step 3: cell 2", "arrives in cell 2"});
   expect_holds(replay("0.5,1.5,1.5,0.5", "lazy"), {"goes on in cell 1, round a ridge or vertex"});
 }
 
-TEST_F(Repro_walk, RefusesWhatItCannotReplay) {
+TEST_F(ReproWalk, RefusesWhatItCannotReplay) {
   replay("0.5,0.5,2.5,0.5", "exact");
   const auto refuse = [this](int code, const std::string& part, const std::string& other,
                              const std::vector<std::string>& texts) {
@@ -70,7 +70,7 @@ TEST_F(Repro_walk, RefusesWhatItCannotReplay) {
   expect_failure(2, {"query", "env.ovm"}, {"queries is required"});
 }
 
-TEST_F(Repro_walk, RecordsOnlyRowsThatAreThere) {
+TEST_F(ReproWalk, RecordsOnlyRowsThatAreThere) {
   const std::string motions = "ax,ay,bx,by\n0.5,0.5,1,1\nx,0,0,0\n";
   write("motions.csv", motions);
   for (const char* row : {"1", "2"}) {

@@ -42,7 +42,7 @@ TEST_F(Run, WritesWhatHappened) {
   write("room.json", room);
   const std::string said = succeed({"run", "room.json", "-o", "out"});
   for (const char* part :
-       {"3D, 40 steps", "21 free", "8 vertices, 2.1 long inside, on its way to way point 2 of 2", "36 cells",
+       {"3D, 40 steps", "21 free", "8 vertices, 2.1 long inside, on its way to waypoint 2 of 2", "36 cells",
         "run.pvd (4 frames)", "picture.png"})
     EXPECT_NE(said.find(part), std::string::npos) << said;
 

@@ -30,7 +30,7 @@ constexpr const char* flat = R"({
   "gravity": [0, -1], "time_step": 0.05, "steps": 100, "output": {"frame_every": 0, "picture": true}
 })";
 
-class Run_bodies : public Program {
+class RunBodies : public Program {
  protected:
   json report(const std::string& folder) const { return json::parse(text(folder + "/run.json")); }
   std::string run_grid() const {
@@ -72,7 +72,7 @@ std::map<std::string, std::map<std::string, std::size_t>> count_contacts(
   return contacts;
 }
 
-TEST_F(Run_bodies, WritesWhatTheyMet) {
+TEST_F(RunBodies, WritesWhatTheyMet) {
   const std::string said = run_grid();
   for (const char* part :
        {"15, with 122 vertices, 205 edges, 40 faces", "4 free", "of vertices, ",
@@ -118,7 +118,7 @@ TEST_F(Run_bodies, WritesWhatTheyMet) {
   EXPECT_LE(decided, 1.05);
 }
 
-TEST_F(Run_bodies, InThePlane) {
+TEST_F(RunBodies, InThePlane) {
   write("flat.json", flat);
   succeed({"run", "flat.json", "-o", "out"});
   std::size_t of_particles = 0;
@@ -130,7 +130,7 @@ TEST_F(Run_bodies, InThePlane) {
   EXPECT_GT(text("out/picture.png").size(), 10000u);
 }
 
-TEST_F(Run_bodies, GiveTheSameBytesEveryTime) {
+TEST_F(RunBodies, GiveTheSameBytesEveryTime) {
   write("rod.csv", rod);
   for (const char* scene : {grid_scene, flat}) {
     write("scene.json", scene);
@@ -145,7 +145,7 @@ TEST_F(Run_bodies, GiveTheSameBytesEveryTime) {
   }
 }
 
-TEST_F(Run_bodies, ThreeSegmentsAreTheOtherSweep) {
+TEST_F(RunBodies, ThreeSegmentsAreTheOtherSweep) {
   write("flat.json", flat);
   succeed({"run", "flat.json", "-o", "triangle"});
   succeed({"run", "flat.json", "-o", "paper", "--sweep", "three_segments"});
@@ -158,7 +158,7 @@ TEST_F(Run_bodies, ThreeSegmentsAreTheOtherSweep) {
   expect_failure(2, {"run", "flat.json", "-o", "out", "--sweep", "none"}, {"--sweep"});
 }
 
-TEST_F(Run_bodies, ThreadsChangeNothing) {
+TEST_F(RunBodies, ThreadsChangeNothing) {
   run_grid();
   for (const char* threads : {"1", "3"}) {
     succeed({"run", "grid.json", "-o", threads, "--threads", threads});
@@ -168,7 +168,7 @@ TEST_F(Run_bodies, ThreadsChangeNothing) {
   expect_failure(2, {"run", "grid.json", "-o", "none", "--threads", "0"}, {"--threads"});
 }
 
-TEST_F(Run_bodies, FacesAreSweptOnRequest) {
+TEST_F(RunBodies, FacesAreSweptOnRequest) {
   run_grid();
   succeed({"run", "grid.json", "-o", "faces", "--sweep", "faces"});
   EXPECT_FALSE(report("out")["body_counts"].contains("faces"));
@@ -176,7 +176,7 @@ TEST_F(Run_bodies, FacesAreSweptOnRequest) {
   EXPECT_EQ(report("faces")["validated"], true);
 }
 
-TEST_F(Run_bodies, TheShippedScenesRun) {
+TEST_F(RunBodies, TheShippedScenesRun) {
   // Those with deformable bodies for fewer steps.
   const std::pair<const char*, const char*> scenes[] = {
       {"bodies.json", "400"}, {"bodies_2d.json", "300"}, {"hexahedra.json", "150"}, {"soft.json", "100"}};
@@ -193,17 +193,17 @@ TEST_F(Run_bodies, TheShippedScenesRun) {
   }
 }
 
-TEST_F(Run_bodies, AreRefusedWithTheKeyAndThePlace) {
+TEST_F(RunBodies, AreRefusedWithTheKeyAndThePlace) {
   const auto refuse = [this](int exit_code, const std::string& bodies,
                              const std::vector<std::string>& texts) {
     write("s.json",
           R"({"environment": {"generate": "hexes", "cells": 3}, "steps": 1, "bodies": [)" + bodies + "]}");
     expect_failure(exit_code, {"run", "s.json", "-o", "out"}, texts);
   };
-  refuse(
-      5,
-      R"({"shape": "hexahedron", "position": [1.5, 1.5, 1.5]}, {"shape": "tetrahedron", "position": [3, 1, 1]})",
-      {"s.json: bodies[1]: vertex 0 of the body, at (3.3", "is outside the environment"});
+  refuse(5,
+         R"({"shape": "hexahedron", "position": [1.5, 1.5, 1.5]},)"
+         R"( {"shape": "tetrahedron", "position": [3, 1, 1]})",
+         {"s.json: bodies[1]: vertex 0 of the body, at (3.3", "is outside the environment"});
   refuse(5, R"({"shape": "catheter", "length": 9, "count": 2})",
          {"s.json: bodies[0]: no room for copy 1 of 2", "1000 random places"});
   refuse(5, R"({"shape": "polyline", "points": [[0, 0, 0], [1, 0, 0]],
@@ -216,7 +216,7 @@ TEST_F(Run_bodies, AreRefusedWithTheKeyAndThePlace) {
   refuse(3, R"({"file": "broken.csv"})", {"broken.csv:2"});
 }
 
-TEST_F(Run_bodies, ACrossedWallIsNamed) {
+TEST_F(RunBodies, ACrossedWallIsNamed) {
   write("s.json", R"({"dimension": 2, "environment": {"generate": "squares", "cells": [9, 9], "solid": 0.2},
     "steps": 1, "bodies": [{"shape": "catheter", "length": 8.5, "vertices": 2, "position": [4.5, ROW]}]})");
   const std::string scene = text("s.json");

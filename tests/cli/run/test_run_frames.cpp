@@ -19,7 +19,7 @@
 namespace cellwalk::test {
 namespace {
 
-class Run_frames : public Program {
+class RunFrames : public Program {
  protected:
   /// Calls check(grid) for a file of the run; VTK must have read it without a complaint.
   template <class Check>
@@ -33,7 +33,7 @@ class Run_frames : public Program {
   }
 };
 
-TEST_F(Run_frames, AreReadByVtk) {
+TEST_F(RunFrames, AreReadByVtk) {
   write("room.json", R"({
     "environment": {"generate": "hexes", "cells": [4, 3, 3]},
     "particles": [{"count": 20, "seed": 3, "speed": 12}],
@@ -79,7 +79,7 @@ TEST_F(Run_frames, AreReadByVtk) {
   });
 }
 
-TEST_F(Run_frames, BodiesAreReadByVtk) {
+TEST_F(RunFrames, BodiesAreReadByVtk) {
   write("grid.json", R"({
     "environment": {"generate": "hexes", "cells": [4, 3, 3]},
     "bodies": [{"shape": "hexahedron", "side": 0.4, "count": 10, "seed": 3, "speed": 4},
@@ -115,7 +115,7 @@ TEST_F(Run_frames, BodiesAreReadByVtk) {
         EXPECT_EQ(grid.GetCell(i)->GetNumberOfPoints(), feature + 1);
         ++types[grid.GetCellType(i)];
         if (count > 0) met[{cell_value("body", i), feature, cell_value("number", i)}] = count;
-        for (vtkIdType k = 0; k < grid.GetCell(i)->GetNumberOfPoints(); ++k)
+        for (int k = 0; k < grid.GetCell(i)->GetNumberOfPoints(); ++k)
           EXPECT_EQ(grid.GetPointData()->GetArray("body")->GetTuple1(grid.GetCell(i)->GetPointId(k)),
                     cell_value("body", i));
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Every public member of the classes and every function that headers declare `extern template`, so that a program which inlines
-// nothing links. check_members.py sees that none is missing. Nothing is run.
+// Every public member of the classes and every function that headers declare `extern template`, so that a
+// program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
@@ -74,7 +74,7 @@ void keep_bodies() {
       +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
       &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
       &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::refresh,
-      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::validate);
+      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of, &Body<D>::validate);
 
   keep(&transformed<D>, &make_body<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
@@ -104,8 +104,8 @@ void keep_simulation() {
   keep(
       +[](const Snapshot<D>& s, Body<D> b, const Catheter<D>& c) { return Rod<D>(s, std::move(b), c, {}); },
       &moved<Rod<D>>, &Rod<D>::at_entry, &Rod<D>::step, &Rod<D>::targets, &Rod<D>::tip,
-      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::way, &Rod<D>::next_way_point, &Rod<D>::steps_waited,
-      &Rod<D>::velocity, &Rod<D>::has_arrived);
+      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::waypoints, &Rod<D>::next_waypoint,
+      &Rod<D>::steps_waited, &Rod<D>::velocity, &Rod<D>::has_arrived);
   keep_both(&Rod<D>::body, &Rod<D>::body);
 
   keep(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Readers in modules, loaded by a program that knows nothing of them: says how many cells each of its arguments holds.
+// Readers in modules, loaded by a program that knows nothing of them: says how many cells each of its
+// arguments holds.
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 

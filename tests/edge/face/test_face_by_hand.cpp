@@ -95,7 +95,8 @@ TEST(FaceByHand, StopsWhereThePointIsBlocked) {
   world.stand(3, 2, 0);  // x = 3, behind p
   const Snapshot<3> snapshot = world.compile();
   Face_body body(snapshot);
-  // From the side of the wall, p goes over into the tip's way: first the tip, then the wall x = 2 of the block.
+  // From the side of the wall, p goes over into the tip's way: first the tip, then the wall x = 2 of the
+  // block.
   ASSERT_TRUE(place(body, snapshot, over_tip));
   const auto hit = body.move_corner(0, {1.875, 1.875, 0.75});
   ASSERT_TRUE(hit.vertex && hit.face.contact);

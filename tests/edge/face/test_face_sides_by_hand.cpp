@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// On which side of the walls in its plane a face lies, where the answer is known: slits, the boundary, edges that pass a rim.
+// On which side of the walls in its plane a face lies, where the answer is known: slits, the boundary, edges
+// that pass a rim.
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/walk/locate.h>
 
@@ -117,7 +118,8 @@ TEST(FaceSidesByHand, BehindTheBoundaryIsNothing) {
   }
 }
 
-/// A face on one side of the membrane, the ends of one of its edges on the other. The edge passes the rim in the plane.
+/// A face on one side of the membrane, the ends of one of its edges on the other. The edge passes the rim in
+/// the plane.
 TEST(FaceSidesByHand, AnEdgeThatPassesARimTakesNoFaceWithIt) {
   int in_the_way = 0, kept = 0;
   for (const Middle middle : {Middle::membrane, Middle::slit}) {

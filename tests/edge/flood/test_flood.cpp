@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The flood never calls a triangle clear that a wall crosses; in general position it finds all that are clear.
+// The flood never calls a triangle clear that a wall crosses; in general position it finds all that are
+// clear.
 #include <cellwalk/internal/edge/flood.h>
 
 #include <gtest/gtest.h>

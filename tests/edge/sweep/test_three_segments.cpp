@@ -17,40 +17,36 @@ struct Three_segments_seen {
 };
 
 template <int D>
+std::optional<Chain> check(const Edge_world<D>& w, const Moved_end<D>& moved, const Particle<D>& q,
+                           const Chain& chain, Three_segments_seen& seen) {
+  const std::uint64_t proved_before = seen.counts.same_cell + seen.counts.same_chain;
+  const Chain_result<D> edge =
+      check_third_segment<D>(w.snapshot, {moved.from, moved.to, {}, moved.crossed}, q, chain, seen.counts);
+  const bool proved = seen.counts.same_cell + seen.counts.same_chain > proved_before;
+  const bool is_hit = w.walls.is_crossed(moved.from.position, moved.to.position, q.position);
+  ++seen.sweeps;
+  seen.blocked += edge.contact.has_value();
+  seen.crossed += is_hit;
+  seen.missed += is_hit && !edge.contact;
+  if (proved) {
+    EXPECT_FALSE(is_hit);
+    EXPECT_FALSE(edge.contact);
+  }
+  if (edge.contact) return std::nullopt;
+  expect_leads(w.snapshot, edge.chain, moved.to.cell, q.cell);
+  return edge.chain;
+}
+
+template <int D>
 Three_segments_seen sweep(bool generic) {
   Three_segments_seen seen;
   for (std::uint64_t number = 0; number < 2 * oracle::world_kinds; ++number) {
     Edge_world<D> w(number, generic);
-    for (int k = 0; k < 60; ++k) {
-      Particle<D> p = w.start();
-      if (p.cell == Cell::none) continue;
-      const Particle<D> q = w.end(p);
-      if (q.cell == Cell::none) continue;
-      Chain_result<D> edge = find_chain(w.snapshot, p, q, seen.counts.walk);
-      // The end is moved on and on, so that chains grow, shrink and turn.
-      for (int step = 0; step < 6 && !edge.contact; ++step) {
-        const Point<D> a = p.position;
-        const Particle<D> from = p;
-        std::vector<Half_facet> crossed;
-        w.choose_kind();
-        const auto walked =
-            move(w.snapshot, p, w.target(p), seen.counts.walk, {Walk_strategy::certified, nullptr, &crossed});
-        if (walked.status != Walk_status::arrived) continue;
-        const std::uint64_t proved_before = seen.counts.same_cell + seen.counts.same_chain;
-        edge = check_third_segment<D>(w.snapshot, {from, p, {}, crossed}, q, edge.chain, seen.counts);
-        const bool proved = seen.counts.same_cell + seen.counts.same_chain > proved_before;
-        const bool is_hit = w.walls.is_crossed(a, p.position, q.position);
-        ++seen.sweeps;
-        seen.blocked += edge.contact.has_value();
-        seen.crossed += is_hit;
-        seen.missed += is_hit && !edge.contact;
-        if (proved) {
-          EXPECT_FALSE(is_hit);
-          EXPECT_FALSE(edge.contact);
-        }
-        if (!edge.contact) expect_leads(w.snapshot, edge.chain, p.cell, q.cell);
-      }
-    }
+    for_each_sweep(
+        w, 60, seen.counts.walk,
+        [&](const Moved_end<D>& moved, const Particle<D>& q, const Chain& chain) -> std::optional<Chain> {
+          return moved.contact ? std::nullopt : check(w, moved, q, chain, seen);
+        });
   }
   const Edge_counts& c = seen.counts;
   std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.sweeps

@@ -24,27 +24,62 @@ struct Triangle_seen {
 
 /// p is blocked on its way: the edge must be hit exactly if a wall crosses its triangle before that.
 template <int D>
-void check_blocked(const Edge_world<D>& w, const Particle<D>& from, const Point<D>& target,
-                   const std::vector<Cell>& visited, const std::vector<Half_facet>& crossed,
-                   const Wall_contact<D>& blocked, const Particle<D>& q, const Chain& chain, bool generic,
-                   Triangle_seen& seen) {
-  Particle<D> to = from;
-  to.position = target;
-  to.cell = visited.back();
-  const Sweep_result<D> edge =
-      sweep_triangle<D>(w.snapshot, {from, to, visited, crossed, true}, q, chain, seen.counts);
-  const auto hit = w.walls.first_hit(from.position, target, q.position);
+void check_blocked(const Edge_world<D>& w, const Moved_end<D>& moved, const Particle<D>& q,
+                   const Chain& chain, bool generic, Triangle_seen& seen) {
+  const Sweep_result<D> edge = sweep_triangle<D>(w.snapshot, moved.path(), q, chain, seen.counts);
+  const auto hit = w.walls.first_hit(moved.from.position, moved.to.position, q.position);
   constexpr double rounding = 0x1p-50;  // of all three times
   ++seen.blocked;
   if (edge.contact) {
     ++seen.edge_first;
-    EXPECT_LE(edge.contact->rounded_time(), blocked.time + rounding);
+    EXPECT_LE(edge.contact->rounded_time(), moved.contact->time + rounding);
     if (generic) {
       EXPECT_TRUE(hit && std::abs(*hit - edge.contact->rounded_time()) <= rounding) << w.world.name;
     }
   } else if (hit) {
-    EXPECT_GE(*hit, blocked.time - rounding) << w.world.name << ": an edge hit before its end is missed";
+    EXPECT_GE(*hit, moved.contact->time - rounding)
+        << w.world.name << ": an edge hit before its end is missed";
   }
+}
+
+/// p arrives: the edge must be hit exactly if a wall crosses its triangle.
+template <int D>
+Sweep_result<D> check_arrived(const Edge_world<D>& w, const Moved_end<D>& moved, const Particle<D>& q,
+                              const Chain& chain, bool generic, Triangle_seen& seen) {
+  Edge_counts bare;
+  const bool is_compared = seen.sweeps % 4 == 0;
+  const bool is_free =
+      is_compared && !sweep_triangle<D>(w.snapshot, moved.path(), q, chain, bare, no_certificates).contact;
+  seen.compared += bare.event_sweeps;
+  const Sweep_result<D> edge = sweep_triangle<D>(w.snapshot, moved.path(), q, chain, seen.counts);
+  if (is_compared) {
+    EXPECT_EQ(is_free, !edge.contact) << w.world.name << ": a certificate changes the answer";
+  }
+  const auto hit = w.walls.first_hit(moved.from.position, moved.to.position, q.position);
+  ++seen.sweeps;
+  seen.hits += hit.has_value();
+  if (!edge.contact) expect_leads(w.snapshot, edge.chain, moved.to.cell, q.cell);
+  if (hit && !edge.contact) {
+    ++seen.misses;
+    ADD_FAILURE() << w.world.name << ": missed at " << *hit;
+  }
+  if (!hit && edge.contact) {
+    ++seen.only_blocked;
+    EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->rounded_time();
+  }
+  if (hit && edge.contact) {
+    // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a
+    // side.
+    constexpr double rounding = 0x1p-52;  // of both times
+    const double early = *hit - edge.contact->rounded_time();
+    seen.wrong_times += early < 0 || (generic && early > rounding);
+    EXPECT_GE(early, 0) << w.world.name;
+    if (generic) {
+      EXPECT_LE(early, rounding) << w.world.name;
+    }
+    seen.third_free += !find_chain(w.snapshot, moved.to, q, seen.counts.walk).contact;
+  }
+  return edge;
 }
 
 /// Of each kind. Sweeps in 3D take four times as long.
@@ -57,61 +92,15 @@ Triangle_seen sweep_triangles(bool generic) {
   const std::size_t worlds = oracle::scaled_count(worlds_of_a_kind<D> * oracle::world_kinds);
   for (std::uint64_t number = 0; number < worlds; ++number) {
     Edge_world<D> w(number, generic);
-    for (int k = 0; k < 60; ++k) {
-      Particle<D> p = w.start();
-      if (p.cell == Cell::none) continue;
-      const Particle<D> q = w.end(p);
-      if (q.cell == Cell::none) continue;
-      const Chain_result<D> start = find_chain(w.snapshot, p, q, seen.counts.walk);
-      if (start.contact) continue;
-      Sweep_result<D> edge{{}, start.chain};
-      for (int step = 0; step < 6 && !edge.contact; ++step) {
-        const Particle<D> from = p;
-        std::vector<Cell> visited;
-        std::vector<Half_facet> crossed;
-        w.choose_kind();
-        const Point<D> target = w.target(p);
-        const auto walked =
-            move(w.snapshot, p, target, seen.counts.walk, {Walk_strategy::certified, &visited, &crossed});
-        if (walked.status != Walk_status::arrived) {
-          check_blocked(w, from, target, visited, crossed, *walked.contact, q, edge.chain, generic, seen);
-          continue;
-        }
-        const Vertex_path<D> path{from, p, visited, crossed};
-        Edge_counts bare;
-        const bool is_compared = seen.sweeps % 4 == 0;
-        const bool is_free =
-            is_compared && !sweep_triangle<D>(w.snapshot, path, q, edge.chain, bare, no_certificates).contact;
-        seen.compared += bare.event_sweeps;
-        edge = sweep_triangle<D>(w.snapshot, path, q, edge.chain, seen.counts);
-        if (is_compared) {
-          EXPECT_EQ(is_free, !edge.contact) << w.world.name << ": a certificate changes the answer";
-        }
-        const auto hit = w.walls.first_hit(from.position, p.position, q.position);
-        ++seen.sweeps;
-        seen.hits += hit.has_value();
-        if (!edge.contact) expect_leads(w.snapshot, edge.chain, p.cell, q.cell);
-        if (hit && !edge.contact) {
-          ++seen.misses;
-          ADD_FAILURE() << w.world.name << ": missed at " << *hit;
-        }
-        if (!hit && edge.contact) {
-          ++seen.only_blocked;
-          EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->rounded_time();
-        }
-        if (hit && edge.contact) {
-          // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a side.
-          constexpr double rounding = 0x1p-52;  // of both times
-          const double early = *hit - edge.contact->rounded_time();
-          seen.wrong_times += early < 0 || (generic && early > rounding);
-          EXPECT_GE(early, 0) << w.world.name;
-          if (generic) {
-            EXPECT_LE(early, rounding) << w.world.name;
-          }
-          seen.third_free += !find_chain(w.snapshot, p, q, seen.counts.walk).contact;
-        }
-      }
-    }
+    for_each_sweep(w, 60, seen.counts.walk,
+                   [&](const Moved_end<D>& moved, const Particle<D>& q, const Chain& chain) {
+                     if (moved.contact) {
+                       check_blocked(w, moved, q, chain, generic, seen);
+                       return std::optional<Chain>();
+                     }
+                     const Sweep_result<D> edge = check_arrived(w, moved, q, chain, generic, seen);
+                     return edge.contact ? std::nullopt : std::optional(edge.chain);
+                   });
   }
   const Edge_counts& c = seen.counts;
   std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.sweeps << " sweeps, "

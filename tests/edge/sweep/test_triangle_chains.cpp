@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and on worlds of
-// spikes and long edges, where edges slide in planes of walls.
+// The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and
+// on worlds of spikes and long edges, where edges slide in planes of walls.
 #include <cellwalk/internal/kernel/predicates.h>
 
 #include <gtest/gtest.h>
@@ -98,34 +98,12 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
 template <int D>
 void sweep(Edge_world<D>& w, int edges, Chains_seen& seen) {
   const oracle::Chain_oracle<D> oracle(w.world.soup);
-  for (int k = 0; k < edges; ++k) {
-    Particle<D> p = w.start();
-    if (p.cell == Cell::none) continue;
-    const Particle<D> q = w.end(p);
-    if (q.cell == Cell::none) continue;
-    const Chain_result<D> start = find_chain(w.snapshot, p, q, seen.counts.walk);
-    if (start.contact) continue;
-    Sweep_result<D> edge{{}, start.chain};
-    for (int step = 0; step < 6 && !edge.contact; ++step) {
-      const Particle<D> from = p;
-      std::vector<Cell> visited;
-      std::vector<Half_facet> crossed;
-      w.choose_kind();
-      const Point<D> target = w.target(p);
-      const auto walked =
-          move(w.snapshot, p, target, seen.counts.walk, {Walk_strategy::certified, &visited, &crossed});
-      const bool blocked = walked.status != Walk_status::arrived;
-      Particle<D> to = p;
-      if (blocked) {
-        to.position = target;
-        to.cell = visited.back();
-      }
-      const Vertex_path<D> path{from, to, visited, crossed, blocked};
-      const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, path, q, edge.chain, seen.counts);
-      judge(w, oracle, path, q, edge.chain, result, seen);
-      if (!blocked) edge = result;
-    }
-  }
+  for_each_sweep(
+      w, edges, seen.counts.walk, [&](const Moved_end<D>& moved, const Particle<D>& q, const Chain& chain) {
+        const Sweep_result<D> result = sweep_triangle<D>(w.snapshot, moved.path(), q, chain, seen.counts);
+        judge(w, oracle, moved.path(), q, chain, result, seen);
+        return result.contact ? std::nullopt : std::optional(result.chain);
+      });
 }
 
 void report(const std::string& name, const Chains_seen& seen) {
@@ -214,7 +192,8 @@ void test_sliding() {
 TEST(TriangleChains, AreRightWhereEdgesSlide2) { test_sliding<2>(); }
 TEST(TriangleChains, AreRightWhereEdgesSlide3) { test_sliding<3>(); }
 
-/// Edges about slits, which cells on both sides share windows beside: what lies behind a slit is not known through it.
+/// Edges about slits, which cells on both sides share windows beside: what lies behind a slit is not known
+/// through it.
 template <int D>
 void test_slits() {
   const std::size_t worlds = oracle::scaled_count(24);
@@ -241,7 +220,8 @@ void test_slits() {
 TEST(TriangleChains, AreRightBesideSlits2) { test_slits<2>(); }
 TEST(TriangleChains, AreRightBesideSlits3) { test_slits<3>(); }
 
-/// Cells that share a facet and are parted by a slit beside it, taken for convex pairs: edges then pass through slits.
+/// Cells that share a facet and are parted by a slit beside it, taken for convex pairs: edges then pass
+/// through slits.
 template <int D>
 void test_forgotten_slits() {
   Chains_seen seen;
@@ -264,7 +244,8 @@ void test_forgotten_slits() {
 TEST(TriangleChains, ForgottenSlitsAreCaught2) { test_forgotten_slits<2>(); }
 TEST(TriangleChains, ForgottenSlitsAreCaught3) { test_forgotten_slits<3>(); }
 
-/// The oracle takes for granted that nothing changes between its critical times: two times of each interval must agree.
+/// The oracle takes for granted that nothing changes between its critical times: two times of each interval
+/// must agree.
 template <int D>
 void test_critical_times() {
   const std::size_t worlds = std::max<std::size_t>(1, oracle::scaled_count(oracle::world_kinds));

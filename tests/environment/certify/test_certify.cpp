@@ -250,7 +250,8 @@ TEST(Certify, RefusesNestedComponents) {
 }
 
 TEST(Certify, RefusesCellsInTheSamePlace) {
-  // The same cube twice, its facets cut differently: nothing is glued, and no facet enters the interior of a cell.
+  // The same cube twice, its facets cut differently: nothing is glued, and no facet enters the interior of a
+  // cell.
   Sample_cell<3> cut{cube().points, {}};
   for (const auto& loop : cube().loops) {
     cut.loops.push_back({loop[0], loop[1], loop[2]});

@@ -137,7 +137,8 @@ TEST(Snapshot, PlanesOfSliversAreLeftToExactSigns) {
   EXPECT_GE(s.uncertified_planes(), 1u);
 }
 
-/// The definition: the union is convex if every vertex of one cell is inside every unshared facet of the other.
+/// The definition: the union is convex if every vertex of one cell is inside every unshared facet of the
+/// other.
 template <int D>
 bool is_union_convex(const Snapshot<D>& s, Cell a, Cell b) {
   const auto inside = [&](Cell of, Cell other) {

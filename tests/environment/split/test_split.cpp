@@ -23,7 +23,8 @@ using test::prism;
 using test::Rational;
 using test::Sample_cell;
 
-/// A grid of n^3 unit cubes whose inner points (or all of them) are moved at random by up to `jitter` along each axis.
+/// A grid of n^3 unit cubes whose inner points (or all of them) are moved at random by up to `jitter` along
+/// each axis.
 Cell_soup<3> jittered_grid(std::uint32_t n, double jitter, std::uint64_t seed, bool only_inner) {
   Cell_soup<3> soup = hex_grid({.cells = {n, n, n}});
   Random random(seed);
@@ -175,7 +176,8 @@ TEST(Split, CutsPlanarCellsThatAreNotConvex) {
 }
 
 TEST(Split, CutsFacetsWithVerticesInsideTheirSides) {
-  // The roof's ridge sags by one ulp, so that the box is cut; vertex 0 lies inside a side, and no fan from it will do.
+  // The roof's ridge sags by one ulp, so that the box is cut; vertex 0 lies inside a side, and no fan from it
+  // will do.
   Sample_cell<3> box = prism({{1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 0}});
   box.points[8][2] = std::nextafter(1.0, 0.0);
   Split_report report;
@@ -249,14 +251,16 @@ TEST(Split, RefusesMalformedInput) {
 }
 
 TEST(Split, TriesOtherDiagonals) {
-  // Strongly distorted hexahedra, so that the first choice of diagonals often leaves no star, but another does.
+  // Strongly distorted hexahedra, so that the first choice of diagonals often leaves no star, but another
+  // does.
   Random random(3);
   int split_cells = 0, needed_others = 0, refused = 0;
   for (int i = 0; i < 300; ++i) {
     Sample_cell<3> cell = cube();
     for (Point<3>& p : cell.points)
       for (double& x : p) x += random.real(-1.5, 1.5);
-    // Whether any of the 64 ways to cut its facets allows an inner or outer star, asked of triangulated cells.
+    // Whether any of the 64 ways to cut its facets allows an inner or outer star, asked of triangulated
+    // cells.
     bool can_be_cut = false, first_can_be_cut = false;
     for (unsigned ways = 0; ways < 64; ++ways) {
       Sample_cell<3> cut{cell.points, {}};

@@ -72,7 +72,7 @@ TEST(Csv, WrittenTablesReadBackTheSame) {
   EXPECT_EQ(table.field(1, 2), "a,\"b\"");
 }
 
-TEST(Queries, RowsCarryTheirLineAndWhatIsWrongWithThem) {
+TEST(QueryFiles, RowsCarryTheirLineAndWhatIsWrongWithThem) {
   const Csv_table table = Csv_table::parse("q.csv",
                                            "id,bx,by,bz,ax,ay,az\n"
                                            "0,1,2,3,0x1p-1,1/4,-0\n"
@@ -93,7 +93,7 @@ TEST(Queries, RowsCarryTheirLineAndWhatIsWrongWithThem) {
   EXPECT_EQ(rows[2].line, 5u);
 }
 
-TEST(Queries, TheDimensionMustFit) {
+TEST(QueryFiles, TheDimensionMustFit) {
   const Folder folder;
   const auto plane = folder.write("p.csv", "ax,ay,bx,by\n1,2,3,4\n"),
              space = folder.write("s.csv", "ax,ay,az,bx,by,bz\n");
@@ -105,7 +105,7 @@ TEST(Queries, TheDimensionMustFit) {
   EXPECT_TRUE(read_moves<3>(space).empty());
 }
 
-TEST(Queries, SweepsHaveAnEndThatMovesAndOneThatStands) {
+TEST(QueryFiles, SweepsHaveAnEndThatMovesAndOneThatStands) {
   const Folder folder;
   const auto plane = folder.write("p.csv", "qx,qy,px,py,tx,ty\n5,6,1,2,3,4\n");
   const auto rows = read_sweeps<2>(plane);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Public meshes of bodies: closed surfaces of one part, so that vertices, edges and faces obey Euler's formula.
+// Public meshes of bodies: closed surfaces of one part, so that vertices, edges and faces obey Euler's
+// formula.
 #include <cellwalk/io/body_file.h>
 
 #include <gtest/gtest.h>

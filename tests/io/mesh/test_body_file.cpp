@@ -135,7 +135,7 @@ TEST(BodyFile, ReadsBinaryOffWithEdges) {
     for (std::size_t i = sizeof value; i-- > 0;) bytes.push_back(p[i]);  // big endian
   };
   for (std::uint32_t n : {3, 2, 0}) append(n);
-  for (float x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) append(x);
+  for (float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) append(x);
   for (std::uint32_t n : {2, 2, 0, 0, 2, 1, 0, 0}) append(n);
   EXPECT_EQ(read<3>("b.off", bytes).body.edges, (Edges{{0, 1}, {0, 2}}));
   EXPECT_EQ(read<2>("b.off", bytes).body.edges, (Edges{{0, 1}, {0, 2}}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The public meshes: each is read with the counts that its entry in SOURCES.txt states, or refused for a stated reason.
+// The public meshes: each is read with the counts that its entry in SOURCES.txt states, or refused for a
+// stated reason.
 #include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
@@ -51,9 +52,9 @@ void expect_counts(const Entry& entry, const Mesh_file& file) {
   }
 }
 
-class Public_mesh : public testing::TestWithParam<Entry> {};
+class PublicMesh : public testing::TestWithParam<Entry> {};
 
-TEST_P(Public_mesh, HasTheStatedCounts) {
+TEST_P(PublicMesh, HasTheStatedCounts) {
   const Entry& entry = GetParam();
   const Mesh_file file = read_mesh(data / entry.path);
   EXPECT_EQ(kind_name(file.mesh),
@@ -65,10 +66,10 @@ std::string test_name(const testing::TestParamInfo<Entry>& info) {
   return std::regex_replace(info.param.path, std::regex("\\W"), "_");
 }
 
-INSTANTIATE_TEST_SUITE_P(Tet, Public_mesh, testing::ValuesIn(entries("tet")), test_name);
-INSTANTIATE_TEST_SUITE_P(HexPoly, Public_mesh, testing::ValuesIn(entries("hex_poly")), test_name);
-INSTANTIATE_TEST_SUITE_P(Surface, Public_mesh, testing::ValuesIn(entries("surface")), test_name);
-INSTANTIATE_TEST_SUITE_P(Body, Public_mesh, testing::ValuesIn(entries("body")), test_name);
+INSTANTIATE_TEST_SUITE_P(Tet, PublicMesh, testing::ValuesIn(entries("tet")), test_name);
+INSTANTIATE_TEST_SUITE_P(HexPoly, PublicMesh, testing::ValuesIn(entries("hex_poly")), test_name);
+INSTANTIATE_TEST_SUITE_P(Surface, PublicMesh, testing::ValuesIn(entries("surface")), test_name);
+INSTANTIATE_TEST_SUITE_P(Body, PublicMesh, testing::ValuesIn(entries("body")), test_name);
 
 TEST(PublicMeshes, AreAsManyAsExpected) {
   EXPECT_EQ(entries("tet").size(), 9u);
@@ -78,8 +79,8 @@ TEST(PublicMeshes, AreAsManyAsExpected) {
   EXPECT_EQ(entries("bad").size(), 10u);
 }
 
-/// What is wrong with a bad mesh shows here only where its file is broken. Open, inverted and crossing surfaces are read
-/// as they are: meshing and certification refuse them.
+/// What is wrong with a bad mesh shows here only where its file is broken. Open, inverted and crossing
+/// surfaces are read as they are: meshing and certification refuse them.
 TEST(BadMeshes, AreReadAsTheyAreOrRefusedForAReason) {
   const std::map<std::string, std::string> refused{
       {"bad/Armadillo_Tetra_4406_for_test_broken.vtu",

@@ -17,7 +17,8 @@
 namespace cellwalk::io {
 namespace {
 
-// A hexahedron, a prism beside it, a pyramid on it, and a tetrahedron beside that; a square, a line and a point.
+// A hexahedron, a prism beside it, a pyramid on it, and a tetrahedron beside that; a square, a line and a
+// point.
 const std::string nodes =
     "12\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0\n10 2 0 1\n11 0 0 "
     "2\n12 -1 0 1\n";

@@ -87,7 +87,7 @@ TEST(Surface, OffIsReadAsBinaryToo) {
     for (std::size_t i = sizeof value; i-- > 0;) bytes.push_back(p[i]);  // big endian
   };
   for (std::uint32_t n : {4, 4, 0}) append(n);
-  for (float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) append(x);
+  for (float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f}) append(x);
   for (const auto& loop : tetrahedron_facets) {
     append(std::uint32_t{3});
     for (std::uint32_t v : loop) append(v);

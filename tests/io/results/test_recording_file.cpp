@@ -78,7 +78,7 @@ int unfolded(std::uint32_t value) {
   return value % 2 == 0 ? static_cast<int>(value / 2) : -static_cast<int>(value / 2) - 1;
 }
 
-TEST(Recording_file, HoldsEveryRecordToTheRoundingOfItsBox) {
+TEST(RecordingFile, HoldsEveryRecordToTheRoundingOfItsBox) {
   const Folder folder;
   write_sample(folder / "m.gz");
   const std::string bytes = unzipped(folder / "m.gz");
@@ -114,7 +114,7 @@ TEST(Recording_file, HoldsEveryRecordToTheRoundingOfItsBox) {
   EXPECT_EQ(at, bytes.size());
 }
 
-TEST(Recording_file, ReadsWhatItWrote) {
+TEST(RecordingFile, ReadsWhatItWrote) {
   const Folder folder;
   write_sample(folder / "m.gz");
   const Recording file = read_recording(folder / "m.gz");
@@ -130,14 +130,14 @@ TEST(Recording_file, ReadsWhatItWrote) {
   EXPECT_EQ(file.scene.upper, expected.upper);
 }
 
-TEST(Recording_file, TheSameMotionGivesTheSameBytes) {
+TEST(RecordingFile, TheSameMotionGivesTheSameBytes) {
   const Folder folder;
   write_sample(folder / "a.gz");
   write_sample(folder / "b.gz");
   EXPECT_EQ(content_of(folder / "a.gz"), content_of(folder / "b.gz"));
 }
 
-TEST(Recording_file, RefusesWhatIsDamaged) {
+TEST(RecordingFile, RefusesWhatIsDamaged) {
   const Folder folder;
   write_sample(folder / "m.gz");
   const std::string packed = content_of(folder / "m.gz"), bytes = unzipped(folder / "m.gz");
@@ -170,7 +170,7 @@ TEST(Recording_file, RefusesWhatIsDamaged) {
             20);
 }
 
-TEST(Recording_file, AnnouncedRecordsMustCome) {
+TEST(RecordingFile, AnnouncedRecordsMustCome) {
   const Folder folder;
   const auto records = sample_records();
   const auto add = [&](std::size_t count) {

@@ -12,7 +12,7 @@
 namespace cellwalk::io {
 namespace {
 
-TEST(PublicTraces, AreReadAndWrittenByteForByte) {
+TEST(PublicTraceFiles, AreReadAndWrittenByteForByte) {
   const struct {
     const char* file;
     std::array<std::uint32_t, 3> cells;

@@ -182,7 +182,7 @@ TEST(TraceFile, DamagedAtRandom) {
   std::set<std::string> reasons;
   for (int i = 0; i < 5000; ++i) {
     std::string bytes = sample_trace();
-    for (unsigned n = 1 + random() % 3; n > 0; --n)
+    for (auto n = 1 + random() % 3; n > 0; --n)
       bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : size - 8)] = static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());
     try {

@@ -21,7 +21,7 @@ Repro<2> sample() {
   return record;
 }
 
-class Repro_file : public testing::Test {
+class ReproFile : public testing::Test {
  protected:
   /// Reads the sample with a part of its text replaced, which must be there.
   std::string refusal(const std::string& part, const std::string& other) {
@@ -44,7 +44,7 @@ class Repro_file : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(Repro_file, ReadsBackWhatWasWritten) {
+TEST_F(ReproFile, ReadsBackWhatWasWritten) {
   Repro<2> written = sample();
   for (const bool has_cell : {false, true}) {
     if (has_cell) written.cell = 1;
@@ -65,7 +65,7 @@ TEST_F(Repro_file, ReadsBackWhatWasWritten) {
   }
 }
 
-TEST_F(Repro_file, ReadsTetrahedra) {
+TEST_F(ReproFile, ReadsTetrahedra) {
   Repro<3> written;
   written.soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   add_tetrahedron(written.soup, 0, 1, 2, 3);
@@ -77,7 +77,7 @@ TEST_F(Repro_file, ReadsTetrahedra) {
   EXPECT_EQ(read.from, written.from);
 }
 
-TEST_F(Repro_file, RefusesWhatItDoesNotUnderstand) {
+TEST_F(ReproFile, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(refusal("motion 1", "motion 1"), "");
   EXPECT_NE(refusal("motion 1", "motion 2").find("format"), std::string::npos);
   EXPECT_NE(refusal("\"note\"", "\"nota\"").find("nota"), std::string::npos);

@@ -18,7 +18,8 @@ constexpr const char* complete = R"({  // everything
                "steering": "twist", "tip": {"length": 2, "degrees": 45}, "twist": 5,
                "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0]]},
   "gravity": [0, 0, -9.81], "restitution": 0.5, "friction": 0.25, "time_step": 0.5, "steps": 12,
-  "output": {"frame_every": 3, "motion_every": 4, "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
+  "output": {"frame_every": 3, "motion_every": 4,
+             "picture": {"width": 320, "height": 200, "toward": [0, 0, 1], "up": [0, 1, 0]}}
 })";
 
 TEST(Scene, ReadsEveryKey) {
@@ -139,9 +140,9 @@ const Refusal scene_refusals[] = {
     {R"({"environment": "e", "catheter": {"spacing": 0, "path": []}})",
      "s.json: catheter.spacing: expected a number greater than 0, not 0"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0]]}})",
-     "s.json: catheter.path: expected at least 2 way points"},
+     "s.json: catheter.path: expected at least 2 waypoints"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0],[0,0,0]]}})",
-     "s.json: catheter.path[1]: the same way point twice in a row"},
+     "s.json: catheter.path[1]: the same waypoint twice in a row"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "particles": 1, "path": []}})",
      "s.json: catheter.particles: expected an integer from 2 to 10000000, not 1"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "steering": "hand", "path": []}})",
@@ -175,7 +176,8 @@ const Refusal scene_refusals[] = {
      "s.json: output.picture: expected true or false"},
     {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"width": 5}}})",
      "s.json: output.picture.width: expected an integer from 16 to 16384, not 5"},
-    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture": {"up": [0, 0, 0]}}})",
+    {R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "output": {"picture":)"
+     R"( {"up": [0, 0, 0]}}})",
      "s.json: output.picture.up: a direction cannot be zero"},
 };
 

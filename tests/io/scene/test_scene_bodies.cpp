@@ -32,8 +32,9 @@ Shape shape(const std::string& text) {
 
 TEST(SceneBodies, ReadsEveryKey) {
   const auto found = bodies<3>(R"(
-    {"file": "sub/b.obj", "position": [1, 2, 3], "scale": 0.5, "rotation": {"axis": [0, 1, 2], "degrees": -30},
-     "velocity": [0, 0, 4], "spin": [0.25, 0, 1], "motion": "thrown"},
+    {"file": "sub/b.obj", "position": [1, 2, 3], "scale": 0.5,
+     "rotation": {"axis": [0, 1, 2], "degrees": -30}, "velocity": [0, 0, 4],
+     "spin": [0.25, 0, 1], "motion": "thrown"},
     {"shape": "hexahedron", "side": 0.3, "count": 225, "seed": 8, "speed": 3, "spin": [0, 0, 1]},
     {"shape": "icosphere", "motion": {"path": [[0, 0, 1], [1, 0, 1], [1, 1, 1]], "speed": 2}})");
   ASSERT_EQ(found.size(), 3u);
@@ -58,8 +59,8 @@ TEST(SceneBodies, ReadsEveryKey) {
 
 TEST(SceneBodies, ReadsMaterials) {
   const auto found = bodies<3>(R"({"shape": "box"}, {"shape": "box", "material": {}},
-    {"file": "a.off", "material": {"model": "shape_matching", "mode": "linear", "stiffness": 0.25, "deformation": 0.75,
-                                   "volume": false}},
+    {"file": "a.off", "material": {"model": "shape_matching", "mode": "linear", "stiffness": 0.25,
+                                   "deformation": 0.75, "volume": false}},
     {"shape": "box", "count": 3, "material": {"mode": "quadratic", "deformation": 1}})");
   ASSERT_EQ(found.size(), 4u);
   EXPECT_FALSE(found[0].material);
@@ -200,13 +201,13 @@ const Body_refusal of_space[] = {
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [1, 0, 0]]}})",
      "bodies[0].motion: key \"speed\" is missing"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0]], "speed": 1}})",
-     "bodies[0].motion.path: expected at least 2 way points"},
+     "bodies[0].motion.path: expected at least 2 waypoints"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [0, 0, 0]], "speed": 1}})",
-     "bodies[0].motion.path[1]: the same way point twice in a row"},
+     "bodies[0].motion.path[1]: the same waypoint twice in a row"},
     {R"({"file": "a", "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 0}})",
      "bodies[0].motion.speed: expected a number greater than 0, not 0"},
     {R"({"file": "a", "count": 3, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
-     "bodies[0].count: not for a body on a path, which starts at the first way point"},
+     "bodies[0].count: not for a body on a path, which starts at the first waypoint"},
     {R"({"file": "a", "material": "rubber"})", "bodies[0].material: expected an object {...}"},
     {R"({"file": "a", "material": {"model": "fem"}})",
      "bodies[0].material.model: expected \"shape_matching\""},
@@ -228,7 +229,7 @@ const Body_refusal of_space[] = {
     {R"({"file": "a", "material": {}, "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
      "bodies[0].material: not for a body on a path, which is rigid"},
     {R"({"file": "a", "position": [0, 0, 0], "motion": {"path": [[0, 0, 0], [1, 0, 0]], "speed": 1}})",
-     "bodies[0].position: not for a body on a path, which starts at the first way point"},
+     "bodies[0].position: not for a body on a path, which starts at the first waypoint"},
 };
 
 TEST(SceneBodies, RefusesWithTheKeyThatIsWrong) {

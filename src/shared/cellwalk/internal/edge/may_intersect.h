@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which cells and walls a swept triangle meets. Theory: docs/sweep.md, flood.
+// The cells and walls that a swept triangle meets. Theory: docs/sweep.md, flood.
 #ifndef CELLWALK_INTERNAL_EDGE_MAY_INTERSECT_H
 #define CELLWALK_INTERNAL_EDGE_MAY_INTERSECT_H
 
@@ -13,19 +13,20 @@
 
 namespace cellwalk::detail {
 
-/// False proves that closed facet i of a cell misses the closed triangle. True where they meet, where they may meet in one
-/// plane or line, and where the triangle is a segment, other than from a = q to b, whose line or box the facet meets.
+/// False proves that closed facet i of a cell misses the closed triangle. True if they meet, if they may meet
+/// in one plane or line, and, if the triangle is a segment other than from a = q to b, if the facet meets the
+/// line or the box of the segment.
 bool may_intersect(const Cell_view<2>& cell, std::size_t i, const Swept_triangle<2>& t, Walk_counts& counts);
 bool may_intersect(const Cell_view<3>& cell, std::size_t i, const Swept_triangle<3>& t, Walk_counts& counts);
 
-/// False proves that vertex k of facet i (2D), or its edge from vertex k to the next (3D), misses the closed triangle. True where
-/// they meet, and where they may meet in one plane or line.
+/// False proves that vertex k of facet i (2D), or its edge from vertex k to the next (3D), misses the closed
+/// triangle. True if they meet, and if they may meet in one plane or line.
 bool may_meet_ridge(const Cell_view<2>& cell, std::size_t i, std::size_t k, const Swept_triangle<2>& t,
                     Walk_counts& counts);
 bool may_meet_ridge(const Cell_view<3>& cell, std::size_t i, std::size_t k, const Swept_triangle<3>& t,
                     Walk_counts& counts);
 
-/// As may_intersect(), by boxes and the plane of the facet only: cheaper, and more often true.
+/// The same as may_intersect(), by boxes and the plane of the facet only: cheaper, and true more often.
 template <int D>
 bool may_overlap(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t, Walk_counts& counts);
 
@@ -35,8 +36,9 @@ constexpr std::size_t most_flooded = 64;
 /// Cells of a flood.
 using Flooded = boost::container::small_vector<Cell, 64>;
 
-/// Finds the cells that the triangle meets, from `start` through passable facets, and hands each wall of them that it may
-/// meet to on_wall(half-facet), until that returns false. False if so, or if there are more than `most_cells`.
+/// Finds the cells that the triangle meets, from `start` through passable facets, and calls on_wall(facet)
+/// for each of their walls that it may meet. Returns false if on_wall() does, or if there are more than
+/// `most_cells` cells.
 template <int D, class On_wall>
 bool flood(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle, Edge_counts& counts,
            std::size_t most_cells, Flooded& found, On_wall on_wall) {

@@ -16,7 +16,7 @@ namespace cellwalk {
 /// Paper: section III.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \pre !way.blocked
+/// \pre !path.blocked
 /// Cost: a few ns if p and q share a cell or the chain is empty; some ten signs a facet of the chain;
 /// otherwise a walk.
 template <int D>

@@ -7,11 +7,11 @@
 //
 // Bound. Let g be the exact plane function of a facet, positive outside, scaled by some factor > 0 (only its
 // sign matters). The compiler of the snapshot proves for every stored plane (n,d) that |n.y + d - g(y)| <= 3u
-// for all y in
-// [-1,1]^D, u = 2^-24, |n| <= 1 + 2u, |d| <= sqrt(D) + 4u; a plane for which it cannot is stored as n = d =
-// 0. Evaluation rounds y to float (u/2 a coordinate, plus 2^-53 for the mapping), and n.y + d with D+1
-// roundings on each path, at most 4u (|n|_1 + |d|) (1 + 2^-20). With |n|_1 <= sqrt(3): u (3 + sqrt(3)/2 + 8
-// sqrt(3)) (1 + 2^-19) < 18u. plane_error = 20u leaves room for underflow (below 2^-120).
+// for all y in [-1,1]^D, with u = 2^-24, |n| <= 1 + 2u and |d| <= sqrt(D) + 4u; a plane for which it cannot
+// is stored as n = d = 0. Evaluation rounds y to float (u/2 a coordinate, plus 2^-53 for the mapping), and
+// n.y + d with D+1 roundings on each path, at most 4u (|n|_1 + |d|) (1 + 2^-20). With |n|_1 <= sqrt(3) the
+// total is u (3 + sqrt(3)/2 + 8 sqrt(3)) (1 + 2^-19) < 18u. plane_error = 20u leaves room for underflow
+// (below 2^-120).
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_PLANES_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_PLANES_H
 

@@ -16,8 +16,8 @@ namespace cellwalk::io {
 
 /// Reads a whole trace into memory; the file may be compressed with gzip. Nothing is repaired, and no memory
 /// is allocated for counts before they are checked against the size of the file.
-/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, bodies that break
-///        the rules of Body_soup, numbers that are not finite, answers with an unknown bit
+/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, bodies
+///        that break the rules of Body_soup, numbers that are not finite, answers with an unknown bit
 Body_trace read_body_trace(const std::filesystem::path& path);
 
 /// Reads from bytes in memory.
@@ -31,8 +31,8 @@ std::variant<Trace, Body_trace> parse_any_trace(const std::string& name, std::st
 
 /// Writes a trace, which reads back the same, bit for bit, into a file that the caller commits.
 /// \pre the lengths of arrays agree with the counts
-/// \throw Error(usage) if they do not, or if read_body_trace() would refuse the trace; Error(other) if the file
-///        cannot be written
+/// \throw Error(usage) if they do not, or if read_body_trace() would refuse the trace; Error(other) if the
+///        file cannot be written
 void write_body_trace(Atomic_file& file, const Body_trace& trace);
 
 }  // namespace cellwalk::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Tables of comma-separated values: columns by name, rows with their line.
+// Tables of comma-separated values: columns by name, rows with their line. Read here, since a malformed field
+// must invalidate its row only, with a reason, and numbers may be fractions or hexadecimal.
 #ifndef CELLWALK_INTERNAL_IO_CSV_H
 #define CELLWALK_INTERNAL_IO_CSV_H
 
@@ -56,9 +57,9 @@ class Csv_table {
 class Csv_writer {
  public:
   /// \throw Error(other) if the file cannot be written
-  Csv_writer(std::filesystem::path path, std::vector<std::string> columns);
+  Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns);
   /// Writes into a file that the caller commits, and that outlives the writer.
-  Csv_writer(Atomic_file& file, std::vector<std::string> columns);
+  Csv_writer(Atomic_file& file, const std::vector<std::string>& columns);
 
   /// Writes one row, with a value for each column: texts (quoted where needed), integers, and doubles in the
   /// shortest form that reads back the same; a double that is not finite is empty.

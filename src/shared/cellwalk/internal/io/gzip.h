@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Compression with gzip, and encoding in base64.
+// Compression with gzip by zlib, into the project's atomic files instead of zlib's own, and encoding in
+// base64, which no dependency offers with padding.
 #ifndef CELLWALK_INTERNAL_IO_GZIP_H
 #define CELLWALK_INTERNAL_IO_GZIP_H
 

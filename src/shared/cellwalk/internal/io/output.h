@@ -60,7 +60,7 @@ class Replacement {
   /// Returns false and sets errno if the system refuses.
   bool put(const std::filesystem::path& from, const std::filesystem::path& to);
   /// Undoes the exchange.
-  void take_back(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
+  void take_back(const std::filesystem::path& from, const std::filesystem::path& to) const noexcept;
 
  private:
   bool had_old_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where a motion passes a line (2D) or plane (3D): its time in numbers of twice the precision of a double, whose
-// error bound nearly always decides how it is rounded; exactly where it does not. Includes CGAL; users link
-// CGAL::CGAL.
+// Where a motion passes a line (2D) or plane (3D): its time in numbers of twice the precision of a double,
+// whose error bound nearly always decides how it is rounded; exactly where it does not. Includes CGAL; users
+// link CGAL::CGAL.
 #ifndef CELLWALK_INTERNAL_KERNEL_CROSSING_H
 #define CELLWALK_INTERNAL_KERNEL_CROSSING_H
 
@@ -29,8 +29,9 @@ struct Bounded_twofold {
   double error;
 };
 
-/// The time at which the motion passes the plane: v_a / (v_a - v_b) for the orientations v_a of a and v_b of b. None
-/// if their errors leave the sign of v_a undecided, or coordinates differ by less than 2^-150 or more than 2^150.
+/// The time at which the motion passes the plane: v_a / (v_a - v_b) for the orientations v_a of a and v_b of
+/// b. None if their errors leave the sign of v_a undecided, or coordinates differ by less than 2^-150 or more
+/// than 2^150.
 /// \pre a and b do not lie strictly on the same side
 template <int D>
 std::optional<Bounded_twofold> bounded_time(const Crossing<D>& crossing);
@@ -54,8 +55,8 @@ struct Exact_fraction {
   std::variant<Fraction, Crossing<2>, Crossing<3>> source;
 };
 
-/// Coordinate by coordinate the greatest doubles that are not above, and the least that are not below, those of a
-/// point of a motion.
+/// Coordinate by coordinate the greatest doubles that are not above, and the least that are not below, those
+/// of a point of a motion.
 template <int D>
 struct Point_bounds {
   Point<D> below, above;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Numbers of twice the precision of a double, as unevaluated sums of two, with bounds of their errors. The bounds of
-// the operations are those that Joldes, Muller and Popescu prove ("Tight and rigorous error bounds for basic
-// building blocks of double-word arithmetic", ACM Transactions on Mathematical Software 44(2), 2017), in units of
-// u^2 with u = 2^-53. They hold in round-to-nearest while nothing overflows or underflows.
+// Numbers of twice the precision of a double, as unevaluated sums of two, with bounds of their errors. The
+// bounds of the operations are those that Joldes, Muller and Popescu prove ("Tight and rigorous error bounds
+// for basic building blocks of double-word arithmetic", ACM Transactions on Mathematical Software 44(2),
+// 2017), in units of u^2 with u = 2^-53. They hold in round-to-nearest while nothing overflows or underflows.
 #ifndef CELLWALK_INTERNAL_KERNEL_TWOFOLD_H
 #define CELLWALK_INTERNAL_KERNEL_TWOFOLD_H
 
@@ -18,7 +18,8 @@ namespace detail {
 /// u^2, the unit of the bounds.
 inline constexpr double twofold_unit = 0x1p-106;
 
-/// a + b, exactly. \pre |a| >= |b|, or a is 0
+/// a + b, exactly.
+/// \pre |a| >= |b|, or a is 0
 inline Twofold quick_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
@@ -68,7 +69,8 @@ inline Twofold operator*(const Twofold& x, double y) {
   return detail::quick_sum(sum.high, sum.low + product.low);
 }
 
-/// Within 16 u^2 of the exact quotient, relatively. \pre y is not 0
+/// Within 16 u^2 of the exact quotient, relatively.
+/// \pre y is not 0
 inline Twofold operator/(const Twofold& x, const Twofold& y) {
   const double quotient = x.high / y.high;
   const Twofold product = y * quotient;

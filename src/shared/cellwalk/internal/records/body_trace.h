@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A body trace: the motion of any bodies in any environment, with the exact answer to every move, for comparisons
-// with other libraries. The file format: docs/formats.md.
+// A body trace: the motion of any bodies in any environment, with the exact answer to every move, for
+// comparisons with other libraries. The file format: docs/formats.md.
 #ifndef CELLWALK_INTERNAL_RECORDS_BODY_TRACE_H
 #define CELLWALK_INTERNAL_RECORDS_BODY_TRACE_H
 
@@ -35,14 +35,15 @@ inline std::vector<std::uint32_t> degrees(const Traced_body& body) {
   return degrees;
 }
 
-/// A trace of bodies. Before step s all vertices stand at before[s]; then they move, body by body and vertex by vertex.
+/// A trace of bodies. Before step s all vertices stand at before[s]; then they move, body by body and vertex
+/// by vertex.
 struct Body_trace {
   std::vector<Traced_body> bodies;
   std::uint32_t steps = 0;
   std::vector<Point<3>> before;   ///< [step][vertex of all bodies], and after the last step
   std::vector<Point<3>> targets;  ///< [step][vertex of all bodies]
-  std::vector<std::uint8_t>
-      answers;  ///< [step][answer]: of each vertex, then of its edges; empty if there are none
+  /// [step][answer]: of each vertex, then of its edges; empty if there are none.
+  std::vector<std::uint8_t> answers;
 
   /// The vertices of all bodies.
   std::size_t vertices() const {
@@ -58,7 +59,8 @@ struct Body_trace {
   }
   std::size_t moves() const { return steps * vertices(); }
 
-  /// Positions of all vertices before a step. \pre step <= steps
+  /// Positions of all vertices before a step.
+  /// \pre step <= steps
   std::span<const Point<3>> before_step(std::size_t step) const {
     return std::span(before).subspan(step * vertices(), vertices());
   }

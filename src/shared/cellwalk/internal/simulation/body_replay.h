@@ -13,8 +13,8 @@
 
 namespace cellwalk {
 
-/// Steps by the rule of body traces: what is blocked stays; what touches a wall is not blocked. They report what
-/// blocks.
+/// Steps by the rule of body traces: what is blocked stays; what touches a wall is not blocked. They report
+/// what blocks.
 /// \pre three_segments or triangle: with the latter, swept triangles are answered too
 Body_options body_trace_options(Sweep sweep);
 
@@ -29,18 +29,19 @@ std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size
 void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const Rejected_move<3>> blocked,
                          Sweep sweep, std::vector<std::uint8_t>& answers);
 
-/// The bodies of a trace in motion, without their faces, which the rule leaves alone. Refers to the snapshot, the locator and the trace, which must outlive it.
+/// The bodies of a trace in motion, without their faces, which the rule leaves alone. Refers to the snapshot, the
+/// locator and the trace, which must outlive it.
 class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
   /// \pre the trace is one that io::read_body_trace accepts
-  /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more than
-  ///        64 edges; Error(usage) for Sweep::faces
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more
+  ///        than 64 edges; Error(usage) for Sweep::faces
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
               const Body_options& options);
 
-  /// Puts all bodies where they stand before the next step: by a step, which keeps what is known of walls nearby; anew where
-  /// walls are in its way. Not timed.
+  /// Puts all bodies where they stand before the next step: by a step, which keeps what is known of walls
+  /// nearby; anew where walls are in its way. Not timed.
   /// \pre there is one
   /// \throw Error(outside) as the constructor
   void prepare();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Records the motion of the bodies of a world, whatever moves them, with the exact answers of walls. The rule of the answers:
-// docs/formats.md.
+// Records the motion of the bodies of a world, whatever moves them, with the exact answers of walls. The rule
+// of the answers: docs/formats.md.
 #ifndef CELLWALK_INTERNAL_SIMULATION_BODY_TRACE_RECORDER_H
 #define CELLWALK_INTERNAL_SIMULATION_BODY_TRACE_RECORDER_H
 
@@ -12,8 +12,9 @@
 
 namespace cellwalk {
 
-/// Records where the bodies of a world stand before each step, where they are to go, and what walls answer to that. It changes
-/// nothing in the world: copies of the bodies are asked. Refers to the world, which must outlive it.
+/// Records where the bodies of a world stand before each step, where they are to go, and what walls answer to
+/// that. It changes nothing in the world: copies of the bodies are asked. Refers to the world, which must
+/// outlive it.
 class Body_trace_recorder {
  public:
   /// Starts with where the bodies stand now.

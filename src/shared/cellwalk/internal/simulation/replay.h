@@ -6,20 +6,13 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/records/trace.h>
+#include <cellwalk/simulation/run_contact.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cellwalk {
-
-/// A move that a wall blocked.
-struct Replay_contact {
-  std::uint32_t step = 0, body = 0, vertex = 0;
-  /// Or the first of its edges that the wall blocks at the target.
-  Body_feature feature = Body_feature::vertex;
-  Wall_contact<3> contact;
-};
 
 /// The counts of a replay. They are machine-independent.
 struct Replay_counts {
@@ -56,8 +49,8 @@ class Replay {
   std::span<const std::uint8_t> answers() const {
     return std::span(answers_).first(trace_->index(steps_done_, 0, 0));
   }
-  /// The contacts, in the order met.
-  std::span<const Replay_contact> contacts() const { return contacts_; }
+  /// The contacts of the vertices that stayed in place, in the order met.
+  std::span<const Run_contact<3>> contacts() const { return contacts_; }
   std::span<const Body<3>> bodies() const { return bodies_; }
   const Replay_counts& counts() const { return counts_; }
 
@@ -68,12 +61,13 @@ class Replay {
  private:
   void note(std::uint32_t body, const Rejected_move<3>& blocked);
 
+  const Snapshot<3>* snapshot_;
   const Trace* trace_;
   Body_options options_;
   std::vector<Body<3>> bodies_;
   Step_report<3> report_;              ///< of one body in one step
   std::vector<std::uint8_t> answers_;  ///< of all moves; 0 for future ones
-  std::vector<Replay_contact> contacts_;
+  std::vector<Run_contact<3>> contacts_;
   std::uint32_t steps_done_ = 0;
   Replay_counts counts_;
 };

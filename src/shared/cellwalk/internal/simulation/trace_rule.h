@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces in a grid, docs/formats.md, for bodies of the library: how they are moved, and the answers to that.
+// The rule of traces in a grid (docs/formats.md) for bodies of the library: their steps, and the answers
+// to their moves.
 #ifndef CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 #define CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 
@@ -13,14 +14,16 @@
 
 namespace cellwalk {
 
-/// Steps by that rule: what hits a wall, or touches one, stays. They report what blocks.
-/// \pre three_segments or triangle: with the latter, bits 4 to 6 are answered too
+/// The options of steps by that rule: a vertex that hits or touches a wall stays in place. Steps
+/// report the rejected moves.
+/// \pre the sweep is three_segments or triangle; the latter answers bits 4 to 6 too
 Body_options trace_options(Sweep sweep);
 
-/// The answer to a move of which this is reported.
+/// The answer to a rejected move.
 std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep);
 
-/// Appends the answers to the moves of one body in one step. \pre what blocks was reported, vertex by vertex
+/// Appends the answers to the moves of one body in one step.
+/// \pre the rejected moves are in the order of vertices
 void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers);
 

@@ -76,7 +76,7 @@ class Link_search {
   /// Appends the facets on the path from the start to the cell of the given number, each seen from the cell
   /// on the side of the start.
   template <class Facets>
-  void append_way(std::size_t place, Facets& facets) const {
+  void append_path(std::size_t place, Facets& facets) const {
     const auto end = static_cast<std::ptrdiff_t>(facets.size());
     for (std::size_t i = place; i != 0; i = found_[i].parent) facets.push_back(found_[i].facet);
     std::reverse(facets.begin() + end, facets.end());

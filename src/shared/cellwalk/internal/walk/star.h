@@ -187,11 +187,11 @@ class Star_search {
   /// The facets on the path to a candidate.
   Star_path path(const Candidate& candidate) const {
     Star_path path;
-    links_.append_way(candidate.place, path);
+    links_.append_path(candidate.place, path);
     return path;
   }
-  /// A wall that is in the way, if there is one: of several the one met most head-on. The choice decides
-  /// nothing.
+  /// A wall that blocks the motion, if there is one: of several the one met most head-on. No decision depends
+  /// on the choice.
   Half_facet wall() const { return wall_; }
 
  private:

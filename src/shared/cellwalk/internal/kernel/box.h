@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Boxes along the axes. Internal.
+#ifndef CELLWALK_INTERNAL_KERNEL_BOX_H
+#define CELLWALK_INTERNAL_KERNEL_BOX_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace cellwalk::detail {
+
+/// A point all of whose coordinates are x.
+template <int D>
+constexpr Point<D> with_all_coordinates(double x) {
+  Point<D> p{};
+  p.fill(x);
+  return p;
+}
+
+/// A closed box along the axes; empty before it is extended.
+template <int D>
+struct Box {
+  Point<D> low = with_all_coordinates<D>(std::numeric_limits<double>::infinity());
+  Point<D> high = with_all_coordinates<D>(-std::numeric_limits<double>::infinity());
+
+  void extend(const Point<D>& x) { extend(Box{x, x}); }
+  void extend(const Box& other) {
+    for (std::size_t k = 0; k < D; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+  }
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_KERNEL_BOX_H
