@@ -17,7 +17,7 @@ namespace {
 
 using test::rooms;
 
-/// An edge in a room with a pillar from x = y = 2 to 3: where its ends are before the step, and their targets.
+/// An edge in a room with a pillar from x = y = 2 to 3: where its ends are before a step, and their targets.
 Body_trace edge_trace(std::vector<std::array<Point<3>, 2>> before,
                       std::vector<std::array<Point<3>, 2>> targets) {
   Body_trace trace;
