@@ -24,9 +24,10 @@ template <int D>
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
-    if (reported != Reported::blocked && answer.stays())
-      report.contacts.push_back(first_contact(answer, targets[v]));
-    if (reported == Reported::contacts) continue;
+    if (reported == Reported::contacts) {
+      if (answer.stays()) report.contacts.push_back(first_contact(answer, targets[v]));
+      continue;
+    }
     report.blocked.push_back(std::move(tried.answer));
     locate_wall(report.blocked.back(), tried.met, targets[v]);
   }

@@ -18,6 +18,18 @@ Body_options body_trace_options(Sweep sweep) {
   return options;
 }
 
+std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size_t number) {
+  constexpr std::uint32_t most_edges = 64;
+  std::vector<std::uint32_t> counts = degrees(body);
+  const auto most = std::ranges::max_element(counts);
+  if (most != counts.end() && *most > most_edges)
+    throw Error(Error_code::input,
+                fmt::format("body {}: vertex {} has {} edges, and traces answer moves of vertices with {} at "
+                            "most: leave the body out",
+                            number, most - counts.begin(), *most, most_edges));
+  return counts;
+}
+
 void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const Rejected_move<3>> blocked,
                          Sweep sweep, std::vector<std::uint8_t>& answers) {
   auto move = blocked.begin();
@@ -45,7 +57,7 @@ Body_replay::Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator,
                 "faces are not answered in a trace: replay it by three_segments or triangle");
   for (std::size_t b = 0, first = 0; b < trace.bodies.size(); first += trace.bodies[b++].vertices) {
     first_vertex_.push_back(first);
-    degrees_.push_back(degrees(trace.bodies[b]));
+    degrees_.push_back(answerable_degrees(trace.bodies[b], b));
     bodies_.push_back(registered(b, 0));
   }
   reports_.resize(bodies_.size());
@@ -58,9 +70,10 @@ std::span<const Point<3>> Body_replay::part(std::span<const Point<3>> of_step, s
 
 Body<3> Body_replay::registered(std::size_t body, std::size_t step) const {
   const auto positions = part(trace_->before_step(step), body);
-  const Traced_body& shape = trace_->bodies[body];
   try {
-    return Body<3>(*snapshot_, *locator_, {{positions.begin(), positions.end()}, shape.edges, shape.faces});
+    // Faces are left alone by the rule, and a wall may pierce one: a body without them moves alike.
+    return Body<3>(*snapshot_, *locator_,
+                   {{positions.begin(), positions.end()}, trace_->bodies[body].edges, {}});
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("body {} before step {}: {}", body, step, error.what()));
   }
@@ -70,7 +83,6 @@ void Body_replay::prepare() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto positions = part(trace_->before_step(steps_done_), b);
     if (std::ranges::equal(bodies_[b].positions(), positions)) continue;
-    // A step keeps what is known of walls nearby, as in the simulation that was recorded.
     Step_report<3>& report = reports_[b];
     report.clear();
     bodies_[b].step(positions, options_, report, counts_of_preparing_);

@@ -7,6 +7,29 @@
 #include <utility>
 
 namespace cellwalk {
+namespace {
+
+/// A body at a wall stays there for good: a trace is not to start with one.
+void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number) {
+  Edge_counts counts;
+  bool has_extent = false;
+  for (const auto& [u, v] : body.edges()) {
+    const Particle<3>& from = body.particles()[u];
+    const Point<3>& to = body.positions()[v];
+    has_extent |= from.position != to;
+    if (closed_meeting<3>(snapshot, from.cell, {from.position, to, from.position}, counts))
+      throw Error(
+          Error_code::input,
+          fmt::format("body {}: its edge from vertex {} to vertex {} touches a wall at the start, which a "
+                      "trace counts as a hit: put it elsewhere",
+                      number, u, v));
+  }
+  if (!has_extent)
+    throw Error(Error_code::input,
+                fmt::format("body {}: all its vertices are in one place: give it a size", number));
+}
+
+}  // namespace
 
 Trace_recorder::Trace_recorder(const Snapshot<3>& snapshot, const Locator<3>& locator, Trace start)
     : trace_(std::move(start)) {

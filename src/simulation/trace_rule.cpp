@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/simulation/trace_rule.h>
-#include <cellwalk/kernel/error.h>
-
-#include <fmt/format.h>
 
 #include <array>
 
@@ -50,25 +47,6 @@ void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
   const std::size_t first = answers.size();
   answers.resize(first + trace_vertices);
   for (const Rejected_move<3>& move : blocked) answers[first + move.vertex] = trace_answer(move, sweep);
-}
-
-void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number) {
-  Edge_counts counts;
-  bool has_extent = false;
-  for (const auto& [u, v] : body.edges()) {
-    const Particle<3>& from = body.particles()[u];
-    const Point<3>& to = body.positions()[v];
-    has_extent |= from.position != to;
-    if (closed_meeting<3>(snapshot, from.cell, {from.position, to, from.position}, counts))
-      throw Error(
-          Error_code::input,
-          fmt::format("body {}: its edge from vertex {} to vertex {} touches a wall at the start, which a "
-                      "trace counts as a hit: put it elsewhere",
-                      number, u, v));
-  }
-  if (!has_extent)
-    throw Error(Error_code::input,
-                fmt::format("body {}: all its vertices are in one place: give it a size", number));
 }
 
 }  // namespace cellwalk

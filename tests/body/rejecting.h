@@ -5,6 +5,9 @@
 
 #include <cellwalk/body/body.h>
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <span>
 
 namespace cellwalk::test {
@@ -16,15 +19,22 @@ inline Body_options rejecting(Sweep sweep, Touch touch, bool clearance) {
   options.clearance = clearance;
   options.policy = Contact_policy::reject;
   options.edges = Edge_rule::at_target;
-  options.reported = Reported::both;
+  options.reported = Reported::blocked;
   return options;
 }
 
+/// What blocks, and the contacts, which a copy of the body reports.
 template <int D>
 Step_report<D> reject(Body<D>& body, std::span<const Point<D>> targets, const Body_options& options,
                       Body_counts& counts) {
   Step_report<D> report;
+  Body<D> copy = body;
+  Body_options with_contacts = options;
+  with_contacts.reported = Reported::contacts;
+  Body_counts of_copy;
+  copy.step(targets, with_contacts, report, of_copy);
   body.step(targets, options, report, counts);
+  EXPECT_TRUE(std::ranges::equal(copy.positions(), body.positions()));
   return report;
 }
 

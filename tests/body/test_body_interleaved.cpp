@@ -146,7 +146,7 @@ class Interleaving {
     if (call == Call::step_at_target) {
       options.policy = Contact_policy::reject;
       options.edges = Edge_rule::at_target;
-      options.reported = Reported::both;
+      options.reported = seen_.calls % 2 == 0 ? Reported::contacts : Reported::blocked;
     }
     return options;
   }

@@ -126,7 +126,7 @@ class Body_in_orders {
       if (rejects || by_rule) options.policy = Contact_policy::reject;
       if (by_rule) {
         options.edges = Edge_rule::at_target;
-        options.reported = Reported::both;
+        options.reported = seen_.steps % 2 == 0 ? Reported::contacts : Reported::blocked;
       }
       options.clearance = random().below(2) == 0;
       ++seen_.steps;

@@ -141,14 +141,18 @@ TEST(Replay, BodiesReportContactsOfTheSameMoves) {
   const Environment<3> environment = trace_environment(trace);
   const Locator<3> locator(environment.snapshot());
   Body_options options = trace_options(Sweep::triangle);
-  options.reported = Reported::both;
   std::map<std::size_t, Contact<3>> contacts;
   Body_counts counts;
   for (std::uint32_t b = 0; b < trace.bodies; ++b) {
     Body<3> body(environment.snapshot(), locator, test::trace_body_at(&trace.start(b, 0)));
+    Body<3> copy = body;
     for (std::uint32_t step = 0; step < trace.steps; ++step) {
       Step_report<3> report;
-      body.step({&trace.target(step, b, 0), trace_vertices}, options, report, counts);
+      const std::span<const Point<3>> targets(&trace.target(step, b, 0), trace_vertices);
+      options.reported = Reported::blocked;
+      body.step(targets, options, report, counts);
+      options.reported = Reported::contacts;
+      copy.step(targets, options, report, counts);
       std::vector<std::uint8_t> answers;
       append_answers(report.blocked, Sweep::triangle, answers);
       for (std::size_t v = 0; v < trace_vertices; ++v) ASSERT_EQ(answers[v], trace.answer(step, b, v));

@@ -66,8 +66,8 @@ class Body {
   /// decided by options.edges, what its vertex does then by options.policy. Appends to the report what is
   /// asked for.
   /// \pre one finite target a vertex
-  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked or both
-  ///        without Edge_rule::at_target, Edge_rule::at_target if a vertex has more than 64 edges, and
+  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked without
+  ///        Edge_rule::at_target, Edge_rule::at_target if a vertex has more than 64 edges, and
   ///        Sweep::faces after moves that left the faces alone and let a wall pierce one
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
   /// sweep an edge, and locating the contacts that are reported or slid along. The first time faces are swept

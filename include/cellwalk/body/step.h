@@ -52,8 +52,7 @@ enum class Edge_rule {
 /// What a step reports; what is not reported is not computed where it can be done without.
 enum class Reported {
   contacts,  ///< when, where and against which wall
-  blocked,  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
-  both
+  blocked  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
 };
 
 struct Body_options {

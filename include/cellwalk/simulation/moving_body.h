@@ -22,8 +22,8 @@ class Moving_body {
   Moving_body(Deformable<D> deformable) : kind_(std::move(deformable)) {}
   Moving_body(Rod<D> rod) : kind_(std::move(rod)) {}
 
-  /// Advances by one time step. The data that conditions.body requests are appended to the report, contacts
-  /// at least.
+  /// Advances by one time step. The contacts, which conditions.body must request, are appended to the
+  /// report.
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
     std::visit([&](auto& moving) { moving.step(conditions, report, counts); }, kind_);
   }

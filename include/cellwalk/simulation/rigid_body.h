@@ -34,8 +34,8 @@ class Rigid_body {
   /// A guided body, with its origin at the first waypoint. It rotates about its origin.
   Rigid_body(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
-  /// Advances by one time step. The data that conditions.body requests are appended to the report, contacts
-  /// at least. Thrown bodies bounce off the walls they meet. A body whose motion is not finite stays in
+  /// Advances by one time step. The contacts, which conditions.body must request, are appended to the
+  /// report. Thrown bodies bounce off the walls they meet. A body whose motion is not finite stays in
   /// place, and loses its velocity and spin.
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 

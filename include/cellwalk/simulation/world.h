@@ -63,9 +63,6 @@ class World {
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
   /// met.
   std::span<const Run_contact<D>> contacts() const { return contacts_; }
-  /// The report of the last step of one body.
-  /// \pre there was one
-  const Step_report<D>& report(std::size_t body) const { return body_steps_[body].report; }
   /// The counts of the walks of particles.
   const Walk_counts& counts() const { return counts_; }
   /// The counts of the moves of all bodies.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk replay of a trace of any bodies, in the environment of a file.
+// cellwalk replay of a trace of any bodies, in an environment from a file.
 #include "cli/run/bodies.h"
 
 #include <cellwalk/internal/simulation/body_replay.h>
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <variant>
@@ -24,47 +25,40 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What all rounds of bodies found: they differ in time only.
+/// What all rounds found: they differ in time only.
 struct Replayed_bodies {
   std::vector<double> ns_per_move;  ///< of each round
-  /// Of each step, the least of all rounds: what the steps cost, not the machine.
+  /// Of each step, the least of all rounds: others took longer because the machine was interrupted.
   std::vector<double> step_us;
-  std::uint64_t mismatches = 0, registered_anew = 0, blocked = 0;
+  std::uint64_t mismatches = 0, registered_anew = 0;
   Body_counts counts;  ///< of one round
 };
 
-Environment<3> load_solid(const Replay_options& options) {
+Environment<3> load_environment_of_bodies(const Replay_options& options) {
   if (options.environment.empty())
-    throw Error(
-        Error_code::usage,
-        fmt::format("--environment is required: {} holds bodies, not the walls around them", options.trace));
+    throw Error(Error_code::usage,
+                fmt::format("--environment is missing: {} holds bodies, and not the walls around "
+                            "them; name the file of their environment",
+                            options.trace));
   if (options.sheared)
-    throw Error(Error_code::usage, "--shear is for traces in a grid of unit cubes: leave it out");
+    throw Error(Error_code::usage,
+                fmt::format("--shear is for traces in a grid of unit cubes, and {} is of any "
+                            "bodies: leave the option out",
+                            options.trace));
   Build_options build;
   build.keep_map = false;
   Loaded_environment loaded = load_with_progress(options.environment, build);
   auto* environment = std::get_if<Environment<3>>(&loaded.environment);
   if (!environment)
-    throw Error(Error_code::input, fmt::format("{}: is of dimension 2, the bodies of {} of dimension 3",
-                                               options.environment, options.trace));
+    throw Error(Error_code::input,
+                fmt::format("{}: is 2D, and the bodies of {} are 3D: name the environment that "
+                            "they moved in",
+                            options.environment, options.trace));
   return std::move(*environment);
 }
 
-std::uint64_t count_blocked(const Body_trace& trace, std::span<const std::uint8_t> answers) {
-  std::uint64_t count = 0;
-  std::size_t at = 0;
-  while (at < answers.size())
-    for (const Traced_body& body : trace.bodies)
-      for (const std::uint32_t degree : degrees(body)) {
-        const auto of_vertex = answers.subspan(at, 1 + degree);
-        count += std::ranges::any_of(of_vertex,
-                                     [](std::uint8_t bits) { return (bits & body_trace_blocked) != 0; });
-        at += of_vertex.size();
-      }
-  return count;
-}
-
-/// Replays the trace again and again. Only the moves are timed.
+/// Replays the trace again and again. Only the moves are timed: bodies are put in place, and answers
+/// compared, in between.
 Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environment<3>& environment,
                                         const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
@@ -91,7 +85,6 @@ Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environme
     if (!trace.answers.empty())
       result.mismatches =
           std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
-    result.blocked = count_blocked(trace, replay.answers());
     result.registered_anew = replay.registered_anew();
     result.counts = replay.counts();
     if (round >= options.warmup) result.ns_per_move.push_back(ns / static_cast<double>(trace.moves()));
@@ -99,10 +92,10 @@ Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environme
   return result;
 }
 
-/// A quantile of sorted values, the least that so many of them do not exceed.
+/// The least of sorted values that a share of them does not exceed. \pre there is one
 double quantile(const std::vector<double>& sorted, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
-  return sorted[std::min(at, sorted.size() - 1)];
+  const double count = std::ceil(share * static_cast<double>(sorted.size()));
+  return sorted[std::clamp<std::size_t>(static_cast<std::size_t>(count), 1, sorted.size()) - 1];
 }
 
 ordered_json step_times(std::vector<double> step_us) {
@@ -150,7 +143,7 @@ std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& env
   line("mismatches", trace.answers.empty()
                          ? "not known: the trace holds no answers"
                          : fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
-  line("blocked", fmt::format("{} of {} moves", replayed.blocked, trace.moves()));
+  line("blocked", fmt::format("{} of {} moves", replayed.counts.held, trace.moves()));
   line("moves", describe_moves(replayed.counts));
   line("edges", describe_edges(replayed.counts.edges));
   return text;
@@ -162,13 +155,13 @@ Replay_report replay_bodies(const Body_trace& trace, const Replay_options& optio
   if (trace.moves() == 0)
     throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
                                                options.trace, trace.bodies.size(), trace.steps));
-  const Environment<3> environment = load_solid(options);
+  const Environment<3> environment = load_environment_of_bodies(options);
   const Replayed_bodies replayed = replay_rounds_of_bodies(trace, environment, options);
   const ordered_json us = step_times(replayed.step_us);
   ordered_json json{{"ns_per_vertex_move", median(replayed.ns_per_move)},
                     {"ns_per_vertex_move_rounds", replayed.ns_per_move},
                     {"moves", trace.moves()},
-                    {"blocked", replayed.blocked},
+                    {"blocked", replayed.counts.held},
                     {"step_us", us}};
   json["mismatches"] = trace.answers.empty() ? ordered_json() : ordered_json(replayed.mismatches);
   json["registered_anew"] = replayed.registered_anew;

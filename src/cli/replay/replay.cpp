@@ -47,15 +47,15 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("TRACE");
   command
-      ->add_option(
-          "--environment", options->environment,
-          "The environment of the bodies, as check takes it; a trace in a grid of unit cubes holds its own")
+      ->add_option("--environment", options->environment,
+                   "The environment that the bodies moved in, as check takes it; a trace in a grid of unit "
+                   "cubes holds its own")
       ->type_name("ENV");
-  add_choice(*command, "--sweep", options->sweep,
-             {{sweep_names[0], Sweep::three_segments}, {sweep_names[1], Sweep::triangle}},
-             "What is checked of edges. three_segments: the path of the vertex, then the edge, as in the "
-             "paper. triangle: "
-             "also all that the edge sweeps; compares those answers, too");
+  add_choice(
+      *command, "--sweep", options->sweep,
+      {{sweep_names[0], Sweep::three_segments}, {sweep_names[1], Sweep::triangle}},
+      "What is checked of edges. three_segments: the path of the vertex, then the edge where it ends, as in "
+      "the paper. triangle: also all that the edge sweeps; compares those answers, too");
   command
       ->add_option("--repeat", options->rounds,
                    "Rounds that are timed, each from the start; the median counts")
@@ -66,8 +66,9 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(whole_number(0, most_rounds))
       ->capture_default_str();
-  command->add_flag("--shear", options->sheared,
-                    "Shear the grid and all motion: cells are no cubes then, and cost the same");
+  command->add_flag(
+      "--shear", options->sheared,
+      "Shear the grid of unit cubes and all motion: cells are no cubes then, and cost the same");
   add_json(*command, options->json);
   add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
                           "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});

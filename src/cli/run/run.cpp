@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
+#include <cellwalk/internal/io/body_trace_file.h>
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/loading/generators.h>
@@ -135,9 +136,8 @@ void Run<D>::operator()() const {
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
-      if (record) record->before_step(world);
       world.step();
-      if (record) record->after_step(world);
+      if (record) record->record_step();
       files.record(world, i == steps());
       if (motion) motion->record(world, i == steps());
       if (picture) picture->record(world);
@@ -167,7 +167,7 @@ void Run<D>::operator()() const {
   }
   const ordered_json said = report(world, files, motion ? &*motion : nullptr);
   io::write_json(folder / "run.json", said);
-  if (record) record->write(world);
+  if (record) io::write_body_trace(*outputs.record, record->trace());
   write_json(outputs.json, said);
   interruption.check();
   outputs.all.commit(summary(world, files, motion.has_value(), picture.has_value()));

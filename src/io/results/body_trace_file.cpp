@@ -16,10 +16,8 @@ namespace cellwalk::io {
 namespace {
 
 constexpr std::string_view body_trace_magic = "ECCDTRC2";
-static_assert(std::endian::native == std::endian::little,
+static_assert(sizeof(Point<3>) == 24 && std::endian::native == std::endian::little,
               "arrays are read and written as they lie in memory");
-
-constexpr std::uint64_t bytes_of_point = 24;
 
 /// The next `count` values, if so many bytes are left.
 template <class T>
@@ -32,20 +30,53 @@ std::vector<T> take_values(Binary_reader& in, std::uint64_t count, const char* w
   return values;
 }
 
-/// What is wrong with the connections of a body; empty if nothing.
-std::string flaw_of(const Traced_body& body) {
+Traced_body take_body(Binary_reader& in) {
+  Traced_body body;
+  body.vertices = in.take<std::uint32_t>("the vertices of a body");
+  const auto edges = in.take<std::uint32_t>("the edges of a body");
+  const auto faces = in.take<std::uint32_t>("the faces of a body");
+  body.edges = take_values<std::array<std::uint32_t, 2>>(in, edges, "the edges of a body");
+  body.faces = take_values<std::array<std::uint32_t, 3>>(in, faces, "the faces of a body");
+  return body;
+}
+
+/// What is wrong with the edges of a body; empty if nothing.
+std::string flaw_of_edges(const Traced_body& body) {
   for (std::size_t e = 0; e < body.edges.size(); ++e) {
     const auto& [u, v] = body.edges[e];
     if (u >= v || v >= body.vertices)
-      return fmt::format("edge {} joins vertices {} and {}, of {}: the lower one comes first", e, u, v,
-                         body.vertices);
+      return fmt::format(
+          "edge {} joins vertices {} and {} of {}: the lower one must come first, and both exist", e, u, v,
+          body.vertices);
     if (e > 0 && !(body.edges[e - 1] < body.edges[e]))
-      return fmt::format("edge {} is not above the one before", e);
+      return fmt::format("edge {} is not above the one before: edges must ascend", e);
   }
-  for (std::size_t f = 0; f < body.faces.size(); ++f)
-    for (const std::uint32_t v : body.faces[f])
-      if (v >= body.vertices) return fmt::format("face {} has vertex {}, of {}", f, v, body.vertices);
   return {};
+}
+
+/// What is wrong with the faces of a body whose edges are in order; empty if nothing.
+std::string flaw_of_faces(const Traced_body& body) {
+  std::vector<std::array<std::uint32_t, 3>> sorted = body.faces;
+  for (std::size_t f = 0; f < sorted.size(); ++f) {
+    std::ranges::sort(sorted[f]);
+    const auto& [u, v, w] = sorted[f];
+    for (const std::array<std::uint32_t, 2>& side : {std::array{u, v}, {v, w}, {u, w}})
+      if (!std::ranges::binary_search(body.edges, side))
+        return fmt::format("face {} has a side from vertex {} to vertex {}, which is no edge of the body", f,
+                           side[0], side[1]);
+  }
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    return fmt::format("two faces have the vertices {}, {} and {}: leave one out", (*twice)[0], (*twice)[1],
+                       (*twice)[2]);
+  return {};
+}
+
+/// What is wrong with a body; empty if nothing.
+std::string flaw_of(const Traced_body& body) {
+  if (body.vertices == 0) return "it has no vertices";
+  const std::string what = flaw_of_edges(body);
+  return what.empty() ? flaw_of_faces(body) : what;
 }
 
 /// What is wrong with the values of a trace whose arrays have their lengths; empty if nothing.
@@ -79,32 +110,33 @@ Body_trace parse_body_trace(const std::string& name, std::string_view bytes) {
   Body_trace trace;
   const auto bodies = in.take<std::uint32_t>("the number of bodies");
   trace.steps = in.take<std::uint32_t>("the number of steps");
+  // Compared by division: the counts have 32 bits, and their products more than 64.
+  std::uint64_t vertices = 0;
   for (std::uint32_t b = 0; b < bodies; ++b) {
-    Traced_body body;
-    body.vertices = in.take<std::uint32_t>("the vertices of a body");
-    const auto edges = in.take<std::uint32_t>("the edges of a body");
-    const auto faces = in.take<std::uint32_t>("the faces of a body");
-    body.edges = take_values<std::array<std::uint32_t, 2>>(in, edges, "the edges of a body");
-    body.faces = take_values<std::array<std::uint32_t, 3>>(in, faces, "the faces of a body");
-    trace.bodies.push_back(std::move(body));
+    trace.bodies.push_back(take_body(in));
+    vertices += trace.bodies.back().vertices;
+    if (vertices > in.left() / sizeof(Point<3>))
+      fail(name,
+           fmt::format("announces {} vertices of bodies, more than the {} bytes left hold: it is cut short, "
+                       "get it whole",
+                       vertices, in.left()));
   }
-  const std::uint64_t vertices = trace.vertices();
-  // Neither product leaves 64 bits: the vertices of all bodies are fewer than 2^56, since each body took 12
-  // bytes.
-  if (vertices > 0 && trace.steps > in.left() / (2 * bytes_of_point * vertices))
+  if (vertices > 0 && trace.steps > in.left() / (2 * sizeof(Point<3>) * vertices))
     fail(name,
-         fmt::format(
-             "announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, get "
-             "it whole",
-             trace.steps, vertices, in.left()));
+         fmt::format("announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, "
+                     "get it whole",
+                     trace.steps, vertices, in.left()));
   trace.before = take_values<Point<3>>(in, (std::uint64_t{trace.steps} + 1) * vertices, "the positions");
   trace.targets = take_values<Point<3>>(in, trace.steps * vertices, "the targets");
   const auto has_answers = in.take<std::uint8_t>("the byte that announces answers");
   if (has_answers > 1)
     fail(name, fmt::format("the byte that announces answers is {}: 0 or 1 is expected", has_answers));
-  if (has_answers == 1)
-    trace.answers =
-        take_values<std::uint8_t>(in, trace.steps * std::uint64_t{trace.answers_of_step()}, "the answers");
+  if (has_answers == 1) {
+    const std::uint64_t a_step = trace.answers_of_step();
+    if (a_step > 0 && trace.steps > in.left() / a_step)
+      in.fail("the file ends within the answers: it is cut short, get it whole");
+    trace.answers = take_values<std::uint8_t>(in, trace.steps * a_step, "the answers");
+  }
   if (in.left() > 0)
     fail(name,
          fmt::format("goes on for {} bytes after what it announces: it is damaged, get it anew", in.left()));
@@ -116,18 +148,27 @@ Body_trace read_body_trace(const std::filesystem::path& path) {
   return parse_body_trace(path.string(), load(path));
 }
 
+std::variant<Trace, Body_trace> parse_any_trace(const std::string& name, std::string_view bytes) {
+  if (bytes.starts_with(body_trace_magic)) return parse_body_trace(name, bytes);
+  if (bytes.starts_with(trace_magic)) return parse_trace(name, bytes);
+  fail(name, fmt::format("is no trace: it begins with neither {} nor {}; name a file of recorded motion",
+                         trace_magic, body_trace_magic));
+}
+
 std::variant<Trace, Body_trace> read_any_trace(const std::filesystem::path& path) {
-  const std::string bytes = load(path);
-  if (bytes.starts_with(body_trace_magic)) return parse_body_trace(path.string(), bytes);
-  return parse_trace(path.string(), bytes);
+  return parse_any_trace(path.string(), load(path));
 }
 
 void write_body_trace(Atomic_file& file, const Body_trace& trace) {
   const auto refuse = [&](const std::string& what) {
     throw Error(Error_code::usage, fmt::format("{}: is not written: {}", file.destination().string(), what));
   };
-  if (trace.bodies.size() > std::numeric_limits<std::uint32_t>::max() ||
-      trace.before.size() != (trace.steps + std::size_t{1}) * trace.vertices() ||
+  constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+  const bool fits =
+      trace.bodies.size() <= most && std::ranges::all_of(trace.bodies, [](const Traced_body& body) {
+        return body.edges.size() <= most && body.faces.size() <= most;
+      });
+  if (!fits || trace.before.size() != (trace.steps + std::size_t{1}) * trace.vertices() ||
       trace.targets.size() != trace.moves() ||
       (!trace.answers.empty() && trace.answers.size() != trace.steps * trace.answers_of_step()))
     refuse("the trace holds other numbers of positions, targets and answers than its counts say");

@@ -14,7 +14,6 @@
 namespace cellwalk::io {
 namespace {
 
-constexpr std::string_view magic = "ECCDTRC1";
 constexpr std::size_t trace_header_size = 64, index_size = 4, point_size = 24, answer_size = 1;
 static_assert(sizeof(Point<3>) == point_size && std::endian::native == std::endian::little,
               "arrays are read and written as they lie in memory");
@@ -106,9 +105,10 @@ std::vector<T> take_array(std::string_view& bytes, std::size_t count) {
 }  // namespace
 
 Trace parse_trace(const std::string& name, std::string_view bytes) {
-  if (!bytes.starts_with(magic))
-    fail(name, fmt::format("is no trace: it does not begin with {}; name a file of recorded motion", magic));
-  Binary_reader in(name, bytes.substr(magic.size()), false);
+  if (!bytes.starts_with(trace_magic))
+    fail(name,
+         fmt::format("is no trace: it does not begin with {}; name a file of recorded motion", trace_magic));
+  Binary_reader in(name, bytes.substr(trace_magic.size()), false);
   std::uint32_t obstacles = 0;
   Trace trace = take_header(in, obstacles);
   bytes.remove_prefix(trace_header_size);
@@ -135,7 +135,7 @@ void write_trace(Atomic_file& file, const Trace& trace) {
       trace.targets.size() != trace.moves() || trace.answers.size() != trace.moves())
     refuse("the trace holds other numbers of positions, targets and answers than its counts say");
   if (const std::string what = flaw(trace); !what.empty()) refuse(what);
-  file.write(magic);
+  file.write(trace_magic);
   const auto obstacles = static_cast<std::uint32_t>(trace.obstacles.size());
   for (std::uint32_t n : {trace.nx, trace.ny, trace.nz, trace.bodies, trace.steps, obstacles})
     file.write(bytes_of(&n, 1));

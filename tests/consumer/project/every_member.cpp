@@ -111,7 +111,7 @@ void keep_simulation() {
   keep(
       +[](const Snapshot<D>& s, const Scene<D>& c) { return new World<D>(s, c); }, &World<D>::most_tries,
       &World<D>::step, &World<D>::steps_done, &World<D>::particles, &World<D>::velocities, &World<D>::bodies,
-      &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::report, &World<D>::counts,
+      &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
       static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
       static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate);
 }

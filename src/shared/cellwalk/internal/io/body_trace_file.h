@@ -16,18 +16,18 @@ namespace cellwalk::io {
 
 /// Reads a whole trace into memory; the file may be compressed with gzip. Nothing is repaired, and no memory
 /// is allocated for counts before they are checked against the size of the file.
-/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, edges
-///        or faces of vertices that do not exist, edges that do not ascend, numbers that are not finite,
-///        answers with an unknown bit
+/// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, bodies
+///        that break the rules of Body_soup, numbers that are not finite, answers with an unknown bit
 Body_trace read_body_trace(const std::filesystem::path& path);
-
-/// Reads a trace of either kind, by what its file begins with.
-/// \throw Error(input) as read_trace() and read_body_trace()
-std::variant<Trace, Body_trace> read_any_trace(const std::filesystem::path& path);
 
 /// Reads from bytes in memory.
 /// \param name stands for the file in errors
 Body_trace parse_body_trace(const std::string& name, std::string_view bytes);
+
+/// A trace of either kind, by what it begins with: one in a grid of unit cubes, or one of any bodies.
+/// \throw Error(input) as read_trace() and read_body_trace()
+std::variant<Trace, Body_trace> read_any_trace(const std::filesystem::path& path);
+std::variant<Trace, Body_trace> parse_any_trace(const std::string& name, std::string_view bytes);
 
 /// Writes a trace, which reads back the same, bit for bit, into a file that the caller commits.
 /// \pre the lengths of arrays agree with the counts

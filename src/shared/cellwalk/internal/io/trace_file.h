@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Trace files (magic `ECCDTRC1`, little endian). The format is described in docs/formats.md.
+// Files of traces in a grid (magic `ECCDTRC1`, little endian). The format is described in docs/formats.md.
 #ifndef CELLWALK_INTERNAL_IO_TRACE_FILE_H
 #define CELLWALK_INTERNAL_IO_TRACE_FILE_H
 
@@ -11,6 +11,9 @@
 #include <string_view>
 
 namespace cellwalk::io {
+
+/// What a file begins with.
+constexpr std::string_view trace_magic = "ECCDTRC1";
 
 /// Reads a whole trace into memory; the file may be compressed with gzip. Nothing is repaired, and no memory
 /// is allocated for counts before they are checked against the size of the file.

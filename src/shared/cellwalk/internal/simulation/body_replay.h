@@ -18,23 +18,30 @@ namespace cellwalk {
 /// \pre three_segments or triangle: with the latter, swept triangles are answered too
 Body_options body_trace_options(Sweep sweep);
 
+/// The number of edges of each vertex of a body.
+/// \param number of the body in its trace
+/// \throw Error(input) naming a vertex with more than 64, to whose moves Edge_rule::at_target has no answer
+std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size_t number);
+
 /// Appends the answers to the moves of one body in one step.
 /// \param degrees the number of edges of each vertex
 /// \pre what blocks was reported, vertex by vertex
 void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const Rejected_move<3>> blocked,
                          Sweep sweep, std::vector<std::uint8_t>& answers);
 
-/// The bodies of a trace in motion. Refers to the snapshot, the locator and the trace, which must outlive it.
+/// The bodies of a trace in motion, without their faces, which the rule leaves alone. Refers to the
+/// snapshot, the locator and the trace, which must outlive it.
 class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
   /// \pre the trace is one that io::read_body_trace accepts
-  /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces, and for a
-  ///        vertex with more than 64 edges
+  /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more
+  ///        than 64 edges; Error(usage) for Sweep::faces
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
               const Body_options& options);
 
-  /// Puts all bodies where they stand before the next step. Not timed.
+  /// Puts all bodies where they stand before the next step: by a step, which keeps what is known of walls
+  /// nearby; anew where walls are in its way. Not timed.
   /// \pre there is one
   /// \throw Error(outside) as the constructor
   void prepare();
@@ -50,12 +57,11 @@ class Body_replay {
   std::span<const std::uint8_t> answers() const { return answers_; }
   std::span<const Body<3>> bodies() const { return bodies_; }
   const Body_counts& counts() const { return counts_; }
-  /// The number of bodies that prepare() had to register anew, because walls are between where they were and
-  /// where the trace has them.
+  /// How often prepare() had to register a body anew.
   std::uint64_t registered_anew() const { return registered_anew_; }
 
   /// Refreshes all bodies and checks I1 and I2.
-  /// \throw Error(other) naming the first body that violates them
+  /// \throw Error(other) naming the first vertex or edge that violates them
   void validate();
 
  private:

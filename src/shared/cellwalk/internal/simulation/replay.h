@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The replay of a trace: its bodies move to its targets by the answers of this library. The rule:
+// The replay of a trace in a grid: its bodies move to its targets by the answers of this library. The rule:
 // docs/formats.md.
 #ifndef CELLWALK_INTERNAL_SIMULATION_REPLAY_H
 #define CELLWALK_INTERNAL_SIMULATION_REPLAY_H

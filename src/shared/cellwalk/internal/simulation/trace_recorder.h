@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Records traces: moves bodies to given targets by the rule of traces, and stores the exact answers.
+// Records traces in a grid: moves bodies to given targets by their rule, and stores the exact answers.
 #ifndef CELLWALK_INTERNAL_SIMULATION_TRACE_RECORDER_H
 #define CELLWALK_INTERNAL_SIMULATION_TRACE_RECORDER_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The rule of traces (docs/formats.md) for bodies of the library: their steps, and the answers to their
-// moves.
+// The rule of traces in a grid (docs/formats.md) for bodies of the library: their steps, and the answers
+// to their moves.
 #ifndef CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 #define CELLWALK_INTERNAL_SIMULATION_TRACE_RULE_H
 
@@ -14,7 +14,7 @@
 
 namespace cellwalk {
 
-/// The options of steps by the rule of traces: a vertex that hits or touches a wall stays in place. Steps
+/// The options of steps by that rule: a vertex that hits or touches a wall stays in place. Steps
 /// report the rejected moves.
 /// \pre the sweep is three_segments or triangle; the latter answers bits 4 to 6 too
 Body_options trace_options(Sweep sweep);
@@ -26,11 +26,6 @@ std::uint8_t trace_answer(const Rejected_move<3>& blocked, Sweep sweep);
 /// \pre the rejected moves are in the order of vertices
 void append_answers(std::span<const Rejected_move<3>> blocked, Sweep sweep,
                     std::vector<std::uint8_t>& answers);
-
-/// Checks that a trace may start with a body. A body that touches a wall would stay there for good.
-/// \pre the body is one of a trace, registered, and has not moved
-/// \throw Error(input) naming the body that touches a wall, or has all its vertices in one place
-void check_trace_start(const Snapshot<3>& snapshot, const Body<3>& body, std::size_t number);
 
 }  // namespace cellwalk
 

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/body_trace_file.h>
+#include <cellwalk/internal/io/gzip.h>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "io/io_fixture.h"
+
+namespace cellwalk::io {
+namespace {
+
+/// Bytes as the format has them, put down one by one: nothing of the writer is used.
+class Little_endian {
+ public:
+  Little_endian& counts(std::initializer_list<std::uint64_t> values, int size = 4) {
+    for (const std::uint64_t value : values)
+      for (int i = 0; i < size; ++i) text_.push_back(static_cast<char>(value >> 8 * i & 0xff));
+    return *this;
+  }
+  Little_endian& number(double value) { return counts({std::bit_cast<std::uint64_t>(value)}, 8); }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+// Where the parts of `sample_body_trace()` lie.
+constexpr std::size_t step_count_at = 12, vertex_count_at = 16, edges_of_first_at = 28,
+                      faces_of_first_at = 60, vertices_of_second_at = 84, edges_of_second_at = 96,
+                      before_at = 104, body_targets_at = before_at + 3 * 6 * 24,
+                      has_answers_at = body_targets_at + 2 * 6 * 24, body_answers_at = has_answers_at + 1,
+                      body_trace_size = body_answers_at + 2 * 16;
+
+/// Two bodies in two steps: four vertices, four edges and two faces; two vertices and an edge.
+std::string sample_body_trace() {
+  Little_endian bytes;
+  bytes.counts({2, 2});
+  bytes.counts({4, 4, 2}).counts({0, 1, 0, 2, 0, 3, 1, 2}).counts({2, 0, 1}).counts({0, 1, 2});
+  bytes.counts({2, 1, 0}).counts({0, 1});
+  for (int i = 0; i < (3 + 2) * 6; ++i)
+    bytes.number(1 + i / 16.0).number(-i).number(i == 3 ? -0.0 : 5e-324 * i);
+  bytes.counts({1}, 1);
+  for (int i = 0; i < 2 * (4 + 8 + 2 + 2); ++i)
+    bytes.counts({i == 9 ? 3u : i == 20 ? 2u : i == 31 ? 1u : 0u}, 1);
+  return "ECCDTRC2" + bytes.text();
+}
+
+/// The same with the last face left out: the sample has two with the same vertices.
+std::string good_body_trace() {
+  std::string bytes = sample_body_trace();
+  bytes[vertex_count_at + 8] = 1;
+  return bytes.erase(faces_of_first_at + 12, 12);
+}
+
+std::string changed(std::string bytes, std::size_t at, const std::string& part) {
+  return bytes.replace(at, part.size(), part);
+}
+std::string counts(std::initializer_list<std::uint64_t> values) {
+  return Little_endian().counts(values).text();
+}
+std::string double_bytes(double value) { return Little_endian().number(value).text(); }
+
+void expect_same(const Body_trace& a, const Body_trace& b) {
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    EXPECT_EQ(a.bodies[i].vertices, b.bodies[i].vertices);
+    EXPECT_EQ(a.bodies[i].edges, b.bodies[i].edges);
+    EXPECT_EQ(a.bodies[i].faces, b.bodies[i].faces);
+  }
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.before, b.before);
+  EXPECT_EQ(a.targets, b.targets);
+  EXPECT_EQ(a.answers, b.answers);
+}
+
+void write(const std::filesystem::path& path, const Body_trace& trace) {
+  Atomic_file file(path);
+  write_body_trace(file, trace);
+  file.commit();
+}
+
+TEST(BodyTraceFile, ReadsWhatIsThere) {
+  ASSERT_EQ(sample_body_trace().size(), body_trace_size);
+  const Body_trace trace = parse_body_trace("t.bin", good_body_trace());
+  ASSERT_EQ(trace.bodies.size(), 2u);
+  EXPECT_EQ(trace.bodies[0].vertices, 4u);
+  EXPECT_EQ(trace.bodies[0].edges,
+            (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {0, 2}, {0, 3}, {1, 2}}));
+  EXPECT_EQ(trace.bodies[0].faces, (std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}}));
+  EXPECT_EQ(degrees(trace.bodies[0]), (std::vector<std::uint32_t>{3, 2, 2, 1}));
+  EXPECT_EQ(trace.bodies[1].vertices, 2u);
+  EXPECT_EQ(trace.bodies[1].edges, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}}));
+  EXPECT_TRUE(trace.bodies[1].faces.empty());
+  EXPECT_EQ(trace.steps, 2u);
+  EXPECT_EQ(trace.vertices(), 6u);
+  EXPECT_EQ(trace.moves(), 12u);
+  EXPECT_EQ(trace.answers_of_step(), 16u);
+  ASSERT_EQ(trace.before.size(), 18u);
+  ASSERT_EQ(trace.targets.size(), 12u);
+  EXPECT_EQ(trace.before_step(0)[2], (Point<3>{1.125, -2, 1e-323}));
+  EXPECT_TRUE(std::signbit(trace.before_step(0)[3][2]));
+  EXPECT_EQ(trace.before_step(2)[1], (Point<3>{1 + 13 / 16.0, -13, 13 * 5e-324}));
+  EXPECT_EQ(trace.targets_of_step(1)[5], (Point<3>{1 + 29 / 16.0, -29, 29 * 5e-324}));
+  ASSERT_EQ(trace.answers.size(), 32u);
+  EXPECT_EQ(trace.answers[9], body_trace_bits);
+  EXPECT_EQ(trace.answers[20], body_trace_swept);
+  EXPECT_EQ(trace.answers[31], body_trace_blocked);
+}
+
+TEST(BodyTraceFile, IsWrittenAsItWasRead) {
+  const Folder folder;
+  const auto path = folder / "out.bin";
+  Body_trace trace = parse_body_trace("t.bin", good_body_trace());
+  write(path, trace);
+  EXPECT_EQ(content_of(path), good_body_trace());
+  expect_same(read_body_trace(path), trace);
+  trace.answers.clear();
+  write(path, trace);
+  const std::size_t announced_at = has_answers_at - 12;
+  EXPECT_EQ(content_of(path), good_body_trace().substr(0, announced_at) + '\0');
+  expect_same(read_body_trace(path), trace);
+  trace.steps = 0, trace.before.resize(6), trace.targets.clear();
+  write(path, trace);
+  expect_same(read_body_trace(path), trace);
+  EXPECT_EQ(read_body_trace(path).moves(), 0u);
+  write(path, {});
+  EXPECT_EQ(content_of(path), "ECCDTRC2" + std::string(9, '\0'));
+  EXPECT_EQ(read_body_trace(path).vertices(), 0u);
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(BodyTraceFile, MayBeCompressed) {
+  const Folder folder;
+  expect_same(read_body_trace(folder.write("t.bin", gzip(good_body_trace()))),
+              parse_body_trace("t.bin", good_body_trace()));
+}
+
+TEST(BodyTraceFile, IsToldFromTracesInAGrid) {
+  const Folder folder;
+  const auto grid = "ECCDTRC1" + counts({1, 1, 1, 0, 0, 0}) + std::string(32, '\0');
+  EXPECT_TRUE(std::holds_alternative<Trace>(read_any_trace(folder.write("1.bin", grid))));
+  EXPECT_TRUE(std::holds_alternative<Body_trace>(read_any_trace(folder.write("2.bin", good_body_trace()))));
+  for (const char* other : {"", "ECCDTRC", "ECCDTRC3", "hello"})
+    EXPECT_EQ(
+        refusal([&] { parse_any_trace("t.bin", other); }),
+        "t.bin: is no trace: it begins with neither ECCDTRC1 nor ECCDTRC2; name a file of recorded motion");
+}
+
+TEST(BodyTraceFile, RefusesDamage) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const std::string good = good_body_trace(), twice = sample_body_trace();
+  const std::uint32_t most = 0xffffffff;
+  const struct {
+    std::string bytes, message;
+  } cases[] = {
+      {"", "is no trace of bodies: it does not begin with ECCDTRC2; name a file of recorded motion"},
+      {changed(good, 7, "1"),
+       "is no trace of bodies: it does not begin with ECCDTRC2; name a file of recorded motion"},
+      {good.substr(0, 10), "the file ends where the number of bodies should be: it is cut short"},
+      {good.substr(0, 15), "the file ends where the number of steps should be: it is cut short"},
+      {good.substr(0, 16), "the file ends where the vertices of a body should be: it is cut short"},
+      {good.substr(0, 20), "the file ends where the edges of a body should be: it is cut short"},
+      {good.substr(0, 24), "the file ends where the faces of a body should be: it is cut short"},
+      {good.substr(0, edges_of_first_at + 31),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({4, most})),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {good.substr(0, faces_of_first_at + 11),
+       "the file ends within the faces of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({4, 4, most})),
+       "the file ends within the faces of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({most})),
+       "announces 4294967295 vertices of bodies, more than the 773 bytes left hold: it is cut short, get it "
+       "whole"},
+      // The vertices of this body fit, those of both do not.
+      {changed(good, vertices_of_second_at - 12, counts({28})),
+       "announces 32 vertices of bodies, more than the 753 bytes left hold: it is cut short, get it whole"},
+      {changed(good, step_count_at, counts({most})),
+       "announces 4294967295 steps of 6 vertices, more than the 753 bytes left hold: it is cut short, get it "
+       "whole"},
+      {changed(good, 8, counts({3})),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {changed(good, step_count_at, counts({3})),
+       "announces 3 steps of 6 vertices, more than the 753 bytes left hold: it is cut short, get it whole"},
+      {good.substr(0, before_at - 12 + 600),
+       "the file ends within the targets: it is cut short, get it whole"},
+      {good.substr(0, has_answers_at - 12),
+       "the file ends where the byte that announces answers should be: it is cut short"},
+      {changed(good, has_answers_at - 12, "\2"), "the byte that announces answers is 2: 0 or 1 is expected"},
+      {good.substr(0, good.size() - 1), "the file ends within the answers: it is cut short, get it whole"},
+      {good + "xy", "goes on for 2 bytes after what it announces: it is damaged, get it anew"},
+      {changed(good, has_answers_at - 12, std::string(1, '\0')),
+       "goes on for 32 bytes after what it announces: it is damaged, get it anew"},
+      {changed(good, edges_of_first_at, counts({1, 0})),
+       "body 0: edge 0 joins vertices 1 and 0 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at, counts({0, 0})),
+       "body 0: edge 0 joins vertices 0 and 0 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at + 24, counts({1, 4})),
+       "body 0: edge 3 joins vertices 1 and 4 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_second_at - 12, counts({0, most})),
+       "body 1: edge 0 joins vertices 0 and 4294967295 of 2: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at + 8, counts({0, 1})),
+       "body 0: edge 1 is not above the one before: edges must ascend"},
+      {changed(good, edges_of_first_at + 16, counts({0, 1})),
+       "body 0: edge 2 is not above the one before: edges must ascend"},
+      {changed(good, faces_of_first_at, counts({1, 3, 2})),
+       "body 0: face 0 has a side from vertex 2 to vertex 3, which is no edge of the body"},
+      {changed(good, faces_of_first_at, counts({1, 0, 1})),
+       "body 0: face 0 has a side from vertex 1 to vertex 1, which is no edge of the body"},
+      {changed(good, faces_of_first_at, counts({0, most, 1})),
+       "body 0: face 0 has a side from vertex 1 to vertex 4294967295, which is no edge of the body"},
+      {twice, "body 0: two faces have the vertices 0, 1 and 2: leave one out"},
+      {"ECCDTRC2" + counts({1, 0, 0, 0, 0}) + '\0', "body 0: it has no vertices"},
+      {changed(good, before_at - 12 + (6 + 4) * 24 + 8, double_bytes(nan)),
+       "the position of vertex 4 in step 1 has a coordinate that is not finite"},
+      {changed(good, body_targets_at - 12 + 24, double_bytes(-inf)),
+       "the target of vertex 1 in step 0 has a coordinate that is not finite"},
+      {changed(good, body_answers_at - 12 + 17, "\4"), "answer 17 has an unknown bit: it is 4"}};
+  for (const auto& c : cases)
+    EXPECT_EQ(refusal([&] { parse_body_trace("t.bin", c.bytes); }), "t.bin: " + c.message);
+}
+
+/// Bodies whose numbers of vertices add up to more than 64 bits take, times their bytes, and come out small.
+TEST(BodyTraceFile, CountsDoNotWrapAround) {
+  Little_endian bytes;
+  constexpr std::uint32_t bodies = 1 << 16;
+  bytes.counts({bodies, 0xffffffff});
+  for (std::uint32_t b = 0; b < bodies; ++b) bytes.counts({0xffffffff, 0, 0});
+  const std::string message = refusal([&] { parse_body_trace("t.bin", "ECCDTRC2" + bytes.text()); });
+  EXPECT_TRUE(message.starts_with("t.bin: announces 4294967295 vertices of bodies")) << message;
+}
+
+TEST(BodyTraceFile, RefusesToWriteWhatItWouldNotRead) {
+  const Folder folder;
+  const auto path = folder / "out.bin";
+  const Body_trace good = parse_body_trace("t.bin", good_body_trace());
+  const auto message_of = [&](auto change) {
+    Body_trace trace = good;
+    change(trace);
+    const std::string message = refusal([&] { write(path, trace); }, Error_code::usage);
+    EXPECT_TRUE(message.starts_with(path.string() + ": is not written: ")) << message;
+    return message.substr(path.string().size() + 18);
+  };
+  const std::string lengths =
+      "the trace holds other numbers of positions, targets and answers than its counts say";
+  EXPECT_EQ(message_of([](Body_trace& t) { t.steps = 3; }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.before.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.targets.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.answers.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.bodies[1].edges.clear(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) {
+              t.bodies[0].faces.push_back({0, 1, 3});
+            }),
+            "body 0: face 1 has a side from vertex 1 to vertex 3, which is no edge of the body");
+  EXPECT_EQ(message_of([](Body_trace& t) { t.answers[3] = 9; }), "answer 3 has an unknown bit: it is 9");
+  EXPECT_EQ(folder.file_count(), 0u);
+}
+
+/// Whatever bytes change, the trace is read or refused in one line.
+TEST(BodyTraceFile, DamagedAtRandom) {
+  std::mt19937 random(7);
+  std::size_t read = 0, refused = 0;
+  std::set<std::string> reasons;
+  const std::string good = good_body_trace();
+  for (int i = 0; i < 5000; ++i) {
+    std::string bytes = good;
+    for (unsigned n = 1 + random() % 3; n > 0; --n)
+      bytes[8 + random() % (i % 2 == 0 ? before_at - 20 : good.size() - 8)] = static_cast<char>(random());
+    if (i % 5 == 0) bytes.resize(random() % bytes.size());
+    try {
+      parse_body_trace("t.bin", bytes);
+      ++read;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Error_code::input) << e.what();
+      reasons.insert(e.what());
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 500u);
+  EXPECT_GT(refused, 2000u);
+  EXPECT_GT(reasons.size(), 200u);
+}
+
+}  // namespace
+}  // namespace cellwalk::io

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Traces of any bodies: recorded in worlds, replayed, and judged by brute force.
+#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/simulation/body_replay.h>
+#include <cellwalk/internal/simulation/body_trace_recorder.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simulation/trace_oracle.h"
+#include "simulation/worlds.h"
+
+namespace cellwalk {
+namespace {
+
+using test::rooms;
+
+/// A motion that was recorded, and where.
+struct Recorded_motion {
+  Snapshot<3> snapshot;
+  Body_trace trace;
+};
+
+Recorded_motion record_motion(Snapshot<3> snapshot, const Scene<3>& scene, std::vector<Body_soup<3>> shapes) {
+  World<3> world(snapshot, scene, std::move(shapes));
+  Body_trace_recorder recorder(world);
+  for (std::uint32_t i = 0; i < scene.steps; ++i) {
+    world.step();
+    recorder.record_step();
+  }
+  Body_trace trace = recorder.trace();
+  return {std::move(snapshot), std::move(trace)};
+}
+
+const std::vector<std::uint32_t> solid_rooms{21, 26, 37, 58, 80, 99};
+
+Body_start<3> thrown_copies(std::uint32_t count, double speed, std::optional<Shape_material> material) {
+  Body_start<3> start;
+  start.cloud = Particle_cloud{count, speed, 7};
+  start.spin = {0.5, 2, 0.3};
+  start.material = material;
+  return start;
+}
+
+/// Rigid bodies with and without faces, soft ones and a catheter.
+Scene<3> crowd() {
+  Scene<3> scene;
+  scene.bodies = {thrown_copies(8, 4, {}),
+                  thrown_copies(6, 3, Shape_material{Shape_mode::quadratic, 0.4, 0.7}),
+                  thrown_copies(3, 3, Shape_material{Shape_mode::linear, 0.3, 0.8})};
+  Catheter<3> catheter;
+  catheter.path = {{0.2, 0.3, 0.4}, {5.5, 4.5, 3.5}};
+  catheter.spacing = 0.3;
+  catheter.advance = 0.1;
+  catheter.particles = 16;
+  scene.catheter = catheter;
+  scene.gravity = {0, 0, -3};
+  scene.time_step = 0.02;
+  scene.steps = 120;
+  return scene;
+}
+
+std::vector<Body_soup<3>> crowd_shapes() {
+  return {generate_body(Hexahedron_shape{0.5, false}), generate_body(Hexahedron_shape{0.4, true}),
+          generate_body(Icosphere_shape{0.3, 1})};
+}
+
+const Recorded_motion& crowded_rooms() {
+  static const Recorded_motion motion =
+      record_motion(rooms<3>({6, 5, 4}, solid_rooms), crowd(), crowd_shapes());
+  return motion;
+}
+
+/// A catheter that is pushed straight into a bent tube, along walls that are oblique to everything.
+const Recorded_motion& tube_motion() {
+  static const Recorded_motion motion = [] {
+    Bulge_options options;
+    options.cell_size = 0.5;
+    const Tube line = bulging_tube_line(options);
+    Scene<3> scene;
+    Catheter<3> catheter;
+    catheter.path = {line.points[2], line.points[4], line.points.back()};
+    catheter.steering = Steering::none;
+    catheter.stiffness = 0.9;
+    catheter.spacing = 0.25;
+    catheter.advance = 0.12;
+    catheter.particles = 90;
+    scene.catheter = catheter;
+    scene.steps = 200;
+    return record_motion(test::compile(bulging_tube(options)), scene, {});
+  }();
+  return motion;
+}
+
+std::uint64_t count_answers(const Body_trace& trace, std::uint8_t bits) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(trace.answers, [&](std::uint8_t a) { return (a & bits) == bits; }));
+}
+
+std::uint64_t mismatches_of(const Snapshot<3>& snapshot, const Body_trace& trace, const Body_options& options,
+                            bool validates = false) {
+  const Locator<3> locator(snapshot);
+  Body_replay replay(snapshot, locator, trace, options);
+  while (replay.steps_done() < trace.steps) {
+    replay.prepare();
+    replay.step();
+    replay.note_answers();
+    if (validates) replay.validate();
+  }
+  return count_mismatches(trace, replay.answers(), options.sweep.sweep);
+}
+
+TEST(BodyReplay, GivesTheRecordedAnswers) {
+  for (const Recorded_motion* motion : {&crowded_rooms(), &tube_motion()}) {
+    const Body_trace& trace = motion->trace;
+    ASSERT_EQ(trace.answers.size(), trace.steps * trace.answers_of_step());
+    EXPECT_GT(count_answers(trace, body_trace_blocked), 80u);
+    EXPECT_GT(count_answers(trace, body_trace_swept), 100u);
+    for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
+      EXPECT_EQ(mismatches_of(motion->snapshot, trace, body_trace_options(sweep), true), 0u);
+      for (const bool clearance : {true, false})
+        for (const auto off : {&Edge_certificates::same_cell, &Edge_certificates::convex_pair,
+                               &Edge_certificates::same_chain, &Edge_certificates::flood}) {
+          Body_options options = body_trace_options(sweep);
+          options.clearance = clearance;
+          EXPECT_EQ(mismatches_of(motion->snapshot, trace, options), 0u);
+          options.sweep.certificates.*off = false;
+          EXPECT_EQ(mismatches_of(motion->snapshot, trace, options), 0u);
+        }
+    }
+  }
+}
+
+/// What is recorded is what the bodies of the world are asked, which know nothing of it.
+TEST(BodyReplay, RecordingChangesNothing) {
+  const Snapshot<3>& snapshot = crowded_rooms().snapshot;
+  const Body_trace& trace = crowded_rooms().trace;
+  World<3> world(snapshot, crowd(), crowd_shapes());
+  ASSERT_EQ(world.bodies().size(), 18u);
+  ASSERT_EQ(trace.bodies.size(), 18u);
+  EXPECT_EQ(trace.bodies[0].faces.size(), 0u);
+  EXPECT_EQ(trace.bodies[8].faces.size(), 12u);
+  EXPECT_EQ(trace.bodies[14].vertices, 42u);
+  EXPECT_EQ(trace.bodies[17].edges.size(), 15u);
+  const auto stand_as_recorded = [&](std::size_t step) {
+    std::vector<Point<3>> all;
+    for (const auto& moving : world.bodies())
+      all.insert(all.end(), moving.body().positions().begin(), moving.body().positions().end());
+    return std::ranges::equal(all, trace.before_step(step));
+  };
+  for (std::uint32_t s = 0; s < trace.steps; ++s) {
+    ASSERT_TRUE(stand_as_recorded(s)) << s;
+    world.step();
+    EXPECT_TRUE(std::ranges::equal(world.bodies()[17].targets(), trace.targets_of_step(s).last(16)));
+  }
+  EXPECT_TRUE(stand_as_recorded(trace.steps)) << "where they are after the last step";
+}
+
+/// Calls visit(answers to the vertex and its edges, its neighbours, from, target) for each move, in order.
+template <class Visit>
+void for_each_recorded_move(const Body_trace& trace, const Visit& visit) {
+  std::size_t at = 0;
+  for (std::uint32_t s = 0; s < trace.steps; ++s) {
+    std::size_t first = 0;
+    for (const Traced_body& body : trace.bodies) {
+      const auto before = trace.before_step(s).subspan(first, body.vertices);
+      std::vector<Point<3>> positions(before.begin(), before.end());
+      for (std::uint32_t v = 0; v < body.vertices; ++v) {
+        std::vector<Point<3>> neighbours;
+        for (std::uint32_t q = 0; q < body.vertices; ++q)
+          if (std::ranges::binary_search(body.edges, std::array{std::min(v, q), std::max(v, q)}))
+            neighbours.push_back(positions[q]);
+        const auto answers = std::span(trace.answers).subspan(at, 1 + neighbours.size());
+        const Point<3>& target = trace.targets_of_step(s)[first + v];
+        visit(answers, neighbours, positions[v], target);
+        at += answers.size();
+        if (std::ranges::none_of(answers, [](unsigned a) { return (a & body_trace_blocked) != 0; }))
+          positions[v] = target;
+      }
+      first += body.vertices;
+    }
+  }
+  EXPECT_EQ(at, trace.answers.size());
+}
+
+struct Judged_answers {
+  int asked = 0, blocked = 0;
+  int wrong = 0;    ///< blocked without a wall, or bits that do not go together
+  int touches = 0;  ///< free, and a wall is met: only touched, if the answer is right
+};
+
+/// Holds the answers against brute force over the closed walls of a grid: all that are not plain, and some
+/// others.
+Judged_answers judge_answers(const Body_trace& trace, const std::vector<std::uint32_t>& solid) {
+  Trace grid;
+  grid.nx = 6, grid.ny = 5, grid.nz = 4;
+  grid.obstacles = solid;
+  const test::Trace_walls walls(grid);
+  Judged_answers judged;
+  const auto judge = [&judged](bool is_blocked, bool meets) {
+    ++judged.asked;
+    judged.blocked += is_blocked;
+    judged.wrong += is_blocked && !meets;
+    judged.touches += !is_blocked && meets;
+  };
+  std::size_t number = 0;
+  for_each_recorded_move(
+      trace, [&](const auto& answers, const auto& neighbours, const auto& from, const auto& target) {
+        const bool is_plain = std::ranges::all_of(answers, [](unsigned a) { return a == 0; });
+        if (is_plain && ++number % 10 != 0) return;
+        judge(answers[0] != 0, walls.meet_segment(from, target));
+        judged.wrong += answers[0] > 1;
+        for (std::size_t i = 0; i < neighbours.size(); ++i) {
+          const unsigned bits = answers[1 + i];
+          if (answers[0] != 0) {
+            judged.wrong += bits != body_trace_swept;
+            continue;
+          }
+          judge((bits & body_trace_blocked) != 0, walls.meet_segment(target, neighbours[i]));
+          judge((bits & body_trace_swept) != 0, walls.meet_triangle(from, target, neighbours[i]).has_value());
+        }
+      });
+  return judged;
+}
+
+TEST(BodyReplay, AnswersAreThoseOfBruteForce) {
+  const Body_trace& trace = crowded_rooms().trace;
+  const Judged_answers judged = judge_answers(trace, solid_rooms);
+  EXPECT_GT(judged.asked, 10000);
+  EXPECT_GT(judged.blocked, 500);
+  EXPECT_EQ(judged.wrong, 0);
+  EXPECT_EQ(judged.touches, 0) << "nothing but walls that are touched may be passed over";
+  std::cout << judged.asked << " answers judged, " << judged.blocked << " of them blocked\n";
+}
+
+TEST(BodyReplay, WrongWallsAreNoticed) {
+  const Body_trace& trace = crowded_rooms().trace;
+  for (std::size_t i = 0; i < solid_rooms.size(); ++i) {
+    std::vector<std::uint32_t> solid = solid_rooms;
+    solid.erase(solid.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_GT(judge_answers(trace, solid).wrong, 0) << solid_rooms[i];
+    EXPECT_GT(mismatches_of(rooms<3>({6, 5, 4}, solid), trace, body_trace_options(Sweep::triangle)), 0u);
+  }
+  std::vector<std::uint32_t> solid = solid_rooms;
+  solid.insert(solid.begin(), 1);
+  const Judged_answers judged = judge_answers(trace, solid);
+  EXPECT_GT(judged.touches, 0);
+}
+
+TEST(BodyReplay, FalsifiedAnswersAreMismatches) {
+  const Snapshot<3>& snapshot = crowded_rooms().snapshot;
+  Body_trace trace = crowded_rooms().trace;
+  trace.answers[7] ^= body_trace_blocked;
+  trace.answers[100] ^= body_trace_swept;
+  trace.answers.back() ^= body_trace_bits;
+  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::three_segments)), 2u);
+  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::triangle)), 4u);
+  const auto half = std::span<const std::uint8_t>(trace.answers).first(trace.answers.size() - 3);
+  EXPECT_EQ(count_mismatches(trace, half, Sweep::triangle), 6u) << "missing answers differ";
+  EXPECT_EQ(count_mismatches(trace, half, Sweep::three_segments), 3u);
+}
+
+}  // namespace
+}  // namespace cellwalk
