@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The cost of a contact with an oblique wall: its time alone, beside the same by exact numbers; where the motion is
-// at that time; and a whole contact of a particle, which walks into a wall of a jittered tetrahedral grid, one facet
-// in eight a wall, has its contact located exactly, and stops at a verified position.
+// The cost of a contact with an oblique wall: its time alone, beside the same by exact numbers; where the
+// motion is at that time; and a whole contact of a particle, which walks into a wall of a jittered
+// tetrahedral grid, one facet in eight a wall, has its contact located exactly, and stops at a verified
+// position.
 //
 // Run natively: under valgrind rounding has no direction, and CGAL's intervals take other paths.
 #include <cellwalk/body/verified_stop.h>
