@@ -2,7 +2,7 @@
 #include "numbers.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>
-#include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

@@ -83,6 +83,9 @@ std::optional<Bounded_twofold> orientation(const Twofold_normal<D>& normal, cons
 /// Times below this are left to exact arithmetic, since their low parts might underflow.
 constexpr double least_time = 0x1p-400;
 
+/// A coordinate whose error is a larger share of it, since it nearly cancels, is rounded exactly.
+constexpr double largest_share_of_point = 0x1p-60;
+
 /// How many times larger than its error a value has to be.
 constexpr double least_certainty = 1024;
 
@@ -116,6 +119,32 @@ std::array<Ring, 2> exact_orientations(const Crossing<D>& crossing) {
   return {of(crossing.a), of(crossing.b)};
 }
 
+/// A coordinate of the point at a time.
+Fraction exact_coordinate(double from, double to, const Fraction& time) {
+  const Ring difference = Ring(to) - Ring(from);
+  return {Ring(from) * time.denominator() + time.numerator() * difference, time.denominator()};
+}
+
+/// True if a line or plane is one of the points with some value of coordinate k.
+template <int D>
+bool is_in_coordinate_plane(const Crossing<D>& crossing, std::size_t k) {
+  return std::all_of(crossing.plane.begin() + 1, crossing.plane.end(),
+                     [&](const Point<D>& x) { return x[k] == crossing.plane[0][k]; });
+}
+
+/// The crossing_time(), given what is known of it.
+template <int D>
+double rounded_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
+  if (time)
+    if (const auto rounded = certain_floor(*time)) return *rounded;
+  const auto [at_a, at_b] = exact_orientations(crossing);
+  if (at_a == at_b) return 0;
+  const Fraction exact(at_a, Ring(at_a - at_b));
+  if (exact.sign() <= 0) return 0;
+  if (exact >= Fraction(1)) return 1;
+  return std::max(rounded_down(exact).value, std::numeric_limits<double>::denorm_min());
+}
+
 /// A motion's place at a time.
 template <int D>
 class Place {
@@ -133,7 +162,7 @@ class Place {
   std::pair<double, double> bounds_of(int i) const {
     const auto k = static_cast<std::size_t>(i);
     if (p_[k] == target_[k]) return {p_[k], p_[k]};
-    if (is_crossing_of_p_ && is_in_coordinate_plane(k))
+    if (is_crossing_of_p_ && is_in_coordinate_plane(*crossing_, k))
       return {crossing_->plane[0][k], crossing_->plane[0][k]};
     if (bounded_)
       if (const auto x = coordinate_at(p_[k], target_[k], *bounded_))
@@ -143,16 +172,9 @@ class Place {
   }
 
  private:
-  bool is_in_coordinate_plane(std::size_t k) const {
-    return std::all_of(crossing_->plane.begin() + 1, crossing_->plane.end(),
-                       [&](const Point<D>& x) { return x[k] == crossing_->plane[0][k]; });
-  }
-
   Rounded exact_floor(std::size_t k) const {
     if (!fraction_) fraction_ = to_fraction(time_);
-    const Ring from(p_[k]), difference = Ring(target_[k]) - from;
-    return rounded_down(Fraction(from * fraction_->denominator() + fraction_->numerator() * difference,
-                                 fraction_->denominator()));
+    return rounded_down(exact_coordinate(p_[k], target_[k], *fraction_));
   }
 
   const Point<D>&p_, &target_;
@@ -203,14 +225,29 @@ Exact_time to_time(const Crossing<D>& crossing) {
 
 template <int D>
 double crossing_time(const Crossing<D>& crossing) {
-  if (const auto time = bounded_time(crossing))
-    if (const auto rounded = certain_floor(*time)) return *rounded;
-  const auto [at_a, at_b] = exact_orientations(crossing);
-  if (at_a == at_b) return 0;
-  const Fraction time(at_a, Ring(at_a - at_b));
-  if (time.sign() <= 0) return 0;
-  if (time >= Fraction(1)) return 1;
-  return std::max(rounded_down(time).value, std::numeric_limits<double>::denorm_min());
+  return rounded_time(crossing, bounded_time(crossing));
+}
+
+template <int D>
+Timed_point<D> timed_point(const Crossing<D>& crossing) {
+  const auto time = bounded_time(crossing);
+  Timed_point<D> result{rounded_time(crossing, time), crossing.a};
+  if (result.time == 0) return result;
+  std::optional<Fraction> exact;
+  for (std::size_t k = 0; k < D; ++k) {
+    const double from = crossing.a[k], to = crossing.b[k];
+    if (from == to) continue;
+    if (is_in_coordinate_plane(crossing, k)) {
+      result.point[k] = crossing.plane[0][k];
+    } else if (const auto x = time ? coordinate_at(from, to, *time) : std::nullopt;
+               x && x->error < largest_share_of_point * std::abs(x->value.high)) {
+      result.point[k] = x->value.high;
+    } else {
+      if (!exact) exact = result.time == 1 ? Fraction(1) : fraction_of(crossing);
+      result.point[k] = rounded_to_nearest(exact_coordinate(from, to, *exact));
+    }
+  }
+  return result;
 }
 
 template <int D>
@@ -226,6 +263,7 @@ Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact
   template Fraction fraction_of<D>(const Crossing<D>&);                        \
   template Exact_time to_time<D>(const Crossing<D>&);                          \
   template double crossing_time<D>(const Crossing<D>&);                        \
+  template Timed_point<D> timed_point<D>(const Crossing<D>&);                  \
   template Point_bounds<D> bounds_at<D>(const Point<D>&, const Point<D>&, const Exact_time&);
 
 CELLWALK_INSTANTIATE(2)

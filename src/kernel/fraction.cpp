@@ -69,6 +69,15 @@ Rounded rounded_down(const Fraction& fraction) {
           opposite.is_exact};
 }
 
+double rounded_to_nearest(const Fraction& fraction) {
+  const Rounded below = rounded_down(fraction);
+  if (below.is_exact) return below.value;
+  const double above = std::nextafter(below.value, infinity);
+  const Ring twice_middle = Ring(below.value) + Ring(above);
+  const Ring difference = Ring(2) * fraction.numerator() - twice_middle * fraction.denominator();
+  return CGAL::sign(difference) == CGAL::POSITIVE ? above : below.value;
+}
+
 double to_double(const Fraction& fraction) {
   if (fraction.sign() == 0) return 0;
   if (fraction.sign() > 0) return positive_rounded_down(fraction).value;

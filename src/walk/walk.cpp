@@ -18,12 +18,12 @@ void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<
   if (contact.normal != Vector<D>{}) return;
   const auto corners = detail::spanning_corners(snapshot.view(snapshot.cell_of(contact.facet)),
                                                 snapshot.facet_of(contact.facet));
-  contact.time = std::apply(
+  std::tie(contact.time, contact.point) = std::apply(
       [&](const auto&... corner) {
-        return crossing_time(Crossing<D>{a, b, {*corner...}});
+        const Timed_point<D> met = timed_point(Crossing<D>{a, b, {*corner...}});
+        return std::pair(met.time, met.point);
       },
       corners);
-  contact.point = point_on<D>(a, b, contact.time);
   contact.normal = detail::inner_normal(corners);
 }
 

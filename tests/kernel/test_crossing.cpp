@@ -111,6 +111,8 @@ void judge(const Crossing<D>& c, Tally& tally) {
   ASSERT_EQ(time.fraction() == nullptr, Judge(time.rounded()) == exact);
   ASSERT_EQ(time, to_time(fraction_of(c)));
   ASSERT_EQ(crossing_time(c), std::max(time.rounded(), std::numeric_limits<double>::denorm_min()));
+  const Timed_point<D> met = timed_point(c);
+  ASSERT_EQ(met.time, crossing_time(c));
   const Point_bounds<D> place = bounds_at<D>(c.a, c.b, time);
   for (int k = 0; k < D; ++k) {
     const Judge x = Judge(c.a[k]) + exact * (Judge(c.b[k]) - Judge(c.a[k]));
@@ -119,6 +121,7 @@ void judge(const Crossing<D>& c, Tally& tally) {
     ASSERT_TRUE(place.above[k] == place.below[k] ||
                 place.above[k] == std::nextafter(place.below[k], std::numeric_limits<double>::infinity()));
     ASSERT_EQ(place.above[k] == place.below[k], Judge(place.below[k]) == x);
+    ASSERT_TRUE(met.point[k] == place.below[k] || met.point[k] == place.above[k]);
   }
 }
 

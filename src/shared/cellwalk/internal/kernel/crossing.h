@@ -50,6 +50,19 @@ Exact_time to_time(const Crossing<D>& crossing);
 template <int D>
 double crossing_time(const Crossing<D>& crossing);
 
+/// A time and where the motion is then.
+template <int D>
+struct Timed_point {
+  double time;
+  Point<D> point;
+};
+
+/// The crossing_time(), and the point with each coordinate rounded to within an ulp; exactly where the plane
+/// is one of that coordinate.
+/// \pre a and b do not lie strictly on the same side
+template <int D>
+Timed_point<D> timed_point(const Crossing<D>& crossing);
+
 /// The fraction of an Exact_time: a number, or what it is computed from once it is needed.
 struct Exact_fraction {
   std::variant<Fraction, Crossing<2>, Crossing<3>> source;

@@ -73,6 +73,8 @@ struct Rounded {
 
 /// The greatest double that is not above a fraction.
 Rounded rounded_down(const Fraction& fraction);
+/// The nearest double; half way between two, the lower one.
+double rounded_to_nearest(const Fraction& fraction);
 
 }  // namespace cellwalk
 
