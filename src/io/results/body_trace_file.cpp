@@ -92,8 +92,8 @@ std::string flaw_of(const Body_trace& trace) {
     return fmt::format("{} of vertex {} in step {} has a coordinate that is not finite", what, i % vertices,
                        i / vertices);
   };
-  if (const std::string what = not_finite(trace.before, "the position"); !what.empty()) return what;
-  if (const std::string what = not_finite(trace.targets, "the target"); !what.empty()) return what;
+  if (std::string what = not_finite(trace.before, "the position"); !what.empty()) return what;
+  if (std::string what = not_finite(trace.targets, "the target"); !what.empty()) return what;
   for (std::size_t i = 0; i < trace.answers.size(); ++i)
     if ((trace.answers[i] & ~body_trace_bits) != 0)
       return fmt::format("answer {} has an unknown bit: it is {}", i, trace.answers[i]);
