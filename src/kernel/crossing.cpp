@@ -86,6 +86,22 @@ constexpr double least_time = 0x1p-400;
 /// A coordinate whose error is a larger share of it, since it nearly cancels, is rounded exactly.
 constexpr double largest_share_of_point = 0x1p-60;
 
+/// True if a line or plane is one of the points with some value of coordinate k.
+template <int D>
+bool is_in_coordinate_plane(const Crossing<D>& crossing, std::size_t k) {
+  return std::all_of(crossing.plane.begin() + 1, crossing.plane.end(),
+                     [&](const Point<D>& x) { return x[k] == crossing.plane[0][k]; });
+}
+
+/// The time at which one coordinate of a motion has a value. None if that is out of range.
+std::optional<Bounded_twofold> bounded_time_of_coordinate(double from, double to, double value) {
+  const Twofold passed = detail::exact_difference(value, from), whole = detail::exact_difference(to, from);
+  const auto is_in_range = [](double size) { return size > least_difference && size < largest_difference; };
+  if (!is_in_range(std::abs(passed.high)) || !is_in_range(std::abs(whole.high))) return {};
+  const Twofold time = passed / whole;
+  return Bounded_twofold{time, 32 * detail::twofold_unit * std::abs(time.high)};
+}
+
 /// How many times larger than its error a value has to be.
 constexpr double least_certainty = 1024;
 
@@ -123,13 +139,6 @@ std::array<Ring, 2> exact_orientations(const Crossing<D>& crossing) {
 Fraction exact_coordinate(double from, double to, const Fraction& time) {
   const Ring difference = Ring(to) - Ring(from);
   return {Ring(from) * time.denominator() + time.numerator() * difference, time.denominator()};
-}
-
-/// True if a line or plane is one of the points with some value of coordinate k.
-template <int D>
-bool is_in_coordinate_plane(const Crossing<D>& crossing, std::size_t k) {
-  return std::all_of(crossing.plane.begin() + 1, crossing.plane.end(),
-                     [&](const Point<D>& x) { return x[k] == crossing.plane[0][k]; });
 }
 
 /// The crossing_time(), given what is known of it.
@@ -189,6 +198,9 @@ class Place {
 
 template <int D>
 std::optional<Bounded_twofold> bounded_time(const Crossing<D>& crossing) {
+  for (std::size_t k = 0; k < D; ++k)
+    if (is_in_coordinate_plane(crossing, k))
+      return bounded_time_of_coordinate(crossing.a[k], crossing.b[k], crossing.plane[0][k]);
   const Twofold_normal<D> normal = normal_of(crossing.plane);
   if (!normal.is_in_range) return {};
   const auto at_a = orientation<D>(normal, crossing.plane[0], crossing.a);

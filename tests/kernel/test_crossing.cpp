@@ -151,6 +151,21 @@ TYPED_TEST(CrossingTime, IsRoundedDownOnLattices) {
   EXPECT_GT(tally.crossings, 300);
 }
 
+TYPED_TEST(CrossingTime, IsRoundedDownInPlanesOfOneCoordinate) {
+  constexpr int D = TypeParam::value;
+  Random random(7);
+  Tally tally;
+  for (int i = 0; i < 4000; ++i) {
+    const int range = i % 4 == 0 ? 160 : 2;
+    Crossing<D> c = drawn<D>([&] { return i % 3 == 0 ? number(random, range) : random.real(-1, 1); });
+    const auto k = static_cast<std::size_t>(random.below(D));
+    for (Point<D>& x : c.plane) x[k] = c.plane[0][k];
+    judge(c, tally);
+  }
+  EXPECT_GT(tally.crossings, 500);
+  EXPECT_GT(tally.bounded, 400);
+}
+
 TYPED_TEST(CrossingTime, IsRoundedDownNearTheEndsOfAMotion) {
   constexpr int D = TypeParam::value;
   Random random(4);
