@@ -14,6 +14,7 @@
 #include <cellwalk/generators/room.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
 #include <cellwalk/records/make_body.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk check ENV: certifies an environment, including its map, and reports its content.
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
 
 #include "cli/common/command.h"
+#include "cli/common/edge_cells.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
 
@@ -14,6 +14,7 @@ namespace {
 
 struct Check_options {
   std::string environment, json;
+  double edge_length = 0;
   Build_options build;
 };
 
@@ -24,9 +25,11 @@ void check(const Check_options& options) {
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
         const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
-        write_json(json, {{"environment", options.environment}, {"certificate", to_json(certificate, D)}});
-        outputs.commit(
-            fmt::format("{}: certified, {}D\n{}", options.environment, D, describe(certificate, D)));
+        const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
+        write_json(json, {{"environment", options.environment},
+                          {"certificate", to_json(certificate, D)},
+                          {"edge_cells", to_json(edges)}});
+        outputs.commit(summary(options.environment, certificate, D, edges));
       },
       loaded.environment);
 }
@@ -41,8 +44,9 @@ void add_check(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("ENV");
   add_duplicates(*command, options->build.duplicates);
+  add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);
-  add_examples(*command, {"cellwalk check vessel.ovm",
+  add_examples(*command, {"cellwalk check vessel.ovm", "cellwalk check vessel.ovm --edge-length 0.2",
                           "cellwalk check mesh.vtu --duplicates merge --json report.json"});
   command->callback([options, &chosen] { chosen = [options] { check(*options); }; });
 }

@@ -4,7 +4,6 @@
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/generators.h>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "cli/common/command.h"
+#include "cli/common/edge_cells.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
@@ -22,6 +22,7 @@ namespace {
 struct Generate_options {
   Generator_values values;
   std::string environment, json;
+  double edge_length = 0;
 };
 
 struct Files {
@@ -32,15 +33,17 @@ template <int D>
 void write_environment(Cell_soup<D> soup, const Generate_options& options, Outputs& outputs,
                        const Files& files) {
   Build_report report;
+  Edge_cells edges;
   {
     const Progress progress("certifying and writing " + options.environment);
     const auto environment = Environment<D>::build(std::move(soup), build_of_generated, &report);
     io::write_ovm(*files.environment, environment.soup());
+    edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
   }
-  write_json(files.json,
-             {{"environment", options.environment}, {"certificate", to_json(report.certificate, D)}});
-  outputs.commit(
-      fmt::format("{}: certified, {}D\n{}", options.environment, D, describe(report.certificate, D)));
+  write_json(files.json, {{"environment", options.environment},
+                          {"certificate", to_json(report.certificate, D)},
+                          {"edge_cells", to_json(edges)}});
+  outputs.commit(summary(options.environment, report.certificate, D, edges));
 }
 
 std::string default_text(const std::vector<double>& numbers) {
@@ -72,6 +75,7 @@ void add_kind(CLI::App& generate_command, const Generator& generator, Action& ch
   CLI::App* command = generate_command.add_subcommand(generator.name, generator.help);
   add_environment_output(*command, options->environment);
   for (const Generator_option& option : generator.options) add_option(*command, option, options->values);
+  add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);
   command->callback([options, &chosen, name = generator.name] {
     chosen = [options, name] {

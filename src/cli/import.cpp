@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "cli/common/command.h"
+#include "cli/common/edge_cells.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
@@ -22,19 +21,9 @@ namespace {
 struct Options {
   std::string mesh, environment, json;
   bool no_split = false;
+  double edge_length = 0;
   Import_options import;
 };
-
-constexpr double least_size = std::numeric_limits<double>::denorm_min();  // anything greater than 0
-
-/// A finite number that is not below a bound.
-auto number_from(double least, const char* bound) {
-  return [least, bound](const std::string& text) {
-    double value = 0;
-    const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= least;
-    return fits ? std::string{} : fmt::format("takes a number {}, not {}", bound, text);
-  };
-}
 
 /// Adds the options of the meshers in this build.
 void add_mesher_options(CLI::App& command, Mesher_options& options) {
@@ -82,11 +71,13 @@ void import(Options& options) {
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
         io::write_ovm(*file, environment.soup());
+        const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         progress.reset();
+        imported.report.json["edge_cells"] = to_json(edges);
         imported.report.json["environment"] = options.environment;
         write_json(json, imported.report.json);
-        outputs.commit(fmt::format("{}{}: certified, {}D\n{}", text(imported.report), options.environment, D,
-                                   describe(imported.built.certificate, D)));
+        outputs.commit(text(imported.report) +
+                       summary(options.environment, imported.built.certificate, D, edges));
       },
       imported.environment);
 }
@@ -111,11 +102,13 @@ void add_import(CLI::App& app, Action& chosen) {
   command->add_flag("--no-split", options->no_split,
                     "Refuse cells that are not exactly convex instead of splitting");
   add_duplicates(*command, options->import.build.duplicates);
+  add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);
-  add_examples(*command,
-               {"cellwalk import vessel.stl -o vessel.ovm",
-                "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
-                "cellwalk import floor.wkt -o floor.ovm --json report.json"});
+  add_examples(
+      *command,
+      {"cellwalk import vessel.stl -o vessel.ovm", "cellwalk import vessel.stl --cell-size 0.5 -o fine.ovm",
+       "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
+       "cellwalk import floor.wkt -o floor.ovm --json report.json"});
   command->callback([options, &chosen] { chosen = [options] { import(*options); }; });
 }
 

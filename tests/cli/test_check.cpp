@@ -39,6 +39,29 @@ TEST_F(Check, CountsSolidCellsOfThePlane) {
   EXPECT_EQ(certificate.at("free_volume"), 56);
 }
 
+TEST_F(Check, SaysHowManyCellsEdgesLieIn) {
+  succeed({"generate", "hexes", "--cells", "12", "12", "6", "-o", "env.ovm"});
+  const std::string text = succeed({"check", "env.ovm", "--edge-length", "0.5", "--json", "report.json"});
+  const auto edges = nlohmann::json::parse(this->text("report.json")).at("edge_cells");
+  EXPECT_EQ(edges.at("length"), 0.5);
+  EXPECT_EQ(edges.at("wall_distance"), 6) << "4 * 864 / 576";
+  EXPECT_EQ(edges.at("edges"), 4096);
+  EXPECT_GT(edges.at("blocked"), 100);
+  EXPECT_GT(edges.at("mean_cells"), 1.6);
+  EXPECT_LT(edges.at("mean_cells"), 1.75);
+  EXPECT_NE(text.find("\n  body edges  of length 0.5 lie in 1."), std::string::npos) << text;
+  EXPECT_NE(text.find(" cells on average; walls are 6 apart\n"), std::string::npos) << text;
+
+  succeed({"check", "env.ovm", "--json", "report.json"});
+  EXPECT_EQ(nlohmann::json::parse(this->text("report.json")).at("edge_cells").at("length"), 0.1 * 6);
+  const std::string too_long = succeed({"check", "env.ovm", "--edge-length", "50"});
+  EXPECT_NE(too_long.find("  body edges  of length 50 do not fit; walls are 6 apart\n"), std::string::npos)
+      << too_long;
+  for (const char* length : {"0", "-1", "nan", "inf"})
+    expect_failure(2, {"check", "env.ovm", "--edge-length", length},
+                   {"--edge-length: takes a number greater than 0, not ", length});
+}
+
 TEST_F(Check, EndsWith3WhereTheFileIsMissingBrokenOrHasNoCells) {
   expect_failure(3, {"check", "missing.ovm"}, {"missing.ovm"});
   write("broken.ovm", "OVM ASCII\nVertices\n2\n0 0 0\n0 zero 0\n");

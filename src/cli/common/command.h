@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -35,6 +37,18 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
   std::string text = "Examples:\n";
   for (const char* line : lines) text += "  " + std::string(line) + "\n";
   command.footer(text + "\n" + command.get_footer());
+}
+
+constexpr double least_size = std::numeric_limits<double>::denorm_min();  // anything greater than 0
+
+/// A check of an option whose value is a finite number that is not below a bound.
+/// \param bound the bound in words: "of at least 0"
+inline auto number_from(double least, const char* bound) {
+  return [least, bound](const std::string& text) {
+    double value = 0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= least;
+    return fits ? std::string{} : "takes a number " + std::string(bound) + ", not " + text;
+  };
 }
 
 /// A check of an option whose value is an integer.
