@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <vector>
 
 #include "arrays.h"
@@ -88,8 +89,9 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
 }
 
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
-                         const std::string& duplicates, const std::string& mesher, double quality,
-                         double cell_size, double distance, bool keep_obstacles) {
+                         const std::string& duplicates, const std::string& mesher,
+                         std::optional<double> quality, double cell_size, double distance,
+                         bool keep_obstacles) {
   const std::string name = py::str(path);
   Import_options options;
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
@@ -130,8 +132,9 @@ void bind_makers(py::class_<Shared_world>& environment) {
                   "Reads a file of cells and certifies it unchanged.")
       .def_static("import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
                   py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
-                  py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen", py::arg("quality") = 0.0,
-                  py::arg("cell_size") = 0.0, py::arg("distance") = 0.0, py::arg("keep_obstacles") = false,
+                  py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen",
+                  py::arg("quality") = py::none(), py::arg("cell_size") = 0.0, py::arg("distance") = 0.0,
+                  py::arg("keep_obstacles") = false,
                   "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
                   "necessary, a "
                   "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "

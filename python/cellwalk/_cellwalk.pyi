@@ -61,7 +61,7 @@ class Environment:
         split: bool = True,
         duplicates: _Duplicates = "refuse",
         mesher: Literal["tetgen", "mesh3"] = "tetgen",
-        quality: float = 0.0,
+        quality: Union[float, None] = None,
         cell_size: float = 0.0,
         distance: float = 0.0,
         keep_obstacles: bool = False,

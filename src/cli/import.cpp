@@ -33,11 +33,15 @@ void add_mesher_options(CLI::App& command, Mesher_options& options) {
       "For a surface: TetGen keeps it exactly; Mesh_3 approximates it with better cells and says how far");
   command
       .add_option("--quality", options.quality,
-                  "TetGen: bound of circumradius to shortest edge, such as 1.5; 0: none")
+                  "TetGen: bound of circumradius to shortest edge, from 1.1; 0: none, with slivers that "
+                  "make edges lie in up to 1.5 times as many cells")
       ->check(number_from(0, "of at least 0"))
+      ->default_str("3")
       ->type_name("Q");
   command
-      .add_option("--cell-size", options.cell_size, "Mesh_3: bound of circumradii, in units of the surface")
+      .add_option("--cell-size", options.cell_size,
+                  "In units of the surface. Mesh_3: bound of circumradii; TetGen: no cell is larger than a "
+                  "regular tetrahedron of this circumradius")
       ->check(number_from(least_size, "greater than 0"))
       ->type_name("H");
   command.add_option("--distance", options.distance, "Mesh_3: how far the boundary may leave the surface")

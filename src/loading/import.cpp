@@ -32,8 +32,8 @@ class Import {
       for (const std::string& path : options_.obstacles) mesher.obstacle_names.push_back("obstacle " + path);
       return build_meshed(naming(path_, [&] { return mesh_surface(*surface, obstacles, mesher); }));
     }
-    if (!options_.obstacles.empty())
-      throw Error(Error_code::usage, fmt::format("--obstacle goes with a surface, and {} holds a {}", path_,
+    if (const char* option = option_of_surfaces())
+      throw Error(Error_code::usage, fmt::format("{} goes with a surface, and {} holds a {}", option, path_,
                                                  io::kind_name(file.mesh)));
     if (const auto* domain = std::get_if<Planar_domain>(&file.mesh))
       return build_meshed(naming(path_, [&] { return mesh_domain(*domain, options_.mesher); }));
@@ -42,6 +42,15 @@ class Import {
   }
 
  private:
+  /// An option that has an effect on surfaces only, if one is given.
+  const char* option_of_surfaces() const {
+    const Mesher_options& mesher = options_.mesher;
+    if (!options_.obstacles.empty()) return "--obstacle";
+    if (mesher.quality) return "--quality";
+    if (mesher.cell_size != 0) return "--cell-size";
+    return mesher.distance != 0 ? "--distance" : nullptr;
+  }
+
   void begin(const std::string& stage) const {
     if (options_.on_stage) options_.on_stage(stage);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 #include <cellwalk/loading/report.h>
 #include <cellwalk/meshing/mesh3.h>
@@ -35,10 +36,23 @@ void add_surfaces(const Report& report, Meshed<3>& meshed) {
   }
 }
 
+[[noreturn]] void refuse_option(const char* what) { throw Error(Error_code::usage, what); }
+
+/// The bounds that tetrahedra may violate, in words.
+std::string bounds_of(const Tetrahedralize_options& options) {
+  std::string text = options.quality > 0 ? fmt::format("quality {:g}", options.quality) : "";
+  if (options.cell_size > 0)
+    text += fmt::format("{}size {:g}", text.empty() ? "" : " or ", options.cell_size);
+  return text;
+}
+
 Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                       const Mesher_options& options) {
+  if (options.distance != 0)
+    refuse_option("--distance goes with --mesher mesh3: TetGen keeps the surface exactly");
   Tetrahedralize_options tetgen;
-  tetgen.quality = options.quality;
+  tetgen.quality = options.quality.value_or(tetgen.quality);
+  tetgen.cell_size = options.cell_size;
   tetgen.keep_obstacles = options.keep_obstacles;
   tetgen.obstacle_names = options.obstacle_names;
   Tetrahedralize_report report;
@@ -46,8 +60,16 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
   meshed.lines.push_back(
       fmt::format("TetGen: {} tetrahedra, {} points added inside, all {} surface triangles kept",
                   meshed.soup.cell_count(), report.added_points, report.boundary_facets));
+  if (report.out_of_bounds != 0)
+    meshed.lines.push_back(
+        fmt::format("{} tetrahedra violate the bound of {}", report.out_of_bounds, bounds_of(tetgen)));
+  if (report.added_points == tetgen.most_added_points)
+    meshed.lines.push_back("refinement stopped at the largest number of points");
   meshed.report = {{"mesher", "tetgen"},
+                   {"quality", tetgen.quality},
+                   {"cell_size", tetgen.cell_size},
                    {"cells", meshed.soup.cell_count()},
+                   {"out_of_bounds", report.out_of_bounds},
                    {"added_points", report.added_points},
                    {"boundary_facets", report.boundary_facets},
                    {"solid_cells", report.solid_cells}};
@@ -57,6 +79,10 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
 
 Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                      const Mesher_options& options) {
+  if (options.quality)
+    refuse_option("--quality goes with --mesher tetgen: the cells of Mesh_3 have a bound of 2");
+  if (options.keep_obstacles)
+    refuse_option("--keep-obstacles goes with --mesher tetgen: Mesh_3 fills no obstacles");
   Mesh3_options mesh;
   mesh.cell_size = options.cell_size;
   mesh.facet_distance = options.distance;

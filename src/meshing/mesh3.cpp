@@ -26,6 +26,7 @@
 #include <map>
 #include <string>
 
+#include "sizes.h"
 #include "surface_mesh.h"
 
 namespace cellwalk {
@@ -59,26 +60,16 @@ struct Extent {
   double diagonal = 0, volume = 0, area = 0;
 };
 
-void check_least(const char* what, double value, double least, const std::string& why) {
-  constexpr double room_to_round = 1.05;  // since two digits are shown
-  if (value < least)
-    throw Error(Error_code::usage,
-                fmt::format("Mesh_3: a {} of {:g} is too small for a surface {}: give at least {:.2g}", what,
-                            value, why, room_to_round * least));
-}
-
 /// Refuses sizes at which meshing would not end.
 void check_sizes(const Mesh3_options& options, double cell, double facet, const Extent& extent) {
-  // The largest tetrahedron in a sphere of radius r has volume 8/(9 sqrt 3) r^3, the largest triangle in a
-  // circle area 3 sqrt(3)/4 r^2.
-  constexpr double tetrahedron = 0.5133, triangle = 1.2991;
-  check_least("cell size", cell, std::cbrt(extent.volume / (tetrahedron * most_elements)),
-              fmt::format("that holds a volume of {:g}", extent.volume));
-  check_least("facet size", facet, std::sqrt(extent.area / (triangle * most_elements)),
-              fmt::format("with an area of {:g}", extent.area));
+  constexpr const char* mesher = "Mesh_3";
+  constexpr double triangle = 1.2991;  // the area of the largest in a circle of radius 1: 3 sqrt(3)/4
+  detail::check_cell_size(mesher, cell, extent.volume, most_elements);
+  detail::check_least(mesher, "facet size", facet, std::sqrt(extent.area / (triangle * most_elements)),
+                      fmt::format("with an area of {:g}", extent.area));
   if (options.facet_distance > 0)
-    check_least("distance", options.facet_distance, least_distance * extent.diagonal,
-                fmt::format("of diagonal {:g}", extent.diagonal));
+    detail::check_least(mesher, "distance", options.facet_distance, least_distance * extent.diagonal,
+                        fmt::format("of diagonal {:g}", extent.diagonal));
 }
 
 Criteria criteria(const Mesh3_options& options, const Extent& extent) {
@@ -106,8 +97,7 @@ Extent extent_of(const std::vector<Surface_soup>& surfaces, const Mesh3_report& 
   for (const auto& p : surfaces[0].points)
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
   extent.diagonal = length(high - low);
-  extent.volume = report.surface.volume;
-  for (const Surface_report& obstacle : report.obstacles) extent.volume -= obstacle.volume;
+  extent.volume = detail::free_volume(report.surface, report.obstacles);
   for (const Surface_soup& s : surfaces)
     for (const auto& f : s.facets)
       extent.area += length(cross(s.points[f[1]] - s.points[f[0]], s.points[f[2]] - s.points[f[0]])) / 2;

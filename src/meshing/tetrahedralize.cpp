@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <unordered_map>
 
+#include "sizes.h"
 #include "surface_mesh.h"
 #include "tetgen_call.h"
 
@@ -16,6 +18,9 @@ namespace {
 
 using detail::Tetgen_result;
 using Triangle = std::array<std::uint32_t, 3>;
+
+/// A refined mesh has 6 to 7 tetrahedra for each point.
+constexpr double most_cells_a_point = 10;
 
 struct Triangle_hash {
   std::size_t operator()(const Triangle& t) const {
@@ -122,22 +127,42 @@ class Sides {
   std::vector<std::vector<bool>> sides_;  // per region: enclosed by each surface
 };
 
+/// True if a tetrahedron violates the bounds of quality and size, up to rounding.
+bool is_out_of_bounds(const Tetgen_result& mesh, const std::array<std::uint32_t, 4>& t,
+                      const Tetrahedralize_options& options) {
+  constexpr double rounding = 1 + 1e-9;
+  const auto& p = mesh.points;
+  const std::array<Vector<3>, 3> side{p[t[1]] - p[t[0]], p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]};
+  const double volume = std::abs(dot(side[0], cross(side[1], side[2]))) / 6;
+  if (options.cell_size > 0 && volume > rounding * detail::largest_volume(options.cell_size)) return true;
+  if (options.quality == 0) return false;
+  // From the first point, the centre of the circumsphere is `centre` / (12 volume).
+  Vector<3> centre{};
+  double shortest = length(side[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Vector<3>&u = side[(i + 1) % 3], &v = side[(i + 2) % 3];
+    centre = centre + dot(side[i], side[i]) * cross(u, v);
+    shortest = std::min({shortest, length(side[i]), length(v - u)});
+  }
+  return length(centre) > rounding * 12 * volume * options.quality * shortest;
+}
+
 /// A tetrahedron with positive orientation.
 std::array<std::uint32_t, 4> positive(const Tetgen_result& mesh, std::array<std::uint32_t, 4> t) {
   Predicate_counts counts;
   const auto& p = mesh.points;
   const int sign = Exact::orientation(counts, p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
   if (sign == 0)
-    throw Error(
-        Error_code::not_certified,
-        "TetGen made a flat tetrahedron; try a quality bound, or Mesh_3, which approximates the surface");
+    throw Error(Error_code::not_certified,
+                "TetGen made a flat tetrahedron; try another quality bound, or Mesh_3, which approximates "
+                "the surface");
   if (sign < 0) std::swap(t[0], t[1]);
   return t;
 }
 
 /// The tetrahedra inside, with the surfaces as walls.
 Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_t surfaces,
-                     bool keep_obstacles, Tetrahedralize_report& report) {
+                     const Tetrahedralize_options& options, Tetrahedralize_report& report) {
   const Sides sides(mesh, owners, surfaces);
   Cell_soup<3> soup;
   std::vector<std::uint32_t> number(mesh.points.size(), 0xffffffffu);
@@ -145,7 +170,7 @@ Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_
     const auto& s = sides[i];
     if (!s[0]) continue;
     const bool in_obstacle = std::count(s.begin() + 1, s.end(), true) > 0;
-    if (in_obstacle && !keep_obstacles) continue;
+    if (in_obstacle && !options.keep_obstacles) continue;
     const auto t = positive(mesh, mesh.tetrahedra[i]);
     for (std::uint32_t v : t)
       if (number[v] == 0xffffffffu) {
@@ -161,6 +186,7 @@ Cell_soup<3> collect(const Tetgen_result& mesh, const Owners& owners, std::size_
     }
     soup.end_cell(in_obstacle);
     report.solid_cells += in_obstacle;
+    report.out_of_bounds += is_out_of_bounds(mesh, t, options);
   }
   return soup;
 }
@@ -171,19 +197,22 @@ Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surfa
                             const Tetrahedralize_options& options, Tetrahedralize_report* report) {
   if (!(options.quality == 0 || (options.quality >= 1.1 && options.quality <= 1e6)))
     throw Error(Error_code::usage, "tetrahedralize: the quality bound must be 0 (none) or lie in [1.1, 1e6]");
-  if (!(options.largest_volume >= 0))
-    throw Error(Error_code::usage, "tetrahedralize: the largest volume must not be negative");
+  if (!(options.cell_size >= 0))
+    throw Error(Error_code::usage, "tetrahedralize: the cell size must not be negative");
   Tetrahedralize_report own;
   Tetrahedralize_report& r = report ? *report : own;
   r = {};
   const auto surfaces =
       detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
+  if (options.cell_size > 0)
+    detail::check_cell_size("TetGen", options.cell_size, detail::free_volume(r.surface, r.obstacles),
+                            most_cells_a_point * static_cast<double>(options.most_added_points));
   const Owners owners = owners_of(surfaces);
   const Tetgen_result mesh = detail::call_tetgen(surfaces, options);
   check_kept(mesh, surfaces, owners);
   r.added_points = mesh.points.size();
   for (const auto& s : surfaces) r.added_points -= s.points.size();
-  return collect(mesh, owners, surfaces.size(), options.keep_obstacles, r);
+  return collect(mesh, owners, surfaces.size(), options, r);
 }
 
 }  // namespace cellwalk

@@ -3,6 +3,8 @@
 #ifndef CELLWALK_TESTS_CLI_MESHES_H
 #define CELLWALK_TESTS_CLI_MESHES_H
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 namespace cellwalk::test {
@@ -26,6 +28,32 @@ inline std::string open_cube_off() {
   std::string text = cube_off();
   text.replace(text.find("8 12 0"), 6, "8 11 0");
   text.erase(text.rfind("3 1 7 5"));
+  return text;
+}
+
+/// A tube of radius 1 and length 4 with 41 rings of 16 vertices, as an OFF surface.
+inline std::string tube_off() {
+  constexpr int sides = 16, rings = 41;
+  constexpr int triangles = 2 * sides * (rings - 1) + 2 * (sides - 2);
+  std::string text = "OFF\n" + std::to_string(sides * rings) + " " + std::to_string(triangles) + " 0\n";
+  for (int v = 0; v < sides * rings; ++v) {
+    const double angle = 2 * std::numbers::pi * (v % sides) / sides;
+    text += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " " +
+            std::to_string(0.1 * (v / sides)) + "\n";
+  }
+  const auto add = [&text](int a, int b, int c) {
+    text += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  for (int a = 0; a < sides * (rings - 1); ++a) {
+    const int b = a % sides == sides - 1 ? a + 1 - sides : a + 1;
+    add(a, b, b + sides);
+    add(a, b + sides, a + sides);
+  }
+  constexpr int last = sides * (rings - 1);
+  for (int i = 1; i + 1 < sides; ++i) {
+    add(0, i + 1, i);
+    add(last, last + i, last + i + 1);
+  }
   return text;
 }
 

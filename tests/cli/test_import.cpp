@@ -130,6 +130,56 @@ TEST_F(Import, SizesAtWhichMeshingWouldNotEndAreRefused) {
   import("cube.off", {"--mesher", "mesh3", "--cell-size", "1e300"});
 }
 
+TEST_F(Import, MeshesSoThatWalksAreShort) {
+  // The wall is cut more finely than the tube is wide: without a bound, slivers lie across.
+  write("tube.off", tube_off());
+  const auto edges = [this](std::vector<std::string> options) {
+    options.insert(options.end(), {"--edge-length", "1"});
+    const auto report = import("tube.off", options);
+    EXPECT_EQ(report.at("meshed").at("boundary_facets"), report.at("certificate").at("boundary_facets"));
+    return report.at("edge_cells").at("mean_cells").get<double>();
+  };
+  const double by_default = edges({});
+  const std::string bytes = text("env.ovm");
+  EXPECT_LT(by_default, 0.8 * edges({"--quality", "0"}));
+  EXPECT_NE(text("env.ovm"), bytes);
+  EXPECT_EQ(edges({"--quality", "3"}), by_default) << "the default that the help names";
+  EXPECT_EQ(text("env.ovm"), bytes);
+}
+
+TEST_F(Import, BoundsCellsByTetGenToo) {
+  write("tube.off", tube_off());
+  const auto cells = [this](const std::string& size) {
+    const auto report = import("tube.off", {"--cell-size", size});
+    const auto violations = report.at("meshed").at("out_of_bounds").get<int>();
+    EXPECT_EQ(report.at("meshed").at("cell_size"), std::stod(size));
+    EXPECT_GT(violations, 0);
+    const std::string line =
+        std::to_string(violations) + " tetrahedra violate the bound of quality 3 or size " + size;
+    EXPECT_NE(said_.find(line), std::string::npos) << said_;
+    return report.at("certificate").at("cells").get<int>();
+  };
+  EXPECT_GT(cells("0.1"), 5 * cells("10"));
+}
+
+TEST_F(Import, OptionsWithoutEffectAreRefused) {
+  write("cube.off", cube_off());
+  write("room.poly", room_poly());
+  write("cells.ovm", hexahedron_ovm(0));
+  const auto refuse = [this](const char* mesh, std::vector<std::string> options, const char* text) {
+    options.insert(options.begin(), {"import", mesh, "-o", "env.ovm"});
+    expect_failure(2, options, {text});
+  };
+  refuse("cube.off", {"--distance", "1"}, "cube.off: --distance goes with --mesher mesh3");
+  refuse("cube.off", {"--mesher", "mesh3", "--quality", "2"},
+         "cube.off: --quality goes with --mesher tetgen");
+  refuse("cube.off", {"--mesher", "mesh3", "--keep-obstacles"}, "--keep-obstacles goes with --mesher tetgen");
+  refuse("room.poly", {"--quality", "2"},
+         "--quality goes with a surface, and room.poly holds a planar domain");
+  refuse("cells.ovm", {"--cell-size", "2"}, "--cell-size goes with a surface, and cells.ovm holds a ");
+  refuse("cells.ovm", {"--distance", "2"}, "--distance goes with a surface, and cells.ovm holds a ");
+}
+
 TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {
   write("cube.off", cube_off(1, 0, true));
   EXPECT_EQ(import("cube.off").at("meshed").at("surface").at("inside_out"), true);

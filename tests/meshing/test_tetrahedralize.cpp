@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "environment/soup_checks.h"
 #include "meshing/shapes.h"
 
@@ -80,12 +83,72 @@ TEST(Tetrahedralize, NestedComponentsAlternate) {
 TEST(Tetrahedralize, RefinesOnRequestWithoutTouchingTheSurface) {
   Tetrahedralize_options options;
   options.quality = 2;
-  options.largest_volume = 0.01;
+  options.cell_size = 0.25;
   Tetrahedralize_report report;
   const auto soup = tetrahedralize(octahedron(2), {}, options, &report);
   expect_sound(soup);
   EXPECT_GT(report.added_points, 10u);
   EXPECT_EQ(boundary(soup), triangles(octahedron(2)));
+}
+
+/// A tetrahedron of a soup: the four points, from those of its first two facets.
+std::array<Point<3>, 4> corners(const Cell_soup<3>& soup, std::size_t cell) {
+  const auto f = soup.facet(soup.cell_begin[cell]), g = soup.facet(soup.cell_begin[cell] + 1);
+  const auto at = [&soup](std::uint32_t v) { return soup.points[v]; };
+  return {at(f[0]), at(f[1]), at(f[2]), at(g[2])};
+}
+
+double volume(const std::array<Point<3>, 4>& t) {
+  return std::abs(dot(t[1] - t[0], cross(t[2] - t[0], t[3] - t[0]))) / 6;
+}
+
+/// Circumradius over shortest edge, by the formula of Crelle: for the products of opposite edges as the sides
+/// of a triangle of area A, the radius is A / (6 V).
+double radius_edge(const std::array<Point<3>, 4>& t) {
+  const auto edge = [&t](int i, int j) { return length(t[i] - t[j]); };
+  const double a = edge(0, 1) * edge(2, 3), b = edge(0, 2) * edge(1, 3), c = edge(0, 3) * edge(1, 2);
+  const double area = std::sqrt((a + b + c) * (-a + b + c) * (a - b + c) * (a + b - c)) / 4;
+  return area / (6 * volume(t)) /
+         std::min({edge(0, 1), edge(0, 2), edge(0, 3), edge(1, 2), edge(1, 3), edge(2, 3)});
+}
+
+TEST(Tetrahedralize, CountsTetrahedraOutOfBounds) {
+  // The octahedron stands so near the ceiling that no point fits between.
+  const auto room = box({-2, -2, -2}, {2, 2, 1.01});
+  std::size_t violations = 0, meshes = 0;
+  for (const double quality : {0.0, 1.2, 2.5, 1000.0})
+    for (const double size : {0.0, 0.5, 1.5, 20.0}) {
+      Tetrahedralize_options options;
+      options.quality = quality;
+      options.cell_size = size;
+      Tetrahedralize_report report;
+      const auto soup = tetrahedralize(room, {octahedron(1)}, options, &report);
+      std::size_t expected = 0;
+      for (std::size_t c = 0; c < soup.cell_count(); ++c) {
+        const auto t = corners(soup, c);
+        const double largest = 8 / (9 * std::sqrt(3.0)) * size * size * size;
+        expected += (quality > 0 && radius_edge(t) > quality * (1 + 1e-9)) ||
+                    (size > 0 && volume(t) > largest * (1 + 1e-9));
+      }
+      EXPECT_EQ(report.out_of_bounds, expected) << quality << " " << size;
+      violations += expected > 0;
+      meshes += expected == 0;
+      EXPECT_TRUE(quality > 0 || size > 0 || expected == 0);
+    }
+  EXPECT_GE(violations, 2u);
+  EXPECT_GE(meshes, 2u);
+}
+
+TEST(Tetrahedralize, AddsNoPointWithoutNeedOrBound) {
+  const auto room = box({-2, -2, -2}, {2, 2, 2});
+  Tetrahedralize_options none;
+  none.quality = 0;
+  Tetrahedralize_report report, report_of_none;
+  const auto fine = tetrahedralize(room, {octahedron(4)}, {}, &report);
+  const auto coarse = tetrahedralize(room, {octahedron(4)}, none, &report_of_none);
+  EXPECT_EQ(boundary(fine), boundary(coarse));
+  EXPECT_EQ(report_of_none.added_points, 0u);
+  EXPECT_GT(report.added_points, 0u);
 }
 
 TEST(Tetrahedralize, SaysWhereObstaclesAreWrong) {
@@ -113,8 +176,16 @@ TEST(Tetrahedralize, RefusesOptionsOutOfRange) {
   options.quality = 0.5;
   EXPECT_EQ(refusal([&] { tetrahedralize(octahedron(), {}, options); }).substr(0, 2), "2:");
   options.quality = 0;
-  options.largest_volume = -1;
+  options.cell_size = -1;
   EXPECT_EQ(refusal([&] { tetrahedralize(octahedron(), {}, options); }).substr(0, 2), "2:");
+  options.cell_size = 1e-3;
+  EXPECT_EQ(refusal([&] {
+              tetrahedralize(box({-1, -1, -1}, {1, 1, 1}), {}, options);
+            }),
+            "2: TetGen: a cell size of 0.001 is too small for a surface that holds a volume of 8: give at "
+            "least 0.012");
+  options.cell_size = 1e200;  // whose cube is infinite
+  EXPECT_NO_THROW(tetrahedralize(octahedron(), {}, options));
 }
 
 TEST(Mesh3, ApproximatesTheSurfaceAndSaysHowWell) {

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,13 @@ enum class Mesher { tetgen, mesh3 };
 
 struct Mesher_options {
   Mesher mesher = Mesher::tetgen;
-  double quality = 0;    ///< TetGen: radius-edge ratio; 0: as few tetrahedra as possible
-  double cell_size = 0;  ///< Mesh_3: units of the surface; 0: its default
-  double distance = 0;   ///< Mesh_3: maximal distance of the boundary from the surface; 0: its default
-  bool keep_obstacles = false;
+  /// TetGen: bound of circumradius to shortest edge; 0: none; not given: its default
+  std::optional<double> quality{};
+  /// Bound of circumradii (Mesh_3), or of volumes by that of a regular tetrahedron of this circumradius
+  /// (TetGen), in units of the surface; 0: the default of Mesh_3, none for TetGen
+  double cell_size = 0;
+  double distance = 0;          ///< Mesh_3: maximal distance of the boundary from the surface; 0: its default
+  bool keep_obstacles = false;  ///< not by Mesh_3
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
 };
@@ -40,7 +44,7 @@ struct Mesher_parts {
 Mesher_parts mesher_parts();
 
 /// Fills the interior of a closed surface, without the obstacles.
-/// \throw Error as the meshers; Error(usage) in a build without them
+/// \throw Error as the meshers; Error(usage) for options of the other mesher, and in a build without them
 Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                        const Mesher_options& options);
 

@@ -14,11 +14,14 @@
 namespace cellwalk {
 
 struct Tetrahedralize_options {
-  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: as few
-  /// tetrahedra as possible. Points are added in the interior only, so the bound may be violated near fine
-  /// parts of the surface.
-  double quality = 0;
-  double largest_volume = 0;                ///< of a tetrahedron; 0: any
+  /// Bound of the ratio of a tetrahedron's circumradius to its shortest edge, at least 1.1; 0: none, and no
+  /// point is added that is not necessary. Points are added in the interior only, so the bound may be
+  /// violated near the surface. With the default, edges lie in the fewest tetrahedra, or nearly so
+  /// (docs/commands.md, import).
+  double quality = 3;
+  /// No tetrahedron has a larger volume than a regular one of this circumradius, in units of the surface; 0:
+  /// any. Where facets of the surface are larger, so are tetrahedra.
+  double cell_size = 0;
   std::size_t most_added_points = 1000000;  ///< refinement stops there
   /// True: obstacles are kept as solid cells; false: they are omitted
   bool keep_obstacles = false;
@@ -32,6 +35,7 @@ struct Tetrahedralize_report {
   std::size_t added_points = 0;     ///< in the interior; none on the surface
   std::size_t boundary_facets = 0;  ///< triangles of the surface and the obstacles, all preserved
   std::size_t solid_cells = 0;      ///< with keep_obstacles
+  std::size_t out_of_bounds = 0;    ///< tetrahedra that violate the bounds of quality and size
 };
 
 /// True if the library was built with TetGen.
@@ -42,7 +46,8 @@ bool has_tetgen();
 /// surface enclose it.
 /// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and
 ///        apart from it and from the other obstacles
-/// \throw Error(usage) for options out of range, or if the library was built without TetGen
+/// \throw Error(usage) for options out of range, for a cell size that needs more than ten tetrahedra for each
+///        of the added points, or if the library was built without TetGen
 /// \throw Error(not_certified) if TetGen fails, does not preserve the surface, or makes a flat tetrahedron
 /// Not thread-safe: TetGen's messages to the standard output of the process are suppressed while it runs.
 /// Cost: about 20 us a tetrahedron.
