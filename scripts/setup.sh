@@ -7,7 +7,7 @@
 #   demo  build and run the program            test   also Gmsh, VTK, Python, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   as ci                                peers  demo, the libraries that experiments compare with, and gnuplot
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
-#   ci    test, clang, clang-tidy and ccache   package  build the Debian packages, and a clean root to try them in
+#   ci    test, clang, clang-tidy, ccache and valgrind   package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -39,7 +39,7 @@ packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
-  ci | dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache) ;;
+  ci | dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
   package) packages+=("${io[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
