@@ -102,7 +102,7 @@ Cell Body<D>::cell_of(std::uint32_t vertex) const {
   Particle<D> particle = state_->particles[vertex];
   Walk_counts uncounted;
   if (const Point<D>& position = state_->positions[vertex]; particle.position != position)
-    state_->follow(particle, position, uncounted);
+    state_->follow(vertex, particle, uncounted);
   return particle.cell;
 }
 

@@ -16,7 +16,8 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
       topology(soup.points.size(), soup.edges,
                D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
       supporting_walls(topology.faces().size()),
-      region(soup.points.size(), soup.edges.size()) {
+      region(soup.points.size(), soup.edges.size()),
+      pool(soup.points.size()) {
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
@@ -32,6 +33,7 @@ Chain Body_state<D>::seen_from(const Corner& corner) const {
 template <int D>
 [[gnu::noinline]] bool Body_state<D>::try_move_all_in_new_region(std::span<const Point<D>> targets,
                                                                  bool clearance, Body_counts& counts) {
+  pool.begin_step(clearance);
   if (region.holds_body()) is_apart = true;
   if (!clearance) {
     const bool was_apart = is_apart;
@@ -49,18 +51,38 @@ template <int D>
 }
 
 template <int D>
-bool Body_state<D>::try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
-  if (!region.holds_star(vertex, target)) return false;
+bool Body_state<D>::move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
+  move_untested(vertex, target, counts);
+  pool.place(vertex, target, counts.edges.walk.predicates);
+  return true;
+}
+
+template <int D>
+bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
+  if (!pool.try_move(vertex, target, positions, topology, counts.edges.walk.predicates)) {
+    if (!pool.should_search(vertex)) return false;
+    refresh_vertex(vertex, counts);
+    if (!pool.search(*snapshot, particles[vertex], vertex, target, positions, topology, counts) ||
+        !pool.try_move(vertex, target, positions, topology, counts.edges.walk.predicates))
+      return false;
+  }
+  move_untested(vertex, target, counts);
+  if (region.has_region()) region.set_outside(vertex, !region.holds(target), topology);
+  return true;
+}
+
+template <int D>
+inline void Body_state<D>::move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
   positions[vertex] = target;
   region.mark_moved(vertex);
   for (const Face_corner& corner : topology.face_corners_of(vertex)) supporting_walls[corner.face].clear();
   ++counts.in_region;
-  return true;
 }
 
 template <int D>
 void Body_state<D>::give_region_up() {
   region.give_up();
+  pool.clear();
   is_apart = false;  // walls may be put up next
 }
 
@@ -78,7 +100,7 @@ bool Body_state<D>::renew_region(std::span<const Point<D>> targets, Body_counts&
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
       const bool is_outside = !found || !found->holds(positions[v]);
       region.set_outside(v, is_outside, topology);
-      if (is_outside) refresh_vertex(v, counts);
+      if (is_outside && !pool.holds(v)) refresh_vertex(v, counts);
     }
   return region.take(found, targets, counts);
 }
@@ -87,21 +109,24 @@ template <int D>
 void Body_state<D>::spread_marks() {
   if (!region.are_all_stale()) return;
   region.spread_marks();
+  pool.forget_all();
   for (Supporting_walls& of_face : supporting_walls) of_face.clear();
 }
 
 template <int D>
-inline void Body_state<D>::follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const {
+inline void Body_state<D>::follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const {
+  const Point<D>& position = positions[vertex];
+  const Particle<D>& anchor = pool.holds(vertex) ? pool.region_of(vertex).anchor() : region.anchor();
   // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the
   // region is no wall.
   Cell cell = particle.cell;
   if (!certainly_inside(*snapshot, cell, position, walks))
-    cell = certain_end(*snapshot, region.anchor(), position, walks);
+    cell = certain_end(*snapshot, anchor, position, walks);
   if (cell != Cell::none) {
     particle = {position, cell, D, 0};
     return;
   }
-  particle = region.anchor();
+  particle = anchor;
   cellwalk::move(*snapshot, particle, position, walks);
 }
 
@@ -110,12 +135,11 @@ void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!region.is_vertex_stale(vertex)) return;
   region.pass_mark_on(vertex, topology);
   Particle<D>& particle = particles[vertex];
-  const Point<D>& position = positions[vertex];
   // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides
   // depends on it.
-  if (particle.position == position) return;
+  if (particle.position == positions[vertex]) return;
   ++counts.catch_ups;
-  follow(particle, position, counts.edges.walk);
+  follow(vertex, particle, counts.edges.walk);
 }
 
 template <int D>
@@ -154,6 +178,8 @@ template <int D>
 void Body_state<D>::place(std::uint32_t vertex, const Point<D>& position) {
   positions[vertex] = position;
   if (region.has_region()) region.set_outside(vertex, !region.holds(position), topology);
+  Predicate_counts uncounted;
+  pool.place(vertex, position, uncounted);
 }
 
 template struct Body_state<2>;

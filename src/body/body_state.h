@@ -15,6 +15,7 @@
 
 #include "body_topology.h"
 #include "region_cache.h"
+#include "region_pool.h"
 
 namespace cellwalk::detail {
 
@@ -62,13 +63,16 @@ struct Body_state {
   /// is prepared.
   bool try_move_all_in_new_region(std::span<const Point<D>> targets, bool clearance, Body_counts& counts);
   /// Moves one vertex without a test, if the region allows it.
-  bool try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  bool try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
+    return region.holds_star(vertex, target) ? move_in_region(vertex, target, counts)
+                                             : pool.is_used() && try_move_in_pool(vertex, target, counts);
+  }
   /// Gives the region up.
   /// \pre nothing is stale
   void give_region_up();
 
-  /// Moves the particle of a stale vertex to a position of the vertex in the region.
-  void follow(Particle<D>& particle, const Point<D>& position, Walk_counts& walks) const;
+  /// Moves a particle of a stale vertex to where the vertex is.
+  void follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const;
   /// Registers what is stale.
   void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
   void refresh_edge(std::uint32_t edge, Body_counts& counts);
@@ -88,9 +92,13 @@ struct Body_state {
   bool are_faces_swept = true;
   bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
   Region_cache<D> region;
+  Region_pool<D> pool;
   Move_scratch scratch;
 
  private:
+  bool move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  bool try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  void move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   void spread_marks();
   bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
 };

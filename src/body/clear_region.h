@@ -22,6 +22,7 @@ template <int D>
 class Clear_region {
  public:
   static constexpr std::size_t most_planes = 6;
+  static constexpr bool has_wall_planes = false;
 
   Clear_region(const Particle<D>& anchor, const Point<D>& low, const Point<D>& high)
       : box_(low, high), anchor_(anchor) {}
@@ -78,18 +79,24 @@ struct Region_request {
   std::span<const Point<D>> targets;    ///< and of these,
   double steps_ahead = 36;              ///< and where so many more steps of that kind would lead
   double steps_around = 4;              ///< and a margin of so many steps on all sides
-  std::size_t most_cells = 64;          ///< it may be looked for in
+  double margin = 0;                    ///< and one more, of this length
+  bool keeps_all = false;               ///< without one of the positions, there is no region
+  std::size_t most_cells = 64;          ///< it may be looked for in, or clusters of cells
+  /// Look for walls by clusters of cells; more than most_walls walls that the box meets are too many.
+  bool by_clusters = false;
+  std::size_t most_walls = 256;
 };
 
 struct Region_effort {
-  std::uint64_t cells = 0;    ///< looked at
+  std::uint64_t cells = 0;    ///< looked at, or clusters of them
+  std::uint64_t walls = 0;    ///< met, where clusters are looked at
   bool is_exhausted = false;  ///< true if there were more than might be looked at
 };
 
 /// A region about a particle, by a flood of the cells that it meets: walls are cut off, and what was not
 /// looked at, if possible so that all positions and targets are kept. None if a wall comes too close to the
 /// particle, the positions lie in too many cells, or what is asked for is not finite.
-/// \pre the anchor satisfies I1, and is one of the positions; as many targets as positions
+/// \pre the anchor satisfies I1, and is one of the positions; as many targets as positions, or none
 /// Cost: about 20 ns a cell met, 100 ns a wall.
 template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,

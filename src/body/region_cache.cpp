@@ -9,9 +9,13 @@ namespace {
 /// Steps without a search after one that lost a target: a wall is in its way, and may be for a while.
 constexpr std::uint32_t backoff_with_targets = 6;
 /// After one that lost positions; twice as many after each of those in a row.
-constexpr std::uint32_t least_backoff = 1, most_backoff = 64;
+constexpr std::uint32_t least_backoff = 1, most_backoff = 512;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
+
+/// The walls about larger bodies are found by clusters, of so many at most; then the region holds the body or
+/// is none, as parts of it have their own.
+constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64;
 
 }  // namespace
 
@@ -41,9 +45,12 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.targets = targets;
   request.most_cells = std::clamp(cells_per_vertex * positions.size(), least_cells, most_cells);
   request.steps_ahead = steps_ahead_;
+  request.by_clusters = request.keeps_all = positions.size() >= least_vertices_by_clusters;
+  if (request.by_clusters) request.most_cells = most_clusters;
   Region_effort effort;
   const auto found = find_clear_region(snapshot, anchor, request, effort);
   counts.region_cells += effort.cells;
+  counts.region_walls += effort.walls;
   steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_
                                      : std::min(2 * steps_ahead_ + 1, Region_request<D>{}.steps_ahead);
   return found;

@@ -2,6 +2,7 @@
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
 #include <algorithm>
 
+#include "body_faces.h"
 #include "slide.h"
 #include "stop_candidates.h"
 #include "vertex_move.h"
@@ -29,6 +30,9 @@ bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, con
 template <int D>
 void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
                std::vector<Contact<D>>& contacts, Body_counts& counts) {
+  // It may throw: not after some vertices have moved.
+  if constexpr (D == 3)
+    if (options.sweep.sweep == Sweep::faces) take_up_faces(body, counts);
   std::vector<Vector<D>> normals;
   for (std::uint32_t v = 0; v < targets.size(); ++v) {
     if (body.try_move_in_region(v, targets[v], counts)) continue;

@@ -91,7 +91,8 @@ struct Body_counts {
   std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
   std::uint64_t regions = 0;       ///< such regions found
   std::uint64_t no_region = 0;     ///< searches that found none
-  std::uint64_t region_cells = 0;  ///< cells looked at by these searches
+  std::uint64_t region_cells = 0;  ///< cells, or clusters of cells, looked at by these searches
+  std::uint64_t region_walls = 0;  ///< walls met by searches among clusters
   std::uint64_t catch_ups = 0;     ///< vertices registered anew after moves in a region
   std::uint64_t contacts = 0;
   std::uint64_t stop_tries = 0;  ///< moves tried to find a position to stop at
@@ -99,9 +100,9 @@ struct Body_counts {
   Edge_counts edges;
   Face_counts faces;
 
-  static constexpr std::array<std::string_view, 9> names{"moves",     "in_region",    "regions",
-                                                         "no_region", "region_cells", "catch_ups",
-                                                         "contacts",  "stop_tries",   "held"};
+  static constexpr std::array<std::string_view, 10> names{
+      "moves",        "in_region", "regions",  "no_region",  "region_cells",
+      "region_walls", "catch_ups", "contacts", "stop_tries", "held"};
 };
 static_assert(names_all_before<Body_counts>(offsetof(Body_counts, edges)));
 

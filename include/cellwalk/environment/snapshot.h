@@ -9,6 +9,7 @@
 
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/cell_clusters.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/records/cell_soup.h>
 
@@ -153,6 +154,8 @@ class Snapshot {
   }
   /// The number of facets whose plane could not be certified; they are always decided exactly.
   std::size_t uncertified_planes() const { return uncertified_planes_; }
+  /// The walls by clusters of cells, made where they are asked for.
+  const detail::Cell_clusters<D>& clusters() const { return clusters_; }
 
   // --- state
   /// The number of edits: every update below that affects walks increments it.
@@ -225,6 +228,7 @@ class Snapshot {
   std::size_t uncertified_planes_ = 0;
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
   std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
+  detail::Cell_clusters<D> clusters_;
   /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the
   /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;

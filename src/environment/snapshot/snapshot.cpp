@@ -69,12 +69,14 @@ void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
   Snapshot_compiler<D> compiler(*this);
   for (std::size_t i = 0; i < facet_count(a); ++i)
     if (neighbour(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
+  for (const Cell c : {a, b}) clusters_.forget(c);
   ++epoch_;
 }
 
 template <int D>
 void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
   geometry_epoch_ = ++epoch_;
+  for (const Cell c : cells) clusters_.forget(c);
   Snapshot_compiler<D> compiler(*this);
   // Convex pairs depend on the first vertices of loops, including those of neighbours.
   for (const Cell c : cells) compiler.turn_loops(c);
@@ -145,6 +147,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   for (auto next = static_cast<std::uint32_t>(cell_of_index_.size()); indices.size() < cells.size(); ++next)
     indices.push_back(next);
 
+  clusters_.clear();
   Snapshot_compiler<D> compiler(*this);
   Free_runs left_blocks, left_vertices;
   for (const Cell c : removed) {

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "region_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cellwalk::detail {
+namespace {
+
+/// Smaller bodies have one region.
+constexpr std::size_t least_vertices = 33;
+/// A search may look at so many cells, and those of a step at so many.
+constexpr std::size_t most_clusters = 64, most_walls = 256, most_walls_a_step = 2048;
+/// Moves without a search after one in vain; twice as many after each of those in a row.
+constexpr std::uint8_t least_wait = 4, most_wait = 128;
+/// There are so many regions at most, or one for so many vertices.
+constexpr std::size_t least_places = 64, vertices_a_place = 4;
+/// The margin about a star, in its sizes.
+constexpr double least_margin = 0.05, most_margin = 16;
+
+}  // namespace
+
+template <int D>
+Region_pool<D>::Region_pool(std::size_t vertices) {
+  if (vertices < least_vertices) return;
+  known_.resize(vertices);
+  for (Known& known : known_) known.fill(none);
+  wait_.resize(vertices);
+  waits_.resize(vertices, least_wait);
+}
+
+template <int D>
+void Region_pool<D>::begin_step(bool is_used) {
+  is_used_ = is_used && !known_.empty();
+  walls_left_ = most_walls_a_step;
+}
+
+template <int D>
+bool Region_pool<D>::knows(std::uint32_t vertex, std::uint32_t region) const {
+  const Known& known = known_[vertex];
+  return (known[0] == region) | (known[1] == region) | (known[2] == region) | (known[3] == region);
+}
+
+template <int D>
+bool Region_pool<D>::know_star(std::uint32_t vertex, std::uint32_t region,
+                               const Body_topology& topology) const {
+  for (const Corner& corner : topology.corners_of(vertex))
+    if (!knows(corner.other, region)) return false;
+  return true;
+}
+
+template <int D>
+void Region_pool<D>::add(std::uint32_t vertex, std::uint32_t region) {
+  Known& known = known_[vertex];
+  if (known.back() != none) --users_[known.back()];
+  std::move_backward(known.begin(), known.end() - 1, known.end());
+  known[0] = region;
+  ++users_[region];
+}
+
+template <int D>
+bool Region_pool<D>::try_move(std::uint32_t vertex, const Point<D>& target,
+                              std::span<const Point<D>> positions, const Body_topology& topology,
+                              Predicate_counts& counts) {
+  Known& known = known_[vertex];
+  for (const std::uint32_t region : known) {
+    if (region == none) break;
+    if (know_star(vertex, region, topology) && regions_[region].holds(target, counts)) {
+      set_only(vertex, region);
+      return true;
+    }
+  }
+  if (wait_[vertex] > 0) return false;
+  // Others that hold the neighbours may hold the vertex as well, or its neighbours without their knowing it.
+  const auto has = [&](std::uint32_t region) {
+    if (!regions_[region].holds(target, counts) || !take_in(vertex, region, positions, topology, counts))
+      return false;
+    set_only(vertex, region);
+    return true;
+  };
+  for (const std::uint32_t region : Known(known))
+    if (region != none && has(region)) return true;
+  for (const Corner& corner : topology.corners_of(vertex))
+    for (const std::uint32_t region : Known(known_[corner.other]))
+      if (region != none && !knows(vertex, region) && has(region)) return true;
+  return false;
+}
+
+/// Of the regions that held the vertex, it is known to stay in this one.
+template <int D>
+void Region_pool<D>::set_only(std::uint32_t vertex, std::uint32_t region) {
+  Known& known = known_[vertex];
+  if (known[0] == region && known[1] == none) return;
+  for (const std::uint32_t old : known)
+    if (old != none) --users_[old];
+  known.fill(none);
+  known[0] = region;
+  ++users_[region];
+}
+
+/// True if a region holds a vertex and its neighbours: then they know it.
+template <int D>
+bool Region_pool<D>::take_in(std::uint32_t vertex, std::uint32_t region, std::span<const Point<D>> positions,
+                             const Body_topology& topology, Predicate_counts& counts) {
+  const auto takes = [&](std::uint32_t v) {
+    if (knows(v, region)) return true;
+    if (!regions_[region].holds(positions[v], counts)) return false;
+    add(v, region);
+    return true;
+  };
+  if (!takes(vertex)) return false;
+  return std::ranges::all_of(topology.corners_of(vertex),
+                             [&](const Corner& corner) { return takes(corner.other); });
+}
+
+template <int D>
+bool Region_pool<D>::should_search(std::uint32_t vertex) {
+  if (walls_left_ == 0) return false;
+  if (wait_[vertex] == 0) return true;
+  --wait_[vertex];
+  return false;
+}
+
+template <int D>
+bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& particle, std::uint32_t vertex,
+                            const Point<D>& target, std::span<const Point<D>> positions,
+                            const Body_topology& topology, Body_counts& counts) {
+  thread_local std::vector<Point<D>> star;
+  star.assign({particle.position, target});
+  for (const Corner& corner : topology.corners_of(vertex)) star.push_back(positions[corner.other]);
+  const Box<D> box = box_of<D>(star);
+  double size = 0;
+  for (std::size_t k = 0; k < D; ++k) size = std::max(size, box.high[k] - box.low[k]);
+
+  Region_request<D> request;
+  request.positions = star;
+  request.most_cells = most_clusters;
+  request.by_clusters = true;
+  request.most_walls = most_walls;
+  request.margin = margin_ * size;
+  request.keeps_all = true;
+  Region_effort effort;
+  auto found = find_pooled_region(snapshot, particle, request, effort);
+  counts.region_cells += effort.cells;
+  counts.region_walls += effort.walls;
+  walls_left_ -= std::min<std::size_t>(walls_left_, effort.walls + 1);
+  if (effort.is_exhausted)
+    margin_ = std::max(least_margin, 0.7 * margin_);
+  else if (found && 2 * effort.walls < most_walls)
+    margin_ = std::min(most_margin, 1.4 * margin_);
+  ++(found ? counts.regions : counts.no_region);
+  const std::uint32_t place = found ? free_place() : none;
+  if (place == none) {
+    wait_[vertex] = waits_[vertex];
+    waits_[vertex] = static_cast<std::uint8_t>(std::min<int>(2 * waits_[vertex], most_wait));
+    return false;
+  }
+  waits_[vertex] = least_wait;
+  regions_[place] = std::move(*found);
+  return take_in(vertex, place, positions, topology, counts.edges.walk.predicates);
+}
+
+template <int D>
+std::uint32_t Region_pool<D>::free_place() {
+  if (regions_.size() < std::max(least_places, known_.size() / vertices_a_place)) {
+    const Point<D> origin{};
+    regions_.emplace_back(Particle<D>{}, origin, origin);
+    users_.push_back(0);
+    return static_cast<std::uint32_t>(regions_.size() - 1);
+  }
+  for (std::size_t tried = 0; tried < regions_.size(); ++tried) {
+    hand_ = hand_ + 1 == regions_.size() ? 0 : hand_ + 1;
+    if (users_[hand_] == 0) return hand_;
+  }
+  return none;
+}
+
+template <int D>
+void Region_pool<D>::place(std::uint32_t vertex, const Point<D>& position, Predicate_counts& counts) {
+  if (known_.empty()) return;
+  Known& known = known_[vertex];
+  std::size_t kept = 0;
+  for (const std::uint32_t region : Known(known)) {
+    if (region == none) break;
+    if (regions_[region].holds(position, counts))
+      known[kept++] = region;
+    else
+      --users_[region];
+  }
+  std::fill(known.begin() + static_cast<std::ptrdiff_t>(kept), known.end(), none);
+}
+
+template <int D>
+void Region_pool<D>::forget_all() {
+  for (Known& known : known_) known.fill(none);
+  std::fill(users_.begin(), users_.end(), 0);
+}
+
+template <int D>
+void Region_pool<D>::clear() {
+  forget_all();
+  regions_.clear();
+  users_.clear();
+}
+
+template class Region_pool<2>;
+template class Region_pool<3>;
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Regions free of walls that stand still while the parts of a body move through them. Theory: docs/bodies.md,
+// clearance.
+#ifndef CELLWALK_BODY_REGION_POOL_H
+#define CELLWALK_BODY_REGION_POOL_H
+
+#include <cellwalk/body/step.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "body_topology.h"
+#include "pooled_region.h"
+
+namespace cellwalk::detail {
+
+/// Each vertex knows some of the regions that hold its position.
+template <int D>
+class Region_pool {
+ public:
+  explicit Region_pool(std::size_t vertices);
+
+  /// True if regions of parts of the body are used: it is large enough, and it is asked for.
+  bool is_used() const { return is_used_; }
+  /// True if some region is known to hold the vertex.
+  bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
+  /// One of those.
+  /// \pre holds(vertex)
+  const Pooled_region<D>& region_of(std::uint32_t vertex) const { return regions_[known_[vertex][0]]; }
+
+  /// Begins a step, with or without regions.
+  void begin_step(bool is_used);
+  /// True if a region there is holds a vertex, its neighbours, and the target; then the vertex is taken to lie
+  /// there.
+  bool try_move(std::uint32_t vertex, const Point<D>& target, std::span<const Point<D>> positions,
+                const Body_topology& topology, Predicate_counts& counts);
+  /// True if a region for a vertex should be looked for now.
+  bool should_search(std::uint32_t vertex);
+  /// Looks for a region that holds the same. True if it is found; then try_move() is true.
+  /// \pre should_search(vertex), try_move() was false
+  /// \param particle of the vertex, at its position
+  bool search(const Snapshot<D>& snapshot, const Particle<D>& particle, std::uint32_t vertex,
+              const Point<D>& target, std::span<const Point<D>> positions, const Body_topology& topology,
+              Body_counts& counts);
+  /// A vertex came to lie elsewhere.
+  void place(std::uint32_t vertex, const Point<D>& position, Predicate_counts& counts);
+  /// No vertex is known to lie in a region.
+  void forget_all();
+  /// Edits of the environment void all regions.
+  void clear();
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  /// Regions that hold a vertex, the last found first, then `none`.
+  using Known = std::array<std::uint32_t, 4>;
+
+  bool knows(std::uint32_t vertex, std::uint32_t region) const;
+  bool know_star(std::uint32_t vertex, std::uint32_t region, const Body_topology& topology) const;
+  void add(std::uint32_t vertex, std::uint32_t region);
+  void set_only(std::uint32_t vertex, std::uint32_t region);
+  bool take_in(std::uint32_t vertex, std::uint32_t region, std::span<const Point<D>> positions,
+               const Body_topology& topology, Predicate_counts& counts);
+  /// A place for a region; `none` if there is none.
+  std::uint32_t free_place();
+
+  bool is_used_ = false;
+  std::vector<Known> known_;  ///< of each vertex
+  std::vector<std::uint8_t> wait_,
+      waits_;  ///< moves until the next search for a vertex; the last such number
+  std::vector<Pooled_region<D>> regions_;
+  std::vector<std::uint32_t> users_;  ///< vertices known to lie in each
+  std::uint32_t hand_ = 0;            ///< the place looked at next for one without vertices
+  double margin_ = 1;                 ///< about a star, in its sizes
+  std::size_t walls_left_ = 0;        ///< that may be looked at in this step
+};
+
+extern template class Region_pool<2>;
+extern template class Region_pool<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_REGION_POOL_H

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The walls of many cells at once: cells that follow one another in the snapshot's order form a cluster, which
+// knows the boxes of its walls and of its passages to other clusters. A flood of clusters finds the walls near
+// a box without a look at the cells between. Theory: docs/bodies.md, clearance.
+#ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTERS_H
+#define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTERS_H
+
+#include <cellwalk/internal/environment/planes.h>
+#include <cellwalk/internal/kernel/box.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cellwalk {
+
+enum class Cell : std::uint32_t;
+template <int D>
+class Snapshot;
+
+}  // namespace cellwalk
+
+namespace cellwalk::detail {
+
+/// Boxes of four facets, in the frame of the snapshot, rounded outwards. Lanes without a facet meet no box.
+template <int D>
+struct Facet_boxes {
+  std::array<Float4, D> low, high;
+  std::array<std::uint32_t, 4> facets;  ///< half-facets that are walls, or clusters behind passages
+};
+
+template <int D>
+struct Cell_cluster {
+  std::vector<Facet_boxes<D>> walls, passages;
+};
+
+/// A box in the frame, rounded outwards, each bound in all lanes.
+template <int D>
+struct Frame_box {
+  std::array<Float4, D> low, high;
+
+  Frame_box(const Plane_frame<D>& frame, const Box<D>& box);
+  /// The lanes whose boxes meet it, as a bit mask.
+  unsigned met(const Facet_boxes<D>& boxes) const {
+    Int4 all = boxes.low[0] <= high[0];
+    for (std::size_t k = 0; k < D; ++k) {
+      if (k > 0) all &= boxes.low[k] <= high[k];
+      all &= low[k] <= boxes.high[k];
+    }
+    return lane_mask(all);
+  }
+};
+
+/// The clusters of a snapshot, each made when it is first asked for. A copy has none yet.
+/// Thread safety: const members may be called from any number of threads.
+template <int D>
+class Cell_clusters {
+ public:
+  Cell_clusters() = default;
+  Cell_clusters(const Cell_clusters&) noexcept {}
+  Cell_clusters& operator=(const Cell_clusters&) noexcept {
+    clear();
+    return *this;
+  }
+  ~Cell_clusters() { clear(); }
+
+  /// The number of a cell's cluster, of the snapshot that has these clusters.
+  std::uint32_t cluster_of(const Snapshot<D>& snapshot, Cell cell) const;
+  const Cell_cluster<D>& cluster(const Snapshot<D>& snapshot, std::uint32_t number) const;
+  /// A cell changes: its walls, its neighbours, or the positions of its vertices.
+  void forget(Cell cell);
+  /// Names of cells are given out or taken back.
+  void clear();
+
+ private:
+  struct Table;
+  const Table& table(const Snapshot<D>& snapshot) const;
+
+  mutable std::atomic<Table*> table_{nullptr};
+};
+
+extern template class Cell_clusters<2>;
+extern template class Cell_clusters<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTERS_H
