@@ -53,17 +53,17 @@ template <int D>
 template <int D>
 bool Body_state<D>::move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
   move_untested(vertex, target, counts);
-  pool.place(vertex, target, counts.edges.walk.predicates);
+  if (pool.holds(vertex)) pool.forget(vertex);
   return true;
 }
 
 template <int D>
 bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
-  if (!pool.try_move(vertex, target, positions, topology, counts.edges.walk.predicates)) {
+  if (!pool.try_move(vertex, target, positions, topology)) {
     if (!pool.should_search(vertex)) return false;
     refresh_vertex(vertex, counts);
     if (!pool.search(*snapshot, particles[vertex], vertex, target, positions, topology, counts) ||
-        !pool.try_move(vertex, target, positions, topology, counts.edges.walk.predicates))
+        !pool.try_move(vertex, target, positions, topology))
       return false;
   }
   move_untested(vertex, target, counts);
@@ -178,8 +178,7 @@ template <int D>
 void Body_state<D>::place(std::uint32_t vertex, const Point<D>& position) {
   positions[vertex] = position;
   if (region.has_region()) region.set_outside(vertex, !region.holds(position), topology);
-  Predicate_counts uncounted;
-  pool.place(vertex, position, uncounted);
+  pool.place(vertex, position);
 }
 
 template struct Body_state<2>;

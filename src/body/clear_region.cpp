@@ -11,7 +11,7 @@ template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,
                                                  const Region_request<D>& request, Region_effort& effort) {
   thread_local std::vector<Cell> found;
-  Region_search<D, Clear_region<D>> search(snapshot, anchor, request, effort, found);
+  Region_search<D> search(snapshot, anchor, request, effort, found);
   if (!(request.by_clusters ? search.find_by_clusters() : search.find())) return {};
   return search.region();
 }

@@ -6,6 +6,9 @@
 
 #include <cellwalk/walk/walk.h>
 
+#include <boost/container/static_vector.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +16,7 @@
 #include <span>
 
 #include "open_box.h"
+#include "wall_plane.h"
 
 namespace cellwalk::detail {
 
@@ -21,8 +25,7 @@ namespace cellwalk::detail {
 template <int D>
 class Clear_region {
  public:
-  static constexpr std::size_t most_planes = 6;
-  static constexpr bool has_wall_planes = false;
+  static constexpr std::size_t most_planes = 16;
 
   Clear_region(const Particle<D>& anchor, const Point<D>& low, const Point<D>& high)
       : box_(low, high), anchor_(anchor) {}
@@ -30,45 +33,66 @@ class Clear_region {
   /// A particle in it: the walk from there to any point held is free.
   const Particle<D>& anchor() const { return anchor_; }
   const Open_box<D>& box() const { return box_; }
-  std::size_t plane_count() const { return plane_count_; }
+  std::size_t plane_count() const { return planes_.size(); }
 
-  /// False where rounding leaves doubt.
-  bool holds(const Point<D>& x) const { return box_.holds(x) && is_below_planes(x); }
+  /// False where rounding leaves doubt; along the plane of a wall there is none.
+  bool holds(const Point<D>& x) const { return box_.holds(x) && (planes_.empty() || is_before_planes(x)); }
   /// True if it holds all of them.
   /// \pre they are finite.
   /// Cost: half a nanosecond a point where no half-space cuts the box.
   bool holds_all(std::span<const Point<D>> points) const {
-    return box_.holds_all(points) && (plane_count_ == 0 || are_below_planes(points));
+    return box_.holds_all(points) && (planes_.empty() || are_before_planes(points));
   }
 
   void set_box(const Point<D>& low, const Point<D>& high) { box_ = {low, high}; }
   /// Makes it smaller: to the part below (above) a value along an axis.
   void cut_above(int axis, double value) { box_.cut_above(axis, value); }
   void cut_below(int axis, double value) { box_.cut_below(axis, value); }
-  /// To the points whose product with the normal, as rounded, is less than the offset.
+  /// To the points before a plane.
   /// \pre plane_count() < most_planes
-  void cut(const Vector<D>& normal, double offset) { planes_[plane_count_++] = {normal, offset}; }
+  void cut(const Wall_plane<D>& plane) {
+    const std::size_t lane = planes_.size() % 2;
+    if (lane == 0) pairs_.push_back({});
+    for (std::size_t k = 0; k < D; ++k) pairs_.back().normal[k][lane] = plane.normal[k];
+    pairs_.back().inside[lane] = plane.inside;
+    planes_.push_back(plane);
+  }
+
+  /// True if a facet lies in or behind the plane of a wall that bounds it.
+  bool has_behind_walls(const Cell_view<D>& cell, std::size_t i) const {
+    for (const Wall_plane<D>& plane : planes_)
+      if (plane.has_behind(cell, i)) return true;
+    return false;
+  }
 
  private:
-  struct Plane {
-    Vector<D> normal;
-    double offset;
+  /// Two planes at once. A lane without one has every point before it.
+  struct Plane_pair {
+    std::array<Double2, D> normal{};
+    Double2 inside{1, 1};
   };
 
-  bool is_below_planes(const Point<D>& x) const {
-    for (std::size_t i = 0; i < plane_count_; ++i)
-      if (!(dot(planes_[i].normal, x) < planes_[i].offset)) return false;
+  bool is_before_planes(const Point<D>& x) const {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const Plane_pair& pair = pairs_[i];
+      Double2 value = pair.normal[0] * x[0];
+      for (std::size_t k = 1; k < D; ++k) value += pair.normal[k] * x[k];
+      if (all_true(less(value, pair.inside))) [[likely]]
+        continue;
+      for (std::size_t j = 2 * i; j < std::min(2 * i + 2, planes_.size()); ++j)
+        if (!planes_[j].has_before(x)) return false;
+    }
     return true;
   }
-  bool are_below_planes(std::span<const Point<D>> points) const {
-    for (std::size_t i = 0; i < plane_count_; ++i)
-      if (!(furthest<D>(planes_[i].normal, points) < planes_[i].offset)) return false;
+  bool are_before_planes(std::span<const Point<D>> points) const {
+    for (const Wall_plane<D>& plane : planes_)
+      if (!(furthest<D>(plane.normal, points) < plane.inside) && !plane.has_all_before(points)) return false;
     return true;
   }
 
   Open_box<D> box_;
-  std::array<Plane, most_planes> planes_;
-  std::size_t plane_count_ = 0;
+  boost::container::static_vector<Wall_plane<D>, most_planes> planes_;
+  boost::container::static_vector<Plane_pair, most_planes / 2> pairs_;  ///< the same
   Particle<D> anchor_;
 };
 
@@ -81,6 +105,7 @@ struct Region_request {
   double steps_around = 4;              ///< and a margin of so many steps on all sides
   double margin = 0;                    ///< and one more, of this length
   bool keeps_all = false;               ///< without one of the positions, there is no region
+  std::size_t most_planes = 6;          ///< it is cut by; at most Clear_region::most_planes
   std::size_t most_cells = 64;          ///< it may be looked for in, or clusters of cells
   /// Look for walls by clusters of cells; more than most_walls walls that the box meets are too many.
   bool by_clusters = false;

@@ -15,7 +15,7 @@ constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 409
 
 /// The walls about larger bodies are found by clusters, of so many at most; then the region holds the body or
 /// is none, as parts of it have their own.
-constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64;
+constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64, most_walls = 1024;
 
 }  // namespace
 
@@ -45,8 +45,12 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.targets = targets;
   request.most_cells = std::clamp(cells_per_vertex * positions.size(), least_cells, most_cells);
   request.steps_ahead = steps_ahead_;
-  request.by_clusters = request.keeps_all = positions.size() >= least_vertices_by_clusters;
-  if (request.by_clusters) request.most_cells = most_clusters;
+  request.by_clusters = positions.size() >= least_vertices_by_clusters;
+  if (request.by_clusters) {
+    request.most_cells = most_clusters;
+    request.most_walls = most_walls;
+    request.most_planes = Clear_region<D>::most_planes;
+  }
   Region_effort effort;
   const auto found = find_clear_region(snapshot, anchor, request, effort);
   counts.region_cells += effort.cells;

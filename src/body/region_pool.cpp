@@ -2,7 +2,6 @@
 #include "region_pool.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace cellwalk::detail {
 namespace {
@@ -15,6 +14,8 @@ constexpr std::size_t most_clusters = 64, most_walls = 256, most_walls_a_step = 
 constexpr std::uint8_t least_wait = 4, most_wait = 128;
 /// There are so many regions at most, or one for so many vertices.
 constexpr std::size_t least_places = 64, vertices_a_place = 4;
+/// Among so many regions, one is looked for before a new one is.
+constexpr std::size_t most_tried = 64;
 /// The margin about a star, in its sizes.
 constexpr double least_margin = 0.05, most_margin = 16;
 
@@ -24,7 +25,7 @@ template <int D>
 Region_pool<D>::Region_pool(std::size_t vertices) {
   if (vertices < least_vertices) return;
   known_.resize(vertices);
-  for (Known& known : known_) known.fill(none);
+  for (Known& known : known_) known = Known{none, none, none, none};
   wait_.resize(vertices);
   waits_.resize(vertices, least_wait);
 }
@@ -36,75 +37,72 @@ void Region_pool<D>::begin_step(bool is_used) {
 }
 
 template <int D>
-bool Region_pool<D>::knows(std::uint32_t vertex, std::uint32_t region) const {
-  const Known& known = known_[vertex];
-  return (known[0] == region) | (known[1] == region) | (known[2] == region) | (known[3] == region);
-}
-
-template <int D>
-bool Region_pool<D>::know_star(std::uint32_t vertex, std::uint32_t region,
-                               const Body_topology& topology) const {
+bool Region_pool<D>::know_star(std::uint32_t vertex, int region, const Body_topology& topology) const {
   for (const Corner& corner : topology.corners_of(vertex))
     if (!knows(corner.other, region)) return false;
   return true;
 }
 
 template <int D>
-void Region_pool<D>::add(std::uint32_t vertex, std::uint32_t region) {
+void Region_pool<D>::add(std::uint32_t vertex, int region) {
   Known& known = known_[vertex];
-  if (known.back() != none) --users_[known.back()];
-  std::move_backward(known.begin(), known.end() - 1, known.end());
-  known[0] = region;
-  ++users_[region];
+  if (known[3] != none) --users(known[3]);
+  known = Known{region, known[0], known[1], known[2]};
+  ++users(region);
 }
 
 template <int D>
 bool Region_pool<D>::try_move(std::uint32_t vertex, const Point<D>& target,
-                              std::span<const Point<D>> positions, const Body_topology& topology,
-                              Predicate_counts& counts) {
-  Known& known = known_[vertex];
-  for (const std::uint32_t region : known) {
-    if (region == none) break;
-    if (know_star(vertex, region, topology) && regions_[region].holds(target, counts)) {
-      set_only(vertex, region);
+                              std::span<const Point<D>> positions, const Body_topology& topology) {
+  const Known known = known_[vertex];
+  for (int k = 0; k < places_known && known[k] != none; ++k)
+    if (know_star(vertex, known[k], topology) && at(known[k]).holds(target)) {
+      stay_in(vertex, known[k], target);
       return true;
     }
-  }
   if (wait_[vertex] > 0) return false;
   // Others that hold the neighbours may hold the vertex as well, or its neighbours without their knowing it.
-  const auto has = [&](std::uint32_t region) {
-    if (!regions_[region].holds(target, counts) || !take_in(vertex, region, positions, topology, counts))
-      return false;
-    set_only(vertex, region);
+  const auto has = [&](int region) {
+    if (!at(region).holds(target) || !take_in(vertex, region, positions, topology)) return false;
+    stay_in(vertex, region, target);
     return true;
   };
-  for (const std::uint32_t region : Known(known))
-    if (region != none && has(region)) return true;
-  for (const Corner& corner : topology.corners_of(vertex))
-    for (const std::uint32_t region : Known(known_[corner.other]))
-      if (region != none && !knows(vertex, region) && has(region)) return true;
+  for (int k = 0; k < places_known && known[k] != none; ++k)
+    if (has(known[k])) return true;
+  for (const Corner& corner : topology.corners_of(vertex)) {
+    const Known of_other = known_[corner.other];
+    for (int k = 0; k < places_known && of_other[k] != none; ++k)
+      if (!knows(vertex, of_other[k]) && has(of_other[k])) return true;
+  }
+  if (regions_.size() > most_tried) return false;
+  for (std::size_t region = 0; region < regions_.size(); ++region)
+    if (has(static_cast<int>(region))) return true;
   return false;
 }
 
-/// Of the regions that held the vertex, it is known to stay in this one.
+/// The vertex moves within a region: it comes first of those that hold it then.
 template <int D>
-void Region_pool<D>::set_only(std::uint32_t vertex, std::uint32_t region) {
+void Region_pool<D>::stay_in(std::uint32_t vertex, int region, const Point<D>& position) {
   Known& known = known_[vertex];
-  if (known[0] == region && known[1] == none) return;
-  for (const std::uint32_t old : known)
-    if (old != none) --users_[old];
-  known.fill(none);
-  known[0] = region;
-  ++users_[region];
+  Known kept{region, none, none, none};
+  int count = 1;
+  for (int k = 0; k < places_known && known[k] != none; ++k) {
+    if (known[k] == region) continue;
+    if (at(known[k]).holds(position))
+      kept[count++] = known[k];
+    else
+      --users(known[k]);
+  }
+  known = kept;
 }
 
 /// True if a region holds a vertex and its neighbours: then they know it.
 template <int D>
-bool Region_pool<D>::take_in(std::uint32_t vertex, std::uint32_t region, std::span<const Point<D>> positions,
-                             const Body_topology& topology, Predicate_counts& counts) {
+bool Region_pool<D>::take_in(std::uint32_t vertex, int region, std::span<const Point<D>> positions,
+                             const Body_topology& topology) {
   const auto takes = [&](std::uint32_t v) {
     if (knows(v, region)) return true;
-    if (!regions_[region].holds(positions[v], counts)) return false;
+    if (!at(region).holds(positions[v])) return false;
     add(v, region);
     return true;
   };
@@ -139,8 +137,9 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   request.most_walls = most_walls;
   request.margin = margin_ * size;
   request.keeps_all = true;
+  request.most_planes = Clear_region<D>::most_planes;
   Region_effort effort;
-  auto found = find_pooled_region(snapshot, particle, request, effort);
+  auto found = find_clear_region(snapshot, particle, request, effort);
   counts.region_cells += effort.cells;
   counts.region_walls += effort.walls;
   walls_left_ -= std::min<std::size_t>(walls_left_, effort.walls + 1);
@@ -149,50 +148,57 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   else if (found && 2 * effort.walls < most_walls)
     margin_ = std::min(most_margin, 1.4 * margin_);
   ++(found ? counts.regions : counts.no_region);
-  const std::uint32_t place = found ? free_place() : none;
+  const int place = found ? free_place() : none;
   if (place == none) {
     wait_[vertex] = waits_[vertex];
     waits_[vertex] = static_cast<std::uint8_t>(std::min<int>(2 * waits_[vertex], most_wait));
     return false;
   }
   waits_[vertex] = least_wait;
-  regions_[place] = std::move(*found);
-  return take_in(vertex, place, positions, topology, counts.edges.walk.predicates);
+  regions_[static_cast<std::size_t>(place)] = *found;
+  return take_in(vertex, place, positions, topology);
 }
 
 template <int D>
-std::uint32_t Region_pool<D>::free_place() {
+int Region_pool<D>::free_place() {
   if (regions_.size() < std::max(least_places, known_.size() / vertices_a_place)) {
     const Point<D> origin{};
     regions_.emplace_back(Particle<D>{}, origin, origin);
     users_.push_back(0);
-    return static_cast<std::uint32_t>(regions_.size() - 1);
+    return static_cast<int>(regions_.size() - 1);
   }
   for (std::size_t tried = 0; tried < regions_.size(); ++tried) {
-    hand_ = hand_ + 1 == regions_.size() ? 0 : hand_ + 1;
-    if (users_[hand_] == 0) return hand_;
+    hand_ = static_cast<std::size_t>(hand_) + 1 == regions_.size() ? 0 : hand_ + 1;
+    if (users(hand_) == 0) return hand_;
   }
   return none;
 }
 
 template <int D>
-void Region_pool<D>::place(std::uint32_t vertex, const Point<D>& position, Predicate_counts& counts) {
-  if (known_.empty()) return;
+void Region_pool<D>::place(std::uint32_t vertex, const Point<D>& position) {
+  if (!holds(vertex)) return;
   Known& known = known_[vertex];
-  std::size_t kept = 0;
-  for (const std::uint32_t region : Known(known)) {
-    if (region == none) break;
-    if (regions_[region].holds(position, counts))
-      known[kept++] = region;
+  Known kept{none, none, none, none};
+  int count = 0;
+  for (int k = 0; k < places_known && known[k] != none; ++k) {
+    if (at(known[k]).holds(position))
+      kept[count++] = known[k];
     else
-      --users_[region];
+      --users(known[k]);
   }
-  std::fill(known.begin() + static_cast<std::ptrdiff_t>(kept), known.end(), none);
+  known = kept;
+}
+
+template <int D>
+void Region_pool<D>::forget(std::uint32_t vertex) {
+  Known& known = known_[vertex];
+  for (int k = 0; k < places_known && known[k] != none; ++k) --users(known[k]);
+  known = Known{none, none, none, none};
 }
 
 template <int D>
 void Region_pool<D>::forget_all() {
-  for (Known& known : known_) known.fill(none);
+  for (Known& known : known_) known = Known{none, none, none, none};
   std::fill(users_.begin(), users_.end(), 0);
 }
 

@@ -6,14 +6,13 @@
 
 #include <cellwalk/body/step.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "body_topology.h"
-#include "pooled_region.h"
+#include "clear_region.h"
 
 namespace cellwalk::detail {
 
@@ -29,14 +28,16 @@ class Region_pool {
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
   /// One of those.
   /// \pre holds(vertex)
-  const Pooled_region<D>& region_of(std::uint32_t vertex) const { return regions_[known_[vertex][0]]; }
+  const Clear_region<D>& region_of(std::uint32_t vertex) const {
+    return regions_[static_cast<std::size_t>(known_[vertex][0])];
+  }
 
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
   /// True if a region there is holds a vertex, its neighbours, and the target; then the vertex is taken to lie
   /// there.
   bool try_move(std::uint32_t vertex, const Point<D>& target, std::span<const Point<D>> positions,
-                const Body_topology& topology, Predicate_counts& counts);
+                const Body_topology& topology);
   /// True if a region for a vertex should be looked for now.
   bool should_search(std::uint32_t vertex);
   /// Looks for a region that holds the same. True if it is found; then try_move() is true.
@@ -46,33 +47,38 @@ class Region_pool {
               const Point<D>& target, std::span<const Point<D>> positions, const Body_topology& topology,
               Body_counts& counts);
   /// A vertex came to lie elsewhere.
-  void place(std::uint32_t vertex, const Point<D>& position, Predicate_counts& counts);
-  /// No vertex is known to lie in a region.
+  void place(std::uint32_t vertex, const Point<D>& position);
+  /// A vertex is not known to lie in a region.
+  void forget(std::uint32_t vertex);
+  /// No vertex is.
   void forget_all();
   /// Edits of the environment void all regions.
   void clear();
 
  private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr int none = -1;
   /// Regions that hold a vertex, the last found first, then `none`.
-  using Known = std::array<std::uint32_t, 4>;
+  using Known = Int4;
+  static constexpr int places_known = 4;
 
-  bool knows(std::uint32_t vertex, std::uint32_t region) const;
-  bool know_star(std::uint32_t vertex, std::uint32_t region, const Body_topology& topology) const;
-  void add(std::uint32_t vertex, std::uint32_t region);
-  void set_only(std::uint32_t vertex, std::uint32_t region);
-  bool take_in(std::uint32_t vertex, std::uint32_t region, std::span<const Point<D>> positions,
-               const Body_topology& topology, Predicate_counts& counts);
+  bool knows(std::uint32_t vertex, int region) const { return lane_mask(known_[vertex] == region) != 0; }
+  std::uint32_t& users(int region) { return users_[static_cast<std::size_t>(region)]; }
+  const Clear_region<D>& at(int region) const { return regions_[static_cast<std::size_t>(region)]; }
+  bool know_star(std::uint32_t vertex, int region, const Body_topology& topology) const;
+  void add(std::uint32_t vertex, int region);
+  void stay_in(std::uint32_t vertex, int region, const Point<D>& position);
+  bool take_in(std::uint32_t vertex, int region, std::span<const Point<D>> positions,
+               const Body_topology& topology);
   /// A place for a region; `none` if there is none.
-  std::uint32_t free_place();
+  int free_place();
 
   bool is_used_ = false;
   std::vector<Known> known_;  ///< of each vertex
   std::vector<std::uint8_t> wait_,
       waits_;  ///< moves until the next search for a vertex; the last such number
-  std::vector<Pooled_region<D>> regions_;
+  std::vector<Clear_region<D>> regions_;
   std::vector<std::uint32_t> users_;  ///< vertices known to lie in each
-  std::uint32_t hand_ = 0;            ///< the place looked at next for one without vertices
+  int hand_ = 0;                      ///< the place looked at next for one without vertices
   double margin_ = 1;                 ///< about a star, in its sizes
   std::size_t walls_left_ = 0;        ///< that may be looked at in this step
 };

@@ -31,8 +31,7 @@ constexpr int most_turns = 6;
 /// Cells of so many blocks are looked at in one go.
 constexpr std::size_t blocks_at_once = 16;
 
-/// \tparam Region Clear_region<D> or Pooled_region<D>
-template <int D, class Region>
+template <int D>
 class Region_search {
  public:
   /// \param found scratch space
@@ -102,16 +101,18 @@ class Region_search {
               gap, cellwalk::lane_max(boxes.low[k] - kept.high[k], kept.low[k] - boxes.high[k]));
         for (unsigned left = met; left != 0; left &= left - 1) {
           const int lane = std::countr_zero(left);
+          const Half_facet wall{boxes.facets[static_cast<std::size_t>(lane)]};
           ++effort_.walls;
-          walls.emplace_back(gap[lane], Half_facet{boxes.facets[static_cast<std::size_t>(lane)]});
+          if (gap[lane] > 0)
+            walls.emplace_back(gap[lane], wall);
+          else if (!cut_off(wall))  // so end most searches in vain
+            return false;
         }
       }
     }
     std::sort(walls.begin(), walls.end());
-    for (const auto& [gap, wall] : walls) {
-      const Cell cell = snapshot_.cell_of(wall);
-      if (!cut_off(snapshot_.view(cell), snapshot_.facet_of(wall))) return false;
-    }
+    for (const auto& [gap, wall] : walls)
+      if (!cut_off(wall)) return false;
     return region_.holds(region_.anchor().position);
   }
 
@@ -124,7 +125,7 @@ class Region_search {
     // The box is open: a body without extent needs one around it.
     return is_good && region_.holds(region_.anchor().position);
   }
-  const Region& region() const { return region_; }
+  const Clear_region<D>& region() const { return region_; }
 
  private:
   /// Cuts its walls off, and adds its neighbours. False if a cut cannot be made.
@@ -221,6 +222,9 @@ class Region_search {
     is_mapped_ = true;
   }
 
+  bool cut_off(Half_facet wall) {
+    return cut_off(snapshot_.view(snapshot_.cell_of(wall)), snapshot_.facet_of(wall));
+  }
   /// Makes the region smaller until it holds no point of a facet. False if it cannot, without losing its
   /// anchor, or positions if they may not be lost.
   bool cut_off(const Cell_view<D>& cell, std::size_t i, bool may_lose = true) {
@@ -232,8 +236,7 @@ class Region_search {
       if (facet.low[k] >= region_.box().high(k) || facet.high[k] <= region_.box().low(k)) return true;
     for (const Cut_plane<D>& plane : planes_)
       if (is_beyond(plane, cell, i)) return true;
-    if constexpr (Region::has_wall_planes)
-      if (region_.is_behind_walls(cell, i)) return true;
+    if (region_.has_behind_walls(cell, i)) return true;
     return cut_keeping(true, cell, i, facet) || (!targets_.empty() && cut_keeping(false, cell, i, facet)) ||
            (may_lose && !request_.keeps_all && cut_keeping_anchor(cell, i, facet));
   }
@@ -256,12 +259,8 @@ class Region_search {
         above = false;
       }
     }
-    if (best < enough_ && region_.plane_count() < Region::most_planes) {
-      if constexpr (Region::has_wall_planes) {
-        if (cut_by_wall(cell, i, best)) return true;
-      } else if (cut_by_plane(cell, i, outward(cell, i), with_targets, best)) {
-        return true;
-      }
+    if (best < enough_ && region_.plane_count() < request_.most_planes) {
+      if (cut_by_wall(cell, i, with_targets, best)) return true;
       // To part the targets as well would be in vain where they lie behind a wall.
       if (!(best > 0) && (!with_targets || targets_.empty()) &&
           cut_by_plane(cell, i, apart(cell, i), false, 0))
@@ -279,7 +278,7 @@ class Region_search {
 
   /// The cut that loses the fewest positions.
   bool cut_keeping_anchor(const Cell_view<D>& cell, std::size_t i, const Box<D>& facet) {
-    const auto plane = region_.plane_count() < Region::most_planes
+    const auto plane = region_.plane_count() < request_.most_planes
                            ? plane_before(cell, i, outward(cell, i), sizes_)
                            : std::nullopt;
     // Positions before the facet along each axis, behind it, and in the half-space before it.
@@ -312,7 +311,7 @@ class Region_search {
   }
 
   void cut(const Cut_plane<D>& plane) {
-    region_.cut(plane.normal, plane.offset);
+    region_.cut(Wall_plane<D>(plane));
     planes_.push_back(plane);
   }
 
@@ -327,10 +326,8 @@ class Region_search {
     }
   }
   void lose_points(std::span<const Point<D>>& points, std::vector<Point<D>>& left) const {
-    std::vector<Point<D>> held;
-    std::copy_if(points.begin(), points.end(), std::back_inserter(held),
-                 [this](const Point<D>& x) { return region_.holds(x); });
-    left = std::move(held);
+    if (points.data() != left.data()) left.assign(points.begin(), points.end());
+    std::erase_if(left, [this](const Point<D>& x) { return !region_.holds(x); });
     points = left;
   }
 
@@ -349,14 +346,17 @@ class Region_search {
     return true;
   }
 
-  /// Cuts along the plane of a wall, exactly, if the positions lie before it, and further from it than `best`.
-  bool cut_by_wall(const Cell_view<D>& cell, std::size_t i, double best) requires(Region::has_wall_planes) {
+  /// Cuts along the plane of a wall, exactly, if the points to keep lie before it, and further from it than
+  /// `best`.
+  bool cut_by_wall(const Cell_view<D>& cell, std::size_t i, bool with_targets, double best) {
     const Wall_plane<D> plane(cell, i, sizes_);
-    const double gap = best * length(plane.normal);
-    for (const Point<D>& x : positions_)
-      if (best > 0 ? !(dot(plane.normal, x) < plane.inside - gap) : !plane.has_before(x, counts_))
-        return false;
+    const double limit = plane.inside - (best > 0 ? best * length(plane.normal) : 0);
+    const auto are_before = [&](std::span<const Point<D>> points) {
+      return furthest<D>(plane.normal, points) < limit || (!(best > 0) && plane.has_all_before(points));
+    };
+    if (!are_before(positions_) || (with_targets && !are_before(targets_))) return false;
     region_.cut(plane);
+    if (!with_targets) lose_targets();
     return true;
   }
 
@@ -396,13 +396,12 @@ class Region_search {
   // Of both, what the region holds.
   std::span<const Point<D>> positions_, targets_;
   std::vector<Point<D>> positions_left_, targets_left_;
-  Region region_;
-  double enough_ = 0;        ///< distance
-  Predicate_counts counts_;  ///< of planes of walls; not reported
-  Point<D> sizes_;           ///< the largest size of each coordinate in it
+  Clear_region<D> region_;
+  double enough_ = 0;  ///< distance
+  Point<D> sizes_;     ///< the largest size of each coordinate in it
   std::vector<Cell>& found_;
   std::vector<Cell> table_;  ///< of those found, by hash
-  boost::container::static_vector<Cut_plane<D>, Region::most_planes> planes_;
+  boost::container::static_vector<Cut_plane<D>, Clear_region<D>::most_planes> planes_;
   // The box in the frame, each bound in all lanes.
   bool is_mapped_ = false;
   Spread_point<D> low_, high_;

@@ -6,10 +6,13 @@
 
 #include <cellwalk/kernel/policies.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 #include "cut_plane.h"
 
@@ -63,15 +66,24 @@ struct Wall_plane {
       : normal(plane.normal), inside(plane.offset), outside(-std::numeric_limits<double>::infinity()) {}
 
   /// True if a point of the box lies before the plane.
-  bool has_before(const Point<D>& x, Predicate_counts& counts) const {
+  bool has_before(const Point<D>& x) const {
     const double value = dot(normal, x);
-    if (value < inside) return true;
-    if (!corners[0] || value > outside) return false;
-    return side_of(x, counts) < 0;
+    return value < inside || (value <= outside && side_of(x) < 0);
   }
+  bool has_all_before(std::span<const Point<D>> points) const {
+    return corners[0] && std::ranges::all_of(points, [&](const Point<D>& x) { return has_before(x); });
+  }
+  /// True if a facet lies in the plane of the wall, or behind it.
+  bool has_behind(const Cell_view<D>& cell, std::size_t i) const {
+    return corners[0] &&
+           std::ranges::all_of(cell.loop(i), [&](std::uint16_t v) { return side_of(cell.point(v)) >= 0; });
+  }
+
+ private:
   /// The side of any point: < 0 before the plane.
   /// \pre there are corners
-  int side_of(const Point<D>& x, Predicate_counts& counts) const {
+  int side_of(const Point<D>& x) const {
+    Predicate_counts counts;  // not those of walks
     if constexpr (D == 2)
       return -Exact::orientation(counts, *corners[0], *corners[1], x);
     else

@@ -16,14 +16,13 @@
 #include <set>
 #include <vector>
 
-#include "body/pooled_region.h"
+#include "body/clear_region.h"
 #include "body/rooms.h"
 
 namespace cellwalk::test {
 namespace {
 
-using detail::find_pooled_region;
-using detail::Pooled_region;
+using detail::find_clear_region;
 using detail::Region_effort;
 using detail::Region_request;
 
@@ -87,7 +86,7 @@ Found_beside_walls expect_free(const Snapshot<D>& snapshot, double size, int tri
     request.margin = random.real(0.1, 4) * size;
     request.keeps_all = trial % 2 == 0;
     request.by_clusters = true;
-    const auto region = find_pooled_region(snapshot, anchor, request, effort);
+    const auto region = find_clear_region(snapshot, anchor, request, effort);
     ++(region ? result.regions : result.none);
     if (!region) continue;
     EXPECT_TRUE(region->holds(anchor.position));
