@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "clear_region.h"
 
-#include <vector>
-
 #include "region_search.h"
 
 namespace cellwalk::detail {
@@ -10,7 +8,7 @@ namespace cellwalk::detail {
 template <int D>
 std::optional<Clear_region<D>> find_clear_region(const Snapshot<D>& snapshot, const Particle<D>& anchor,
                                                  const Region_request<D>& request, Region_effort& effort) {
-  thread_local std::vector<Cell> found;
+  thread_local Cell_list found;
   Region_search<D> search(snapshot, anchor, request, effort, found);
   if (!(request.by_clusters ? search.find_by_clusters() : search.find())) return {};
   return search.region();

@@ -34,8 +34,8 @@ class Region_pool {
 
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
-  /// True if a region there is holds a vertex, its neighbours, and the target; then the vertex is taken to lie
-  /// there.
+  /// True if a region that there is holds a vertex, its neighbours, and the target; then the vertex is taken
+  /// to lie at the target.
   bool try_move(std::uint32_t vertex, const Point<D>& target, std::span<const Point<D>> positions,
                 const Body_topology& topology);
   /// True if a region for a vertex should be looked for now.

@@ -4,6 +4,8 @@
 #ifndef CELLWALK_BODY_REGION_SEARCH_H
 #define CELLWALK_BODY_REGION_SEARCH_H
 
+#include <cellwalk/internal/environment/cell_cluster.h>
+
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "cell_list.h"
 #include "clear_region.h"
 #include "cut_plane.h"
 #include "wall_plane.h"
@@ -36,7 +39,7 @@ class Region_search {
  public:
   /// \param found scratch space
   Region_search(const Snapshot<D>& snapshot, const Particle<D>& anchor, const Region_request<D>& request,
-                Region_effort& effort, std::vector<Cell>& found)
+                Region_effort& effort, Cell_list& found)
       : snapshot_(snapshot),
         request_(request),
         effort_(effort),
@@ -118,7 +121,7 @@ class Region_search {
 
   bool find() {
     if (!is_finite(sizes_)) return false;
-    found_.assign(1, region_.anchor().cell);
+    found_.assign(region_.anchor().cell);
     bool is_good = true;
     for (std::size_t head = 0; is_good && head < found_.size(); ++head) is_good = visit(found_[head]);
     effort_.cells += found_.size();
@@ -155,14 +158,13 @@ class Region_search {
   /// be made.
   bool enter(Cell cell, std::size_t i) {
     const Cell next = snapshot_.neighbour(Snapshot<D>::half_facet(cell, i));
-    if (next == Cell::none || is_found(next)) return true;
+    if (next == Cell::none || found_.contains(next)) return true;
     if (found_.size() >= request_.most_cells) {
       effort_.is_exhausted = true;
       return cut_off(snapshot_.view(cell), i, false);
     }
     prefetch(next);
-    found_.push_back(next);
-    note_found(next);
+    found_.add(next);
     return true;
   }
 
@@ -173,28 +175,6 @@ class Region_search {
     for (std::size_t b = 0; b < snapshot_.block_count(cell); ++b) __builtin_prefetch(planes + b);
     __builtin_prefetch(snapshot_.links(cell));
   }
-
-  /// Few cells are compared one by one, many looked up in a table.
-  bool is_found(Cell cell) const {
-    if (table_.empty()) return std::find(found_.begin(), found_.end(), cell) != found_.end();
-    std::size_t i = slot(cell);
-    while (table_[i] != Cell::none && table_[i] != cell) i = (i + 1) & (table_.size() - 1);
-    return table_[i] == cell;
-  }
-  void note_found(Cell cell) {
-    if (table_.empty() ? found_.size() < 32 : 2 * found_.size() <= table_.size()) {
-      if (!table_.empty()) put(cell);
-      return;
-    }
-    table_.assign(4 * std::bit_ceil(found_.size()), Cell::none);
-    for (const Cell c : found_) put(c);
-  }
-  void put(Cell cell) {
-    std::size_t i = slot(cell);
-    while (table_[i] != Cell::none) i = (i + 1) & (table_.size() - 1);
-    table_[i] = cell;
-  }
-  std::size_t slot(Cell cell) const { return (to_index(cell) * 0x9e3779b1u >> 8) & (table_.size() - 1); }
 
   /// Facets (bits) of a block whose planes the closed box does not certainly lie inside of. The corner of the
   /// box that is furthest outside is a point like any other: its value is within plane_error.
@@ -399,8 +379,7 @@ class Region_search {
   Clear_region<D> region_;
   double enough_ = 0;  ///< distance
   Point<D> sizes_;     ///< the largest size of each coordinate in it
-  std::vector<Cell>& found_;
-  std::vector<Cell> table_;  ///< of those found, by hash
+  Cell_list& found_;
   boost::container::static_vector<Cut_plane<D>, Clear_region<D>::most_planes> planes_;
   // The box in the frame, each bound in all lanes.
   bool is_mapped_ = false;

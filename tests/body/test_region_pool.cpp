@@ -4,6 +4,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/environment/cell_cluster.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls of many cells at once: cells that follow one another in the snapshot's order form a cluster, which
-// knows the boxes of its walls and of its passages to other clusters. A flood of clusters finds the walls near
-// a box without a look at the cells between. Theory: docs/bodies.md, clearance.
+// The walls of many cells at once: cells that follow one another in the order of the snapshot form a
+// cluster, which knows the boxes of its walls and of its passages to other clusters. A flood of clusters
+// finds the walls near a box without a look at the cells between. Theory: docs/bodies.md, clearance.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTERS_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTERS_H
 
-#include <cellwalk/internal/environment/planes.h>
-#include <cellwalk/internal/kernel/box.h>
-
-#include <array>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace cellwalk {
 
@@ -24,34 +18,8 @@ class Snapshot;
 
 namespace cellwalk::detail {
 
-/// Boxes of four facets, in the frame of the snapshot, rounded outwards. Lanes without a facet meet no box.
 template <int D>
-struct Facet_boxes {
-  std::array<Float4, D> low, high;
-  std::array<std::uint32_t, 4> facets;  ///< half-facets that are walls, or clusters behind passages
-};
-
-template <int D>
-struct Cell_cluster {
-  std::vector<Facet_boxes<D>> walls, passages;
-};
-
-/// A box in the frame, rounded outwards, each bound in all lanes.
-template <int D>
-struct Frame_box {
-  std::array<Float4, D> low, high;
-
-  Frame_box(const Plane_frame<D>& frame, const Box<D>& box);
-  /// The lanes whose boxes meet it, as a bit mask.
-  unsigned met(const Facet_boxes<D>& boxes) const {
-    Int4 all = boxes.low[0] <= high[0];
-    for (std::size_t k = 0; k < D; ++k) {
-      if (k > 0) all &= boxes.low[k] <= high[k];
-      all &= low[k] <= boxes.high[k];
-    }
-    return lane_mask(all);
-  }
-};
+struct Cell_cluster;
 
 /// The clusters of a snapshot, each made when it is first asked for. A copy has none yet.
 /// Thread safety: const members may be called from any number of threads.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a cluster of cells knows: the boxes of its walls and passages. See cell_clusters.h.
+#ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
+#define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
+
+#include <cellwalk/internal/environment/planes.h>
+#include <cellwalk/internal/kernel/box.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cellwalk {
+
+template <int D>
+class Snapshot;
+
+}  // namespace cellwalk
+
+namespace cellwalk::detail {
+
+/// Boxes of four facets, in the frame of the snapshot, rounded outwards. Lanes without a facet meet no box.
+template <int D>
+struct Facet_boxes {
+  std::array<Float4, D> low, high;
+  std::array<std::uint32_t, 4> facets;  ///< half-facets that are walls, or clusters behind passages
+};
+
+template <int D>
+struct Cell_cluster {
+  std::vector<Facet_boxes<D>> walls, passages;
+};
+
+/// A box in the frame, rounded outwards, each bound in all lanes.
+template <int D>
+struct Frame_box {
+  std::array<Float4, D> low, high;
+
+  Frame_box(const Plane_frame<D>& frame, const Box<D>& box);
+  /// The lanes whose boxes meet it, as a bit mask.
+  unsigned met(const Facet_boxes<D>& boxes) const {
+    Int4 all = boxes.low[0] <= high[0];
+    for (std::size_t k = 0; k < D; ++k) {
+      if (k > 0) all &= boxes.low[k] <= high[k];
+      all &= low[k] <= boxes.high[k];
+    }
+    return lane_mask(all);
+  }
+};
+
+/// The cluster of the blocks of cells from number * size on.
+template <int D>
+std::unique_ptr<const Cell_cluster<D>> make_cluster(const Snapshot<D>& snapshot, std::uint32_t number,
+                                                    std::uint32_t size);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
