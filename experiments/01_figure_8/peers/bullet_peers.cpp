@@ -172,7 +172,9 @@ void add_bullet_peers(const Grid_world& world, Peers& peers) {
 
 /// The entry of the plug-in: both precisions of Bullet have the same symbols, so each is loaded apart.
 extern "C" [[gnu::visibility("default")]] void cellwalk_figure_8_peers(
-    const cellwalk::figure_8::Grid_world& world, cellwalk::figure_8::Peers& peers) {
+    const cellwalk::figure_8::Grid_world& world, cellwalk::figure_8::Peers& peers);
+
+void cellwalk_figure_8_peers(const cellwalk::figure_8::Grid_world& world, cellwalk::figure_8::Peers& peers) {
   cellwalk::figure_8::add_bullet_peers(world, peers);
   cellwalk::figure_8::add_gimpact_peers(world, peers);
 }
