@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "measure.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <bit>
 #include <regex>
 #include <span>
 #include <stdexcept>
 
+#include "common/order_statistics.h"
+#include "common/processor_time.h"
+
 namespace cellwalk::figure_8 {
 namespace {
 
+using experiments::processor_seconds;
 using Answers = std::vector<std::uint8_t>;
 
 /// A number that changes with any answer: whole answers are kept for one method at a time only.
@@ -49,13 +51,6 @@ Trace beginning(const Trace& trace, std::uint32_t steps) {
   return first;
 }
 
-/// Seconds of processor time of this thread: what others run at the same time counts little.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Seconds of a replay. The clock starts when a part of the trace has been replayed, so that no method pays
 /// for what the others left in the caches.
 double timed_replay(Peer& peer, const Trace& first, const Trace& trace, Answers& answers) {
@@ -69,13 +64,7 @@ double timed_replay(Peer& peer, const Trace& first, const Trace& trace, Answers&
 
 }  // namespace
 
-double Row::median() const {
-  if (rounds.empty()) return 0;
-  std::vector<double> sorted = rounds;
-  std::ranges::sort(sorted);
-  const std::size_t n = sorted.size();
-  return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
-}
+double Row::median() const { return experiments::median(rounds); }
 
 std::vector<Row> measure(const Grid_world& world, const Trace& trace, const std::vector<Family>& families,
                          const Measure_options& options) {

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 
+#include "common/peers/box.h"
 #include "peer.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -18,43 +18,8 @@
 
 namespace cellwalk::figure_8 {
 
-struct Box {
-  Point<3> low, high;
-
-  /// A box that holds nothing, and lies in nothing that is finite.
-  static Box nowhere() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  }
-  bool contains(const Box& b) const {
-    bool in = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      in &= low[k] <= b.low[k];
-      in &= b.high[k] <= high[k];
-    }
-    return in;
-  }
-  Box enlarged(double margin) const {
-    Box b = *this;
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.low[k] -= margin;
-      b.high[k] += margin;
-    }
-    return b;
-  }
-};
-
-/// The box of a few points.
-template <class... P>
-inline Box box_of(const Point<3>& first, const P&... others) {
-  Box b{first, first};
-  for (const Point<3>* x : {&others...})
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.low[k] = std::min(b.low[k], (*x)[k]);
-      b.high[k] = std::max(b.high[k], (*x)[k]);
-    }
-  return b;
-}
+using experiments::Box;
+using experiments::box_of;
 
 /// The box of the eight positions and the eight targets of a body.
 inline Box body_box(const Point<3>* positions, const Point<3>* targets) {

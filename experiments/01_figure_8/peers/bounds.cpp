@@ -13,7 +13,6 @@
 
 #include "body_box.h"
 #include "families.h"
-#include "measured_build.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {

@@ -8,8 +8,6 @@
 //   bullet_body_box    one box query a body and step
 //   bullet_kept_box    the triangles of the enlarged box are kept until the body leaves it; in each step
 //                      those whose boxes meet that of the body are tested
-#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
-#include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 
 #include <memory>
@@ -18,7 +16,6 @@
 
 #include "bullet_world.h"
 #include "candidates.h"
-#include "measured_build.h"
 #include "replay.h"
 #include "segment_triangle.h"
 
@@ -32,30 +29,7 @@ struct Candidate {
   Box box;
 };
 
-struct Bullet {
-  explicit Bullet(const Wall_mesh& w)
-      : walls(&w), mesh(w), shape(&mesh.mesh(), /*useQuantizedAabbCompression=*/true) {
-    triangles.reserve(w.triangles.size());
-    for (std::size_t i = 0; i < w.triangles.size(); ++i)
-      triangles.emplace_back(w.corner(i, 0), w.corner(i, 1), w.corner(i, 2));
-  }
-  const Wall_mesh* walls;
-  Bullet_mesh mesh;
-  btBvhTriangleMeshShape shape;
-  std::vector<Triangle> triangles;
-
-  /// Calls found(index) for the triangles whose boxes meet a box.
-  template <class Found>
-  void query(const Box& box, const Found& found) {
-    struct Callback : btNodeOverlapCallback {
-      explicit Callback(const Found& f) : found(f) {}
-      void processNode(int, int index) override { found(static_cast<std::uint32_t>(index)); }
-      const Found& found;
-    } callback(found);
-    shape.getOptimizedBvh()->reportAabbOverlappingNodex(&callback, rounded_down(box.low),
-                                                        rounded_up(box.high));
-  }
-};
+using Bullet = experiments::Bullet_walls;
 
 class Swept_box : public Stateless {
  public:

@@ -15,16 +15,6 @@ namespace cellwalk::figure_8 {
 /// By how much the box of a body is enlarged before its walls are kept: five steps at the speed of the scene.
 inline constexpr double kept_margin = 0.1;
 
-/// True if two closed boxes have a point in common.
-inline bool meet(const Box& a, const Box& b) {
-  bool all = true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    all &= a.low[k] <= b.high[k];
-    all &= b.low[k] <= a.high[k];
-  }
-  return all;
-}
-
 /// Candidate: has a member `box`, in which the wall lies.
 template <class Candidate>
 class Kept_candidates {
@@ -52,7 +42,7 @@ class Kept_candidates {
     }
     near_.clear();
     for (const Candidate& c : b.list)
-      if (meet(now, c.box)) near_.push_back(&c);
+      if (experiments::meet(now, c.box)) near_.push_back(&c);
     return near_;
   }
 

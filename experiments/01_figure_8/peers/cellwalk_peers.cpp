@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "families.h"
-#include "measured_build.h"
 
 namespace cellwalk::figure_8 {
 namespace {

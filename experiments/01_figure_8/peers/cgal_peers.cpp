@@ -6,59 +6,23 @@
 //                   recorded
 //   cgal_kept_box   the triangles of the enlarged box are kept until the body leaves it; their boxes are
 //                   compared first with that of the body, then exactly with that of the segment
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/version.h>
-
-#if CGAL_VERSION_MAJOR >= 6
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
-
 #include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "candidates.h"
+#include "common/peers/cgal_walls.h"
 #include "families.h"
-#include "measured_build.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point_3 = Kernel::Point_3;
-using Segment_3 = Kernel::Segment_3;
-using Triangle_3 = Kernel::Triangle_3;
-using Triangles = std::vector<Triangle_3>;
-#if CGAL_VERSION_MAJOR >= 6
-using Triangle_traits =
-    CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
-#else
-using Triangle_traits =
-    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
-#endif
-using Tree = CGAL::AABB_tree<Triangle_traits>;
-
-Point_3 cgal_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
-
-struct Cgal {
-  explicit Cgal(const Wall_mesh& walls) {
-    triangles.reserve(walls.triangles.size());
-    for (std::size_t i = 0; i < walls.triangles.size(); ++i)
-      triangles.emplace_back(cgal_point(walls.corner(i, 0)), cgal_point(walls.corner(i, 1)),
-                             cgal_point(walls.corner(i, 2)));
-    tree.insert(triangles.cbegin(), triangles.cend());
-    tree.build();
-  }
-  Triangles triangles;
-  Tree tree;
-};
+using Cgal = experiments::cgal::Walls;
+using experiments::cgal::cgal_point;
+using experiments::cgal::Segment_3;
+using experiments::cgal::Triangle_3;
 
 class Segment_query : public Stateless {
  public:
@@ -104,23 +68,6 @@ struct Candidate {
   Box box;
 };
 
-/// Steers a traversal of the tree: appends the triangles whose boxes meet a box.
-struct Near_box {
-  CGAL::Bbox_3 box;
-  std::vector<Candidate>* list;
-
-  bool go_further() const { return true; }
-  bool do_intersect(int, const CGAL::AABB_node<Tree::AABB_traits>& node) const {
-    return CGAL::do_overlap(box, node.bbox());
-  }
-  void intersection(int, const Tree::Primitive& primitive) const {
-    const Triangle_3& triangle = primitive.datum();
-    const CGAL::Bbox_3 b = triangle.bbox();
-    if (CGAL::do_overlap(box, b))
-      list->push_back({triangle, {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}}});
-  }
-};
-
 class Kept_box {
  public:
   static constexpr unsigned bits = segment_bits;
@@ -129,12 +76,7 @@ class Kept_box {
   void prepare(const Trace& trace) { kept_.reset(trace.bodies); }
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
-    const auto query = [this](const Box& b, std::vector<Candidate>& list) {
-      // Boxes against boxes is all that candidates need; an exact test of each triangle and the box would
-      // cost more than it saves.
-      Near_box near{CGAL::Bbox_3(b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]), &list};
-      cgal_->tree.traversal(0, near);
-    };
+    const auto query = [this](const Box& b, std::vector<Candidate>& list) { cgal_->query(b, list); };
     near_ = kept_.find(body, positions, targets, query, counter);
     return near_.empty();
   }
@@ -144,7 +86,7 @@ class Kept_box {
     return four_segments(v, positions, target, [&](const Point<3>& a, const Point<3>& b) {
       const Box box = box_of(a, b);
       for (const Candidate* c : near_) {
-        if (!meet(box, c->box)) continue;
+        if (!experiments::meet(box, c->box)) continue;
         counter.triangle_tests();
         if (CGAL::do_intersect(c->triangle, Segment_3(cgal_point(a), cgal_point(b)))) return true;
       }

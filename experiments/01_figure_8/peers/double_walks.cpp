@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "families.h"
-#include "measured_build.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {

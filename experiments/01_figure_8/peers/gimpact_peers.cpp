@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "bullet_world.h"
-#include "measured_build.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {

@@ -19,9 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "common/peers/measured_build.h"
 #include "world.h"
 
 namespace cellwalk::figure_8 {
+
+using experiments::Build;
+using experiments::measured_build;
 
 /// Which bits of an answer a method gives: those of the segments, of the triangles, or both.
 inline constexpr unsigned segment_bits = trace_segment_bit | trace_edge_bits;
@@ -62,13 +66,6 @@ struct Counter {
   void clear_moves(std::uint64_t n = 1) {
     if constexpr (counting) counts.clear_moves += n;
   }
-};
-
-/// What a peer cost to build.
-struct Build {
-  double milliseconds = 0;
-  std::size_t bytes = 0;     ///< held after the build; 0 where the peer holds nothing of its own
-  const char* per = "wall";  ///< what the bytes grow with: "wall" (triangle) or "cell"
 };
 
 /// A method of the figure.

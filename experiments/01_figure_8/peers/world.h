@@ -11,20 +11,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "common/peers/wall_mesh.h"
 
 namespace cellwalk::figure_8 {
 
-/// Triangles that cover every wall once.
-struct Wall_mesh {
-  std::vector<Point<3>> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-
-  const Point<3>& corner(std::size_t triangle, std::size_t k) const { return points[triangles[triangle][k]]; }
-};
-
-/// Each impassable facet and each facet of the boundary, cut into a fan, once however many cells it bounds.
-Wall_mesh wall_mesh(const Cell_soup<3>& soup, const Gluing& gluing);
+using experiments::Wall_mesh;
 
 struct Grid_world {
   const Trace* trace = nullptr;

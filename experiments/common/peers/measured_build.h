@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Time and memory of building a peer's structures.
-#ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_MEASURED_BUILD_H
-#define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_MEASURED_BUILD_H
+#ifndef CELLWALK_EXPERIMENTS_COMMON_PEERS_MEASURED_BUILD_H
+#define CELLWALK_EXPERIMENTS_COMMON_PEERS_MEASURED_BUILD_H
 
 #include <malloc.h>
 
@@ -9,9 +9,14 @@
 #include <cstddef>
 #include <utility>
 
-#include "peer.h"
+namespace cellwalk::experiments {
 
-namespace cellwalk::figure_8 {
+/// What a peer cost to build.
+struct Build {
+  double milliseconds = 0;
+  std::size_t bytes = 0;     ///< held after the build; 0 where the peer holds nothing of its own
+  const char* per = "wall";  ///< what the bytes grow with: "wall" (triangle) or "cell"
+};
 
 /// Bytes that the program holds from the C library, in all arenas and in mapped blocks.
 inline std::size_t held_bytes() {
@@ -32,6 +37,6 @@ auto measured_build(Build& build, const char* per, const Make& make) {
   return made;
 }
 
-}  // namespace cellwalk::figure_8
+}  // namespace cellwalk::experiments
 
-#endif  // CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_MEASURED_BUILD_H
+#endif  // CELLWALK_EXPERIMENTS_COMMON_PEERS_MEASURED_BUILD_H
