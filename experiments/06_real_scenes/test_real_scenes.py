@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Runs experiment 06 in its quick form, without times, and compares moves, blocked moves and wrong answers with expected/answers.csv.
+
+usage: test_real_scenes.py BUILD_DIR [PEER ...]     the peers that were built: bullet, embree
+       test_real_scenes.py BUILD_DIR --update       writes expected/answers.csv anew; needs bullet
+
+Expected are the rows of methods whose answers are the same on every machine. Counts of Cellwalk's work are not compared: they
+change with every better certificate.
+"""
+
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "common"))
+import quick_case  # noqa: E402
+from tables import read_rows  # noqa: E402
+
+KEPT = [(kept, margin) for kept in ("star", "group", "body") for margin in ("2", "6", "20")]
+PEERS = {
+    "bullet": {("bullet_move", "0"), *((f"bullet_{kept}", margin) for kept, margin in KEPT)},
+    "embree": {(f"embree_{lanes}{mode}", "0") for lanes in (8, 16) for mode in ("", "_robust")},
+}
+EXACT = {("cellwalk_three_segments", "0"), ("cellwalk_complete", "0"), ("cgal_move", "0"), ("cgal_tree", "0"),
+         *((f"cgal_{kept}", margin) for kept, margin in KEPT)}
+SCENES = ["S1a_vessel", "S1b_vessel_fine", "S3_spheres", "S4_soft_ring", "S5_rigid_ring", "S6_at_rest", "S7_many"]
+
+
+def spoil(source, target):
+    """Copies a trace with the answer to the very last move turned round: its last vertex is then blocked, or not, by the way."""
+    data = bytearray(source.read_bytes())
+    bodies = struct.unpack_from("<I", data, 8)[0]
+    at = 16
+    for _ in range(bodies):
+        vertices, edges, faces = struct.unpack_from("<III", data, at)
+        last = at + 12  # the edges of the last body remain
+        at += 12 + 8 * edges + 12 * faces
+    joints = struct.unpack_from(f"<{2 * edges}I", data, last)
+    answer = len(data) - 1 - joints.count(vertices - 1)
+    assert not any(data[answer:]), "the last move is not free"
+    data[answer] = 1
+    target.write_bytes(data)
+
+
+class RealScenes(quick_case.QuickCase):
+    experiment = HERE
+    threads = [1]
+    peers = ()
+
+    def setUp(self):
+        self.rows = read_rows(self.out / "real_scenes.csv")
+
+    def test_tables_are_as_expected_for_any_number_of_threads(self):
+        methods = {(r["method"], r["margin_steps"]) for r in self.rows}
+        expected = [r for r in read_rows(HERE / "expected/answers.csv") if (r["method"], r["margin_steps"]) in methods]
+        self.assertGreaterEqual(len(expected), len(EXACT) * len(SCENES))
+        self.assertEqual(expected, read_rows(self.out / "answers.csv"))
+
+    def test_all_methods_ran_in_all_scenes(self):
+        methods = EXACT.union(*(PEERS[p] for p in self.peers))
+        for scene in SCENES:
+            self.assertEqual(methods, {(r["method"], r["margin_steps"]) for r in self.rows if r["scene"] == scene}, scene)
+        self.assertEqual(SCENES, list(dict.fromkeys(r["scene"] for r in self.rows)))
+
+    def test_exact_methods_are_never_wrong(self):
+        exact = [r for r in self.rows if r["exact"] == "1"]
+        self.assertEqual(len(EXACT) * len(SCENES), len(exact))
+        for row in exact:
+            self.assertGreater(int(row["blocked"]), 10, row)
+            self.assertLess(int(row["blocked"]), int(row["moves"]) / 2, row)
+            self.assertEqual(("0", "0"), (row["missed"], row["false"]), row)
+
+    def test_a_wrong_answer_shows(self):
+        scenes, out = self.out / "scenes", self.out / "spoiled"
+        spoil(scenes / "S7_many.trace", scenes / "spoiled.trace")
+        (scenes / "spoiled.json").write_text('[{"name": "spoiled", "scene": "S7_many.json", "trace": "spoiled.trace", "first_step": 0}]')
+        subprocess.run([self.build / "experiments/06_real_scenes/real_scenes", scenes / "spoiled.json", "--out", out, "--rounds", "0",
+                        "--only", "^(cellwalk|cgal)"], check=True, stdout=subprocess.DEVNULL)
+        rows = read_rows(out / "real_scenes.csv")
+        self.assertEqual(len(EXACT), len(rows))
+        for row in rows:
+            self.assertEqual(("1", "0"), (row["missed"], row["false"]), row)
+
+    def test_tables_name_every_method_and_scene(self):
+        text = (self.out / "tables.md").read_text(encoding="utf-8")
+        for name in {r["method"] for r in self.rows}.union(SCENES):
+            self.assertIn(f"| {name} |", text)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    RealScenes.build = Path(sys.argv[1]).resolve()
+    if sys.argv[2:] == ["--update"]:
+        RealScenes.expected = ["answers.csv"]
+        RealScenes.update()
+    else:
+        RealScenes.peers = sys.argv[2:]
+        unittest.main(argv=sys.argv[:1])
