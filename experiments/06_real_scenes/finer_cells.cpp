@@ -30,14 +30,6 @@ Scene_entry find(const std::string& list, const std::string& name) {
   throw std::runtime_error(list + ": has no scene " + name);
 }
 
-/// The mean volume of a cell that is not solid, by Gauss's theorem on its boundary.
-double mean_volume(const experiments::Wall_mesh& walls, std::size_t cells) {
-  double six_volumes = 0;
-  for (std::size_t i = 0; i < walls.triangles.size(); ++i)
-    six_volumes += dot(walls.corner(i, 0), cross(walls.corner(i, 1), walls.corner(i, 2)));
-  return six_volumes / 6 / static_cast<double>(cells);
-}
-
 Surface_soup surface_of(const experiments::Wall_mesh& walls) {
   Surface_soup surface{walls.points, {}};
   for (const auto& triangle : walls.triangles) surface.facets.emplace_back(triangle.begin(), triangle.end());
@@ -50,7 +42,8 @@ void run(std::span<char*> arguments) {
   const auto walls = experiments::wall_mesh(soup, glue(soup), experiments::Facing::wall);
   Tetrahedralize_options options;
   options.quality = 1.5;
-  options.largest_volume = mean_volume(walls, soup.cell_count()) / (times * times * times);
+  const double mean_volume = enclosed_volume(walls) / static_cast<double>(soup.cell_count());
+  options.largest_volume = mean_volume / (times * times * times);
   options.most_added_points = 4000000;
   const Cell_soup<3> finer = tetrahedralize(surface_of(walls), {}, options);
   io::write_ovm<3>(arguments[4], finer);

@@ -57,4 +57,11 @@ Wall_mesh wall_mesh(const Cell_soup<3>& soup, const Gluing& gluing, Facing facin
   return std::move(maker).mesh();
 }
 
+double enclosed_volume(const Wall_mesh& walls) {
+  double six_volumes = 0;
+  for (std::size_t i = 0; i < walls.triangles.size(); ++i)
+    six_volumes += dot(walls.corner(i, 0), cross(walls.corner(i, 1), walls.corner(i, 2)));
+  return six_volumes / 6;
+}
+
 }  // namespace cellwalk::experiments

@@ -31,6 +31,10 @@ enum class Facing {
 /// Each impassable facet and each facet of the boundary, cut into a fan, once however many cells it bounds.
 Wall_mesh wall_mesh(const Cell_soup<3>& soup, const Gluing& gluing, Facing facing = Facing::first);
 
+/// The volume of free space.
+/// \pre walls that face the wall, and enclose it
+double enclosed_volume(const Wall_mesh& walls);
+
 }  // namespace cellwalk::experiments
 
 #endif  // CELLWALK_EXPERIMENTS_COMMON_PEERS_WALL_MESH_H
