@@ -123,25 +123,32 @@ def tables(scenes):
     return text
 
 
-def bars(name, series, scenes, ylabel, line=None):
-    """A script: for each scene a bar of each entry of `series`, name -> values."""
+def marks(name, series, scenes, ylabel, line=None):
+    """A script: for each scene a mark of each entry of `series`, name -> values. `line`: a height to compare with."""
     script = f"${name} << END\n"
     for i, scene in enumerate(scenes):
         script += f'"{scene}" ' + " ".join(f"{values[i]:.4g}" for values in series.values()) + "\n"
+    highest = max(max(values) for values in series.values())
+    lowest = min(min(values) for values in series.values())
+    if line is not None:
+        lowest, highest = min(lowest, line), max(highest, line)
     script += f"""END
-set style data histogram
-set style histogram clustered gap 1
-set style fill pattern border lc rgb "#000000"
 set logscale y
+set yrange [{lowest / 1.3:.4g}:{highest * 1.3:.4g}]
+set xrange [-0.6:{len(scenes) - 0.4}]
 set ylabel {plots.quoted(ylabel)}
 set xtics rotate by -35 noenhanced
-set grid ytics lc rgb "#dddddd" lt 1
-set key top left Left reverse samplen 2
+set grid xtics ytics lc rgb "#dddddd" lt 1
+set key tmargin center horizontal Left reverse samplen 1 maxcols 2 width 2
 """
     if line is not None:
         script += f"set arrow from graph 0, first {line} to graph 1, first {line} nohead lw 2 dt 2\n"
-    return script + "plot " + ", ".join(
-        f'${name} using {k + 2}:xtic(1) title {plots.quoted(title)} lc rgb "#333333"' for k, title in enumerate(series)) + "\n"
+    drawn = []
+    for k, title in enumerate(series):
+        _, mark, width, grey = plots.STYLES[k]
+        drawn.append(f'${name} using 0:{k + 2}:xtic(1) with points pt {mark} lw {width} ps 1.5 lc rgb "{grey}" '
+                     f'title {plots.quoted(title)}')
+    return script + "plot " + ", \\\n  ".join(drawn) + "\n"
 
 
 def scripts(scenes):
@@ -151,8 +158,8 @@ def scripts(scenes):
     ratios = {f"{OWN[m]} / {name}": [ratio(a, b) for a, b in zip(own[m], found)] for name, found in peers.items() for m in OWN}
     times = {OWN[m]: [time(r) for r in own[m]] for m in OWN}
     times.update({name: [time(r) for r in found] for name, found in peers.items()})
-    return {"ratios": bars("ratios", ratios, scenes, "time of Cellwalk / time of the peer", 1),
-            "times": bars("times", times, scenes, "time of a vertex move with its edges (ns)")}
+    return {"ratios": marks("ratios", ratios, scenes, "time of Cellwalk / time of the peer", 1),
+            "times": marks("times", times, scenes, "time of a vertex move with its edges (ns)")}
 
 
 def main():

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Runs experiment 06 in its quick form, without times, and compares moves, blocked moves and wrong answers with expected/answers.csv.
 
-usage: test_real_scenes.py BUILD_DIR [PEER ...]     the peers that were built: bullet, embree
+usage: test_real_scenes.py BUILD_DIR [PART ...]     the parts that were built: bullet, embree, tetgen
        test_real_scenes.py BUILD_DIR --update       writes expected/answers.csv anew; needs bullet
 
 Expected are the rows of methods whose answers are the same on every machine. Counts of Cellwalk's work are not compared: they
 change with every better certificate.
 """
 
+import json
 import struct
 import subprocess
 import sys
@@ -49,7 +50,7 @@ def spoil(source, target):
 class RealScenes(quick_case.QuickCase):
     experiment = HERE
     threads = [1]
-    peers = ()
+    parts = ()
 
     def setUp(self):
         self.rows = read_rows(self.out / "real_scenes.csv")
@@ -61,7 +62,7 @@ class RealScenes(quick_case.QuickCase):
         self.assertEqual(expected, read_rows(self.out / "answers.csv"))
 
     def test_all_methods_ran_in_all_scenes(self):
-        methods = EXACT.union(*(PEERS[p] for p in self.peers))
+        methods = EXACT.union(*(PEERS[p] for p in self.parts if p in PEERS))
         for scene in SCENES:
             self.assertEqual(methods, {(r["method"], r["margin_steps"]) for r in self.rows if r["scene"] == scene}, scene)
         self.assertEqual(SCENES, list(dict.fromkeys(r["scene"] for r in self.rows)))
@@ -74,14 +75,37 @@ class RealScenes(quick_case.QuickCase):
             self.assertLess(int(row["blocked"]), int(row["moves"]) / 2, row)
             self.assertEqual(("0", "0"), (row["missed"], row["false"]), row)
 
+    def answered_exactly(self, entry, out):
+        """The rows of exact methods in a scene of its own."""
+        scenes = self.out / "scenes"
+        (scenes / "one.json").write_text(json.dumps([entry]), encoding="utf-8")
+        subprocess.run([self.program("real_scenes"), scenes / "one.json", "--out", out, "--rounds", "0", "--only", "^(cellwalk|cgal)"],
+                       check=True, stdout=subprocess.DEVNULL)
+        rows = read_rows(out / "real_scenes.csv")
+        self.assertEqual(len(EXACT), len(rows))
+        return rows
+
+    def program(self, name):
+        return self.build / "experiments/06_real_scenes" / name
+
+    def test_finer_cells_change_no_answer(self):
+        if "tetgen" not in self.parts:
+            return
+        scenes = self.out / "scenes"
+        subprocess.run([self.program("finer_cells"), scenes / "scenes.json", "S1a_vessel", "2", scenes / "finer.ovm"], check=True,
+                       stdout=subprocess.DEVNULL)
+        coarse = next(r for r in self.rows if r["scene"] == "S1a_vessel")
+        entry = next(e for e in json.loads((scenes / "scenes.json").read_text(encoding="utf-8")) if e["name"] == "S1a_vessel")
+        for row in self.answered_exactly({**entry, "environment": "finer.ovm"}, self.out / "finer"):
+            self.assertGreater(int(row["cells"]), 4 * int(coarse["cells"]), row)
+            self.assertEqual(coarse["walls"], row["walls"], row)
+            self.assertEqual((coarse["blocked"], "0", "0"), (row["blocked"], row["missed"], row["false"]), row)
+
     def test_a_wrong_answer_shows(self):
         scenes, out = self.out / "scenes", self.out / "spoiled"
         spoil(scenes / "S7_many.trace", scenes / "spoiled.trace")
-        (scenes / "spoiled.json").write_text('[{"name": "spoiled", "scene": "S7_many.json", "trace": "spoiled.trace", "first_step": 0}]')
-        subprocess.run([self.build / "experiments/06_real_scenes/real_scenes", scenes / "spoiled.json", "--out", out, "--rounds", "0",
-                        "--only", "^(cellwalk|cgal)"], check=True, stdout=subprocess.DEVNULL)
-        rows = read_rows(out / "real_scenes.csv")
-        self.assertEqual(len(EXACT), len(rows))
+        entry = {"name": "spoiled", "scene": "S7_many.json", "trace": "spoiled.trace", "first_step": 0}
+        rows = self.answered_exactly(entry, out)
         for row in rows:
             self.assertEqual(("1", "0"), (row["missed"], row["false"]), row)
 
@@ -99,5 +123,5 @@ if __name__ == "__main__":
         RealScenes.expected = ["answers.csv"]
         RealScenes.update()
     else:
-        RealScenes.peers = sys.argv[2:]
+        RealScenes.parts = sys.argv[2:]
         unittest.main(argv=sys.argv[:1])
