@@ -167,7 +167,7 @@ def main():
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     rows = read_rows(folder / "real_scenes.csv")
-    scenes = {s: [r for r in rows if r["scene"] == s] for s in unique(r["scene"] for r in rows)}
+    scenes = {s: [r for r in rows if r["scene"] == s] for s in sorted(unique(r["scene"] for r in rows))}
     (folder / "tables.md").write_text(tables(scenes), encoding="utf-8")
     if not all(r["ns_per_vertex_move"] for r in rows):
         print("summarize: no times: no plots")
