@@ -16,6 +16,7 @@ import plots  # noqa: E402
 from tables import read_rows, table, unique  # noqa: E402
 
 OWN = {"cellwalk_three_segments": "Cellwalk, three segments", "cellwalk_complete": "Cellwalk, complete sweep"}
+LIBRARIES = {"bullet": "Bullet", "embree": "Embree", "cgal": "CGAL, exact"}
 STEP_TIMES = ["step_us_median", "step_us_p99", "step_us_p999", "step_us_max"]
 WORK = ["in_region", "edges_checked", "walks", "crossings", "region_cells", "fallbacks"]
 
@@ -41,19 +42,20 @@ def best(rows):
     return found
 
 
-def fastest(rows, exact):
-    """The fastest row of a peer; `exact`: of those that decide by exact signs."""
-    peers = [r for r in rows if r["library"] != "cellwalk" and (not exact or r["exact"] == "1")]
-    return min(peers, key=time)
+def fastest(rows, exact=False, library=None):
+    """The fastest row of a peer; `exact`: of those that decide by exact signs; `library`: of one library. None if there is none."""
+    peers = [r for r in rows if r["library"] != "cellwalk" and (not exact or r["exact"] == "1") and library in (None, r["library"])]
+    return min(peers, key=time, default=None)
 
 
 def ratio(own, peer):
     return time(own) / time(peer)
 
 
-def label(row):
-    margin = row["margin_steps"]
-    return row["method"] + (f" ({margin})" if margin != "0" else "")
+def described(row):
+    """Its time, and of which method with which margin."""
+    margin = f', {row["margin_steps"]}' if row["margin_steps"] != "0" else ""
+    return f'{number(row["ns_per_vertex_move"])} ({row["method"].split("_", 1)[1].replace("_", " ")}{margin})'
 
 
 def by_scene(scenes, cell):
@@ -71,17 +73,18 @@ def scene_table(scenes):
 
 
 def ratio_table(scenes):
-    header = ["scene", "fastest peer", "ns", "fastest exact peer", "ns"]
-    for name in OWN.values():
-        header += [f"{name}, ns", "/ fastest", "/ exact"]
+    """The table of the README."""
+    libraries = unique(r["library"] for rows in scenes.values() for r in rows if r["library"] != "cellwalk")
+    header = ["scene", "cells", "moves blocked", *OWN.values(), *(f"fastest of {LIBRARIES.get(name, name)}" for name in libraries),
+              "complete / fastest", "complete / fastest exact"]
     lines = []
     for name, rows in scenes.items():
-        any_peer, exact_peer = fastest(rows, False), fastest(rows, True)
-        line = [name, label(any_peer), number(any_peer["ns_per_vertex_move"]), label(exact_peer), number(exact_peer["ns_per_vertex_move"])]
-        for method in OWN:
-            own = next(r for r in rows if r["method"] == method)
-            line += [number(own["ns_per_vertex_move"]), f"{ratio(own, any_peer):.2f}", f"{ratio(own, exact_peer):.2f}"]
-        lines.append(line)
+        own = {m: next(r for r in rows if r["method"] == m) for m in OWN}
+        found = [fastest(rows, library=library) for library in libraries]
+        lines.append([f"`{name}`", f"{int(rows[0]['cells']):,}", f"{100 * int(rows[0]['blocked']) / int(rows[0]['moves']):.2g} %",
+                      *(number(r["ns_per_vertex_move"]) for r in own.values()), *map(described, found),
+                      f"{ratio(own['cellwalk_complete'], fastest(rows)):.1f}",
+                      f"{ratio(own['cellwalk_complete'], fastest(rows, exact=True)):.1f}"])
     return table(header, lines)
 
 
@@ -107,7 +110,7 @@ def tables(scenes):
     timed = any(rows[0]["ns_per_vertex_move"] for rows in scenes.values())
     text = "# Real scenes: results\n\n## Scenes\n\n" + scene_table(scenes)
     if timed:
-        text += "\n## Cellwalk beside the fastest peers (nanoseconds a move of a vertex with its edges; margin in steps)\n\n"
+        text += "\n## Cellwalk beside the fastest peers (nanoseconds a move of a vertex with its edges; method and margin in steps)\n\n"
         text += ratio_table(scenes)
         text += "\n## Nanoseconds a move (medians; with boxes kept: the best margin)\n\n"
         text += by_scene(scenes, lambda r: number(r["ns_per_vertex_move"]))
@@ -153,8 +156,8 @@ set key tmargin center horizontal Left reverse samplen 1 maxcols 2 width 2
 
 def scripts(scenes):
     own = {m: [next(r for r in rows if r["method"] == m) for rows in scenes.values()] for m in OWN}
-    peers = {"fastest peer": [fastest(rows, False) for rows in scenes.values()],
-             "fastest exact peer": [fastest(rows, True) for rows in scenes.values()]}
+    peers = {"fastest peer": [fastest(rows) for rows in scenes.values()],
+             "fastest exact peer": [fastest(rows, exact=True) for rows in scenes.values()]}
     ratios = {f"{OWN[m]} / {name}": [ratio(a, b) for a, b in zip(own[m], found)] for name, found in peers.items() for m in OWN}
     times = {OWN[m]: [time(r) for r in own[m]] for m in OWN}
     times.update({name: [time(r) for r in found] for name, found in peers.items()})
