@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -43,7 +44,8 @@ void run(std::span<char*> arguments) {
   Tetrahedralize_options options;
   options.quality = 1.5;
   const double mean_volume = enclosed_volume(walls) / static_cast<double>(soup.cell_count());
-  options.largest_volume = mean_volume / (times * times * times);
+  // A regular tetrahedron of circumradius r has the volume 8 sqrt(3) / 27 r^3.
+  options.cell_size = std::cbrt(mean_volume * 27 / (8 * std::sqrt(3.0))) / times;
   options.most_added_points = 4000000;
   const Cell_soup<3> finer = tetrahedralize(surface_of(walls), {}, options);
   io::write_ovm<3>(arguments[4], finer);
