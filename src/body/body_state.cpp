@@ -21,6 +21,7 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
+  pool.prepare(of_snapshot, particles);
 }
 
 template <int D>

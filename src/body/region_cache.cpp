@@ -9,13 +9,14 @@ namespace {
 /// Steps without a search after one that lost a target: a wall is in its way, and may be for a while.
 constexpr std::uint32_t backoff_with_targets = 6;
 /// After one that lost positions; twice as many after each of those in a row.
-constexpr std::uint32_t least_backoff = 1, most_backoff = 512;
+constexpr std::uint32_t least_backoff = 1, most_backoff = 64, most_backoff_of_little = 512;
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 
 /// The walls about larger bodies are found by clusters, of so many at most; then the region holds the body or
 /// is none, as parts of it have their own.
-constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64, most_walls = 1024;
+constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64;
+constexpr std::size_t walls_per_vertex = 2, least_walls = 128, most_walls = 1024;
 
 }  // namespace
 
@@ -48,7 +49,7 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.by_clusters = positions.size() >= least_vertices_by_clusters;
   if (request.by_clusters) {
     request.most_cells = most_clusters;
-    request.most_walls = most_walls;
+    request.most_walls = std::clamp(walls_per_vertex * positions.size(), least_walls, most_walls);
     request.most_planes = Clear_region<D>::most_planes;
   }
   Region_effort effort;
@@ -71,8 +72,11 @@ bool Region_cache<D>::take(const std::optional<Clear_region<D>>& found, std::spa
     target_backoff_ = backoff_with_targets;
     return false;
   }
+  // One that holds little of the body serves little, as of a rod: it is looked for the less.
+  const bool is_of_use = 2 * outside_ < is_outside_.size();
   search_backoff_ = next_backoff_;
-  next_backoff_ = std::min(2 * next_backoff_, most_backoff);
+  next_backoff_ = is_of_use ? std::min(2 * next_backoff_, most_backoff)
+                            : std::min(8 * next_backoff_, most_backoff_of_little);
   anchor_vertex_ = anchor_vertex_ + 1 == is_outside_.size() ? 0 : anchor_vertex_ + 1;
   return false;
 }

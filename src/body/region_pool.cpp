@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "region_pool.h"
 
+#include <cellwalk/internal/environment/cell_cluster.h>
+
 #include <algorithm>
 
 namespace cellwalk::detail {
@@ -8,8 +10,10 @@ namespace {
 
 /// Smaller bodies have one region.
 constexpr std::size_t least_vertices = 33;
-/// A search may look at so many cells, and those of a step at so many.
-constexpr std::size_t most_clusters = 64, most_walls = 256, most_walls_a_step = 2048;
+/// A search may look at so many cells.
+constexpr std::size_t most_clusters = 64, most_walls = 256;
+/// Those of a step at so many walls, so that no step is much longer than others: one more search may begin.
+constexpr std::size_t least_walls_a_step = 128, walls_a_vertex = 4;
 /// Moves without a search after one in vain; twice as many after each of those in a row.
 constexpr std::uint8_t least_wait = 4, most_wait = 128;
 /// There are so many regions at most, or one for so many vertices.
@@ -31,9 +35,21 @@ Region_pool<D>::Region_pool(std::size_t vertices) {
 }
 
 template <int D>
+void Region_pool<D>::prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const {
+  if (known_.empty()) return;
+  const Cell_clusters<D>& clusters = snapshot.clusters();
+  for (const Particle<D>& particle : particles) {
+    const auto& here = clusters.cluster(snapshot, clusters.cluster_of(snapshot, particle.cell));
+    for (const Facet_boxes<D>& boxes : here.passages)
+      for (std::size_t lane = 0; lane < 4; ++lane)
+        if (boxes.low[0][lane] <= boxes.high[0][lane]) clusters.cluster(snapshot, boxes.facets[lane]);
+  }
+}
+
+template <int D>
 void Region_pool<D>::begin_step(bool is_used) {
   is_used_ = is_used && !known_.empty();
-  walls_left_ = most_walls_a_step;
+  walls_left_ = least_walls_a_step + walls_a_vertex * known_.size();
 }
 
 template <int D>

@@ -32,6 +32,8 @@ class Region_pool {
     return regions_[static_cast<std::size_t>(known_[vertex][0])];
   }
 
+  /// Makes the clusters about the vertices of a body, so that its first steps need not.
+  void prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const;
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
   /// True if a region that there is holds a vertex, its neighbours, and the target; then the vertex is taken

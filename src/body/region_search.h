@@ -91,7 +91,7 @@ class Region_search {
           if (const auto next = boxes.facets[static_cast<std::size_t>(std::countr_zero(met))];
               std::find(reached.begin(), reached.end(), next) == reached.end())
             reached.push_back(next);
-      if (reached.size() > request_.most_cells || walls.size() > request_.most_walls) {
+      if (reached.size() > request_.most_cells || effort_.walls > request_.most_walls) {
         effort_.is_exhausted = true;
         return false;
       }
