@@ -4,8 +4,6 @@
 #ifndef CELLWALK_BODY_REGION_SEARCH_H
 #define CELLWALK_BODY_REGION_SEARCH_H
 
-#include <cellwalk/internal/environment/cell_cluster.h>
-
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
@@ -22,6 +20,7 @@
 
 #include "cell_list.h"
 #include "clear_region.h"
+#include "cluster_flood.h"
 #include "cut_plane.h"
 #include "wall_plane.h"
 
@@ -31,6 +30,8 @@ namespace cellwalk::detail {
 constexpr double enough_steps = 4;
 /// How often a direction is turned to part two sets of points.
 constexpr int most_turns = 6;
+/// Half the extent of the frame, and what is rounded.
+constexpr double frame_and_more = 1 + 0x1p-20;
 /// Cells of so many blocks are looked at in one go.
 constexpr std::size_t blocks_at_once = 16;
 
@@ -72,50 +73,19 @@ class Region_search {
   /// As find(), by a flood of clusters: the nearest walls are cut off first.
   bool find_by_clusters() {
     if (!is_finite(sizes_)) return false;
-    Box<D> box;
-    for (int k = 0; k < D; ++k) {
-      box.low[k] = region_.box().low(k);
-      box.high[k] = region_.box().high(k);
+    thread_local std::vector<Met_wall<D>> walls;
+    Frame_box<D> reach(snapshot_.frame(), box());
+    const Frame_box<D> kept(snapshot_.frame(), kept_);
+    const auto cut_at_once = [this](Half_facet wall) { return cut_off(wall); };
+    if (!flood_clusters(snapshot_, region_.anchor().cell, reach, kept, request_, effort_, walls, cut_at_once))
+      return false;
+    std::ranges::sort(walls, {}, &Met_wall<D>::gap);
+    for (const Met_wall<D>& wall : walls) {
+      if (!is_mapped_) reach = Frame_box<D>(snapshot_.frame(), box());
+      is_mapped_ = true;
+      // Most are beyond what was cut off before.
+      if (wall.is_met_by(reach) && !cut_off(wall.facet())) return false;
     }
-    const Frame_box<D> reach(snapshot_.frame(), box), kept(snapshot_.frame(), kept_);
-    thread_local std::vector<std::uint32_t> reached;
-    thread_local std::vector<std::pair<float, Half_facet>> walls;
-    const Cell_clusters<D>& clusters = snapshot_.clusters();
-    reached.assign(1, clusters.cluster_of(snapshot_, region_.anchor().cell));
-    walls.clear();
-    for (std::size_t head = 0; head < reached.size(); ++head) {
-      ++effort_.cells;
-      const Cell_cluster<D>& cluster = clusters.cluster(snapshot_, reached[head]);
-      for (const Facet_boxes<D>& boxes : cluster.passages)
-        for (unsigned met = reach.met(boxes); met != 0; met &= met - 1)
-          if (const auto next = boxes.facets[static_cast<std::size_t>(std::countr_zero(met))];
-              std::find(reached.begin(), reached.end(), next) == reached.end())
-            reached.push_back(next);
-      if (reached.size() > request_.most_cells || effort_.walls > request_.most_walls) {
-        effort_.is_exhausted = true;
-        return false;
-      }
-      for (const Facet_boxes<D>& boxes : cluster.walls) {
-        const unsigned met = reach.met(boxes);
-        if (met == 0) continue;
-        Float4 gap{};
-        for (std::size_t k = 0; k < D; ++k)
-          gap = cellwalk::lane_max(
-              gap, cellwalk::lane_max(boxes.low[k] - kept.high[k], kept.low[k] - boxes.high[k]));
-        for (unsigned left = met; left != 0; left &= left - 1) {
-          const int lane = std::countr_zero(left);
-          const Half_facet wall{boxes.facets[static_cast<std::size_t>(lane)]};
-          ++effort_.walls;
-          if (gap[lane] > 0)
-            walls.emplace_back(gap[lane], wall);
-          else if (!cut_off(wall))  // so end most searches in vain
-            return false;
-        }
-      }
-    }
-    std::sort(walls.begin(), walls.end());
-    for (const auto& [gap, wall] : walls)
-      if (!cut_off(wall)) return false;
     return region_.holds(region_.anchor().position);
   }
 
@@ -131,6 +101,15 @@ class Region_search {
   const Clear_region<D>& region() const { return region_; }
 
  private:
+  Box<D> box() const {
+    Box<D> box;
+    for (int k = 0; k < D; ++k) {
+      box.low[k] = region_.box().low(k);
+      box.high[k] = region_.box().high(k);
+    }
+    return box;
+  }
+
   /// Cuts its walls off, and adds its neighbours. False if a cut cannot be made.
   bool visit(Cell cell) {
     const std::size_t blocks = snapshot_.block_count(cell);
@@ -329,7 +308,7 @@ class Region_search {
   /// Cuts along the plane of a wall, exactly, if the points to keep lie before it, and further from it than
   /// `best`.
   bool cut_by_wall(const Cell_view<D>& cell, std::size_t i, bool with_targets, double best) {
-    const Wall_plane<D> plane(cell, i, sizes_);
+    const Wall_plane<D> plane(cell, i, all_sizes());
     const double limit = plane.inside - (best > 0 ? best * length(plane.normal) : 0);
     const auto are_before = [&](std::span<const Point<D>> points) {
       return furthest<D>(plane.normal, points) < limit || (!(best > 0) && plane.has_all_before(points));
@@ -338,6 +317,15 @@ class Region_search {
     region_.cut(plane);
     if (!with_targets) lose_targets();
     return true;
+  }
+
+  /// The largest size of each coordinate of points of the box and of the environment.
+  Point<D> all_sizes() const {
+    const Plane_frame<D>& frame = snapshot_.frame();
+    Point<D> sizes = sizes_;
+    for (std::size_t k = 0; k < D; ++k)
+      sizes[k] = std::max(sizes[k], std::abs(frame.centre[k]) + frame_and_more / frame.scale);
+    return sizes;
   }
 
   /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is

@@ -21,13 +21,13 @@ namespace cellwalk::detail {
 template <int D>
 struct Wall_plane {
   Vector<D> normal{};  ///< outwards, rounded
-  /// Of points of the box: where the product with the normal, as rounded, is less than `inside`, they lie
-  /// before the plane; where it is greater than `outside`, they do not.
+  /// Of points of the box or the environment: where the product with the normal, as rounded, is less than
+  /// `inside`, they lie before the plane; where it is greater than `outside`, they do not.
   double inside = 0, outside = 0;
   std::array<const Point<D>*, D> corners{};  ///< of the wall; null: there is no plane but `inside`
 
   Wall_plane() = default;
-  /// \param sizes the largest size of each coordinate of points that are asked about
+  /// \param sizes the largest size of each coordinate of points of the box and of the environment
   ///
   /// Rounding: a component n_k of the normal is a difference of two products of differences, and is off by
   /// less than 4u of the sum of their sizes, u = 2^-53; a product with a point is off by less than 3u of the
@@ -75,8 +75,11 @@ struct Wall_plane {
   }
   /// True if a facet lies in the plane of the wall, or behind it.
   bool has_behind(const Cell_view<D>& cell, std::size_t i) const {
-    return corners[0] &&
-           std::ranges::all_of(cell.loop(i), [&](std::uint16_t v) { return side_of(cell.point(v)) >= 0; });
+    return corners[0] && std::ranges::all_of(cell.loop(i), [&](std::uint16_t v) {
+             const Point<D>& x = cell.point(v);
+             const double value = dot(normal, x);
+             return value > outside || (value >= inside && side_of(x) >= 0);
+           });
   }
 
  private:
