@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
@@ -50,14 +51,19 @@ Half_facet inner_facet(const Snapshot<D>& snapshot) {
   }
 }
 
+template <int D>
+std::uint32_t point_at(const Snapshot<D>& snapshot, const Point<D>& place) {
+  std::uint32_t p = 0;
+  while (snapshot.point(p) != place) ++p;
+  return p;
+}
+
 /// A point inside the grid, not of the first cells.
 template <int D>
 std::uint32_t inner_point(const Snapshot<D>& snapshot) {
-  std::uint32_t p = 0;
   Point<D> place;
   place.fill(2);
-  while (snapshot.point(p) != place) ++p;
-  return p;
+  return point_at(snapshot, place);
 }
 
 template <int D>
@@ -226,6 +232,34 @@ TEST(BodyEdit, AWallThatAppearsInABodyIsRefusedUntilItGoes) {
   EXPECT_FALSE(usage_error([&] { body.refresh(counts); }).empty()) << "another epoch, if the same walls";
   body.register_again(locator);
   EXPECT_NO_THROW(body.validate());
+}
+
+/// A vertex of the boundary may be moved out of the box in which single precision is used.
+TEST(BodyEdit, AWallMovedFarOutIsMet) {
+  for (const auto& [vertices, foot] :
+       std::vector<std::pair<std::uint32_t, double>>{{1, 1.96875}, {1, 3}, {40, 1.96875}, {40, 3}}) {
+    SCOPED_TRACE(testing::Message() << vertices << " vertices, foot of the wall at " << foot);
+    Cell_soup<2> square = square_grid({.cells = {1, 1}});
+    for (Point<2>& x : square.points) x = 1.96875 * x;
+    Environment<2> environment = Environment<2>::build(square);
+    const Snapshot<2>& snapshot = environment.snapshot();
+    for (const auto& [from, to] : {std::array<Point<2>, 2>{{{1.96875, 1.96875}, {4, 1.96875}}},
+                                   std::array<Point<2>, 2>{{{1.96875, 0}, {foot, 0}}}})
+      environment.move_vertex(point_at(snapshot, from), to);
+    Body_soup<2> soup;
+    for (std::uint32_t v = 0; v < vertices; ++v) soup.points.push_back({3.25 + 0x1p-8 * v, 1.75});
+    const Locator<2> locator(snapshot);
+    Body<2> body(snapshot, locator, soup);
+    Body_counts counts;
+    Step_report<2> report;
+    for (int k = 0; k < 50; ++k) {
+      std::vector<Point<2>> targets(body.positions().begin(), body.positions().end());
+      for (Point<2>& x : targets) x[0] += 0x1p-6;
+      body.step(targets, {}, report, counts);
+    }
+    EXPECT_GE(report.contacts.size(), vertices);
+    for (const Point<2>& x : body.positions()) EXPECT_TRUE(locator.particle_at(x)) << x[0];
+  }
 }
 
 TEST(BodyEdit, AVertexInAWallKeepsItsSide) {

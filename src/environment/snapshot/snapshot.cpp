@@ -3,10 +3,12 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "canonical_shape.h"
 #include "compiler.h"
+#include "plane_compiler.h"
 
 namespace cellwalk {
 namespace {
@@ -19,6 +21,18 @@ std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::u
   const std::uint32_t first = run->second;
   runs.erase(run);
   return {first, false};
+}
+
+/// False if a point of the cells lies outside the frame: what planes say holds in it only.
+template <int D>
+bool are_framed(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
+  Float_point<D> mapped;
+  for (const Cell c : cells) {
+    const Cell_view<D> cell = snapshot.view(c);
+    for (std::size_t v = 0; v < cell.vertex_count(); ++v)
+      if (!snapshot.frame().map(cell.point(v), mapped)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -80,9 +94,17 @@ void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
   Snapshot_compiler<D> compiler(*this);
   // Convex pairs depend on the first vertices of loops, including those of neighbours.
   for (const Cell c : cells) compiler.turn_loops(c);
-  for (const Cell c : cells) {
-    uncertified_planes_ -= compiler.count_uncertified(c);
-    uncertified_planes_ += compiler.write_planes(c);
+  if (std::isnan(frame_.scale) || are_framed<D>(*this, cells)) {
+    for (const Cell c : cells) {
+      uncertified_planes_ -= compiler.count_uncertified(c);
+      uncertified_planes_ += compiler.write_planes(c);
+    }
+  } else {  // linear, but rare: frames are of powers of two
+    frame_ = make_frame<D>(points_);
+    clusters_.clear();
+    uncertified_planes_ = 0;
+    for (std::uint32_t b = 0; b < shape_.size(); ++b)
+      if (is_cell(Cell{b})) uncertified_planes_ += compiler.write_planes(Cell{b});
   }
   std::vector<Cell> sorted(cells.begin(), cells.end());
   std::sort(sorted.begin(), sorted.end());
