@@ -323,8 +323,11 @@ class Region_search {
   Point<D> all_sizes() const {
     const Plane_frame<D>& frame = snapshot_.frame();
     Point<D> sizes = sizes_;
-    for (std::size_t k = 0; k < D; ++k)
-      sizes[k] = std::max(sizes[k], std::abs(frame.centre[k]) + frame_and_more / frame.scale);
+    for (std::size_t k = 0; k < D; ++k) {
+      const double size = std::abs(frame.centre[k]) + frame_and_more / frame.scale;
+      // There are frames that map nothing.
+      sizes[k] = size > 0 ? std::max(sizes[k], size) : std::numeric_limits<double>::infinity();
+    }
     return sizes;
   }
 

@@ -171,6 +171,17 @@ TEST(RegionPool, ClustersHaveTheWallsOfAllCells) {
   EXPECT_EQ(passages, expected_passages);
 }
 
+/// Where the environment is so large, or so small, that it has no planes in single precision.
+TEST(RegionPool, RegionsHoldNoWallWherePlanesSayNothing) {
+  for (const double scale : {1.0, 0x1p400, 0x1p-400}) {
+    SCOPED_TRACE(scale);
+    Cell_soup<2> soup = square_grid({.cells = {6, 6}, .solid_cells = {8, 14, 27}});
+    for (Point<2>& x : soup.points) x = scale * x;
+    const Found_beside_walls found = expect_free<2>(compile(soup), 0.2 * scale, 400);
+    EXPECT_GT(found.at_walls, 50);
+  }
+}
+
 /// A straight rod of 40 vertices along x.
 Body_soup<3> rod(double y, double z) {
   Body_soup<3> soup;

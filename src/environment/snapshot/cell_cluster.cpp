@@ -12,6 +12,14 @@ namespace {
 /// The map into the frame and the conversion are off by less than an ulp of 1.
 constexpr double mapping_error = 0x1p-23;
 
+/// A coordinate in the frame, of a point anywhere: nothing of the environment lies outside the frame. In one
+/// that maps nothing, all boxes meet, and walls are cut off by their coordinates alone.
+template <int D>
+double mapped(const Plane_frame<D>& frame, const Point<D>& x, std::size_t k) {
+  const double t = (x[k] - frame.centre[k]) * frame.scale;
+  return t > -1 ? std::min(t, 1.0) : -1;
+}
+
 inline float below(double x) { return static_cast<float>(x - mapping_error); }
 inline float above(double x) { return static_cast<float>(x + mapping_error); }
 
@@ -33,8 +41,8 @@ class Packed_boxes {
     }
     Facet_boxes<D>& last = boxes_.back();
     for (std::size_t k = 0; k < D; ++k) {
-      last.low[k][lane] = below((box.low[k] - frame.centre[k]) * frame.scale);
-      last.high[k][lane] = above((box.high[k] - frame.centre[k]) * frame.scale);
+      last.low[k][lane] = below(mapped<D>(frame, box.low, k));
+      last.high[k][lane] = above(mapped<D>(frame, box.high, k));
     }
     last.facets[lane] = facet;
   }
@@ -53,9 +61,7 @@ class Packed_boxes {
 template <int D>
 Frame_box<D>::Frame_box(const Plane_frame<D>& frame, const Box<D>& box) {
   for (std::size_t k = 0; k < D; ++k) {
-    // Nothing of the environment lies outside its frame.
-    const auto map = [&](double x) { return std::clamp((x - frame.centre[k]) * frame.scale, -1.0, 1.0); };
-    const float l = below(map(box.low[k])), h = above(map(box.high[k]));
+    const float l = below(mapped<D>(frame, box.low, k)), h = above(mapped<D>(frame, box.high, k));
     low[k] = Float4{l, l, l, l};
     high[k] = Float4{h, h, h, h};
   }
