@@ -117,7 +117,9 @@ void Body_state<D>::spread_marks() {
 template <int D>
 inline void Body_state<D>::follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const {
   const Point<D>& position = positions[vertex];
-  const Particle<D>& anchor = pool.holds(vertex) ? pool.region_of(vertex).anchor() : region.anchor();
+  // What the pool knows is out of date once all vertices were moved at once.
+  const bool is_in_pool = !region.are_all_stale() && pool.holds(vertex);
+  const Particle<D>& anchor = is_in_pool ? pool.region_of(vertex).anchor() : region.anchor();
   // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the
   // region is no wall.
   Cell cell = particle.cell;

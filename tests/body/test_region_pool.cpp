@@ -264,5 +264,32 @@ TEST(RegionPool, HoldsWhatRestsOnAnObliqueFloor) {
   EXPECT_GT(counts.in_region, 1800u);
 }
 
+/// Vertices go along a wall in regions of their own, then round its corner in one of the body.
+TEST(RegionPool, ACellIsAskedForWhereTheWayFromARegionLeftIsBlocked) {
+  const Snapshot<2> snapshot = rooms<2>({3, 3}, {3});
+  const Locator<2> locator(snapshot);
+  Body_soup<2> soup;
+  soup.points.push_back({0.5, 2.5});  // behind the solid cell
+  for (int v = 1; v < 40; ++v) soup.points.push_back({0.5 + 0x1p-8 * v, 0.5});
+  Body<2> body(snapshot, locator, soup);
+  Body_counts counts;
+  Step_report<2> report;
+  std::vector<Point<2>> targets = soup.points;
+  targets[0] = {1.5, 2.5};
+  for (std::size_t v = 1; v < 40; ++v) targets[v][0] += 1;
+  body.step(targets, {}, report, counts);
+  EXPECT_EQ(counts.in_region, 40u);
+  targets[0] = {1.5, 0.5};
+  for (int k = 0; k < 4; ++k) body.step(targets, {}, report, counts);
+  EXPECT_LE(counts.catch_ups, 1u) << "they are not registered yet";
+  counts = {};
+  for (Point<2>& x : targets) x[1] += 2;
+  body.step(targets, {}, report, counts);
+  EXPECT_EQ(counts.in_region, 40u);
+  EXPECT_TRUE(report.contacts.empty());
+  for (std::uint32_t v = 0; v < 40; ++v)
+    EXPECT_EQ(snapshot.index(body.cell_of(v)), snapshot.index(locator.particle_at(targets[v])->cell)) << v;
+}
+
 }  // namespace
 }  // namespace cellwalk::test
