@@ -15,8 +15,8 @@ constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 409
 
 /// The walls about larger bodies are found by clusters, of so many at most; then the region holds the body or
 /// is none, as parts of it have their own.
-constexpr std::size_t least_vertices_by_clusters = 33, most_clusters = 64;
-constexpr std::size_t walls_per_vertex = 2, least_walls = 128, most_walls = 1024;
+constexpr std::size_t least_vertices_by_clusters = 33, most_body_clusters = 64;
+constexpr std::size_t walls_per_vertex = 2, least_body_walls = 128, most_body_walls = 1024;
 
 }  // namespace
 
@@ -48,12 +48,12 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.steps_ahead = steps_ahead_;
   request.by_clusters = positions.size() >= least_vertices_by_clusters;
   if (request.by_clusters) {
-    request.most_cells = most_clusters;
-    request.most_walls = std::clamp(walls_per_vertex * positions.size(), least_walls, most_walls);
+    request.most_cells = most_body_clusters;
+    request.most_walls = std::clamp(walls_per_vertex * positions.size(), least_body_walls, most_body_walls);
     request.most_planes = Clear_region<D>::most_planes;
   }
   Region_effort effort;
-  const auto found = find_clear_region(snapshot, anchor, request, effort);
+  auto found = find_clear_region(snapshot, anchor, request, effort);
   counts.region_cells += effort.cells;
   counts.region_walls += effort.walls;
   steps_ahead_ = effort.is_exhausted ? 0.5 * steps_ahead_
