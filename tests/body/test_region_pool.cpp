@@ -136,9 +136,34 @@ TEST(RegionPool, RegionsHoldNoWallOfAVessel) {
   EXPECT_GT(found.with_planes, 200);
 }
 
+Point<3> middle(const Cell_view<3>& cell) {
+  Point<3> sum{};
+  for (std::size_t v = 0; v < cell.vertex_count(); ++v) sum = sum + cell.point(v);
+  return 1.0 / static_cast<double>(cell.vertex_count()) * sum;
+}
+
+/// A facet of a cell that is not of the boundary.
+Half_facet inner_facet(const Snapshot<3>& snapshot, std::size_t cell) {
+  Half_facet f = snapshot.half_facet(snapshot.cell(cell), 0);
+  while (snapshot.neighbour(f) == Cell::none) f = Half_facet{to_index(f) + 1};
+  return f;
+}
+
+void expect_around_facets(const Snapshot<3>& snapshot, const detail::Facet_boxes<3>& boxes) {
+  const Plane_frame<3>& frame = snapshot.frame();
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    if (!(boxes.low[0][lane] <= boxes.high[0][lane])) continue;
+    for (const std::uint32_t v : snapshot.loop(Half_facet{boxes.facets[lane]}))
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double t = (snapshot.point(v)[k] - frame.centre[k]) * frame.scale;
+        EXPECT_LE(boxes.low[k][lane], t);
+        EXPECT_GE(boxes.high[k][lane], t);
+      }
+  }
+}
+
 /// Clusters miss none of the walls that a flood of cells meets.
-TEST(RegionPool, ClustersHaveTheWallsOfAllCells) {
-  const Snapshot<3> snapshot = compile(branching_vessel({}));
+void expect_walls_of_all_cells(const Snapshot<3>& snapshot, std::size_t least_clusters) {
   const detail::Cell_clusters<3>& clusters = snapshot.clusters();
   std::set<std::uint32_t> walls, expected;
   std::set<std::pair<std::uint32_t, std::uint32_t>> passages, expected_passages;
@@ -164,11 +189,37 @@ TEST(RegionPool, ClustersHaveTheWallsOfAllCells) {
           if (boxes.low[0][lane] <= boxes.high[0][lane]) use(boxes.facets[lane]);
     };
     each(cluster.walls, [&](std::uint32_t f) { EXPECT_TRUE(walls.insert(f).second); });
+    for (const auto& boxes : cluster.walls) expect_around_facets(snapshot, boxes);
     each(cluster.passages, [&](std::uint32_t there) { EXPECT_TRUE(passages.emplace(number, there).second); });
   }
-  EXPECT_GT(numbers.size(), 20u);
+  EXPECT_GE(numbers.size(), least_clusters);
   EXPECT_EQ(walls, expected);
   EXPECT_EQ(passages, expected_passages);
+}
+
+TEST(RegionPool, ClustersHaveTheWallsOfAllCells) {
+  expect_walls_of_all_cells(compile(branching_vessel({})), 20);
+}
+
+TEST(RegionPool, ClustersFollowEdits) {
+  Simplex_grid_options<3> grid;
+  grid.cells = {3, 3, 3};
+  Environment<3> environment = Environment<3>::build(tetrahedral_grid(grid));
+  const Snapshot<3>& snapshot = environment.snapshot();
+  expect_walls_of_all_cells(snapshot, 3);
+  for (std::size_t cell = 0; cell < snapshot.cell_count(); cell += 3)
+    environment.set_impassable(inner_facet(snapshot, cell), true);
+  expect_walls_of_all_cells(snapshot, 3);
+  environment.set_impassable(inner_facet(snapshot, 9), false);
+  expect_walls_of_all_cells(snapshot, 3);
+  std::uint32_t inner = 0;
+  while (snapshot.point(inner) != Point<3>{1, 1, 1}) ++inner;
+  environment.move_vertex(inner, {1.125, 1, 0.875});
+  expect_walls_of_all_cells(snapshot, 3);
+  for (const std::size_t index : {1, 161, 30}) {
+    environment.insert_point(snapshot.cell(index), middle(snapshot.view(snapshot.cell(index))));
+    expect_walls_of_all_cells(snapshot, 3);
+  }
 }
 
 /// Where the environment is so large, or so small, that it has no planes in single precision.
@@ -264,31 +315,67 @@ TEST(RegionPool, HoldsWhatRestsOnAnObliqueFloor) {
   EXPECT_GT(counts.in_region, 1800u);
 }
 
-/// Vertices go along a wall in regions of their own, then round its corner in one of the body.
-TEST(RegionPool, ACellIsAskedForWhereTheWayFromARegionLeftIsBlocked) {
+/// Vertices go along a wall in regions of their own, then round its corner in one of the body, and a last one
+/// with them or not. From there, the regions they left do not hold.
+TEST(RegionPool, RegionsLeftWithTheBodyDoNotHold) {
   const Snapshot<2> snapshot = rooms<2>({3, 3}, {3});
   const Locator<2> locator(snapshot);
+  for (const bool stays_one : {false, true}) {
+    SCOPED_TRACE(stays_one);
+    Body_soup<2> soup;
+    soup.points.push_back({0.5, 2.5});  // behind the solid cell
+    for (int v = 1; v < 40; ++v) soup.points.push_back({0.5 + 0x1p-8 * v, 0.5});
+    Body<2> body(snapshot, locator, soup);
+    Body_counts counts;
+    Step_report<2> report;
+    std::vector<Point<2>> targets = soup.points;
+    if (!stays_one) targets[0] = {1.5, 2.5};
+    for (std::size_t v = 1; v < 40; ++v) targets[v][0] += 1;
+    body.step(targets, {}, report, counts);
+    EXPECT_EQ(counts.in_region, 40u);
+    if (!stays_one) targets[0] = {1.5, 0.5};
+    for (int k = 0; k < 4; ++k) body.step(targets, {}, report, counts);
+    EXPECT_LE(counts.catch_ups, 1u) << "they are not registered yet";
+    counts = {};
+    for (std::size_t v = stays_one ? 1 : 0; v < 40; ++v) targets[v][1] += 2;
+    body.step(targets, {}, report, counts);
+    EXPECT_GE(counts.in_region, 39u) << "what stays is not counted";
+    EXPECT_TRUE(report.contacts.empty());
+    for (std::uint32_t v = 0; v < 40; ++v)
+      EXPECT_EQ(body.cell_of(v), locator.particle_at(targets[v])->cell) << v;
+    // The solid cell is in the way.
+    for (std::size_t v = 1; v < 40; ++v) targets[v] = soup.points[v];
+    body.step(targets, {}, report, counts);
+    std::set<std::uint32_t> met;
+    for (const Contact<2>& contact : report.contacts) met.insert(contact.vertex);
+    EXPECT_GE(met.size(), 39u);
+    body.refresh(counts);
+    EXPECT_NO_THROW(body.validate());
+  }
+}
+
+/// Each vertex has a room of its own, and there are more than places for regions.
+TEST(RegionPool, RegionsInUseAreKept) {
+  constexpr std::uint32_t vertices = 80;
+  std::vector<std::uint32_t> solid;
+  for (std::uint32_t v = 0; v < vertices; ++v) solid.insert(solid.end(), {4 * v + 2, 4 * v + 3});
+  const Snapshot<2> snapshot = rooms<2>({2, 2 * vertices}, solid);
+  const Locator<2> locator(snapshot);
   Body_soup<2> soup;
-  soup.points.push_back({0.5, 2.5});  // behind the solid cell
-  for (int v = 1; v < 40; ++v) soup.points.push_back({0.5 + 0x1p-8 * v, 0.5});
+  for (std::uint32_t v = 0; v < vertices; ++v) soup.points.push_back({0.5, 2 * v + 0.5});
   Body<2> body(snapshot, locator, soup);
   Body_counts counts;
   Step_report<2> report;
   std::vector<Point<2>> targets = soup.points;
-  targets[0] = {1.5, 2.5};
-  for (std::size_t v = 1; v < 40; ++v) targets[v][0] += 1;
-  body.step(targets, {}, report, counts);
-  EXPECT_EQ(counts.in_region, 40u);
-  targets[0] = {1.5, 0.5};
-  for (int k = 0; k < 4; ++k) body.step(targets, {}, report, counts);
-  EXPECT_LE(counts.catch_ups, 1u) << "they are not registered yet";
-  counts = {};
-  for (Point<2>& x : targets) x[1] += 2;
-  body.step(targets, {}, report, counts);
-  EXPECT_EQ(counts.in_region, 40u);
-  EXPECT_TRUE(report.contacts.empty());
-  for (std::uint32_t v = 0; v < 40; ++v)
-    EXPECT_EQ(snapshot.index(body.cell_of(v)), snapshot.index(locator.particle_at(targets[v])->cell)) << v;
+  for (int k = 0; k < 5; ++k) {
+    counts = {};
+    for (Point<2>& x : targets) x[0] = 2 - x[0];
+    body.step(targets, {}, report, counts);
+  }
+  EXPECT_GE(counts.in_region, 64u);
+  EXPECT_LT(counts.in_region, vertices);
+  body.refresh(counts);
+  EXPECT_NO_THROW(body.validate());
 }
 
 }  // namespace
