@@ -216,6 +216,10 @@ TEST(RegionPool, ClustersFollowEdits) {
   while (snapshot.point(inner) != Point<3>{1, 1, 1}) ++inner;
   environment.move_vertex(inner, {1.125, 1, 0.875});
   expect_walls_of_all_cells(snapshot, 3);
+  std::uint32_t corner = 0;
+  while (snapshot.point(corner) != Point<3>{3, 3, 3}) ++corner;
+  environment.move_vertex(corner, {6, 6, 6});  // out of the frame of all boxes
+  expect_walls_of_all_cells(snapshot, 3);
   for (const std::size_t index : {1, 161, 30}) {
     environment.insert_point(snapshot.cell(index), middle(snapshot.view(snapshot.cell(index))));
     expect_walls_of_all_cells(snapshot, 3);
