@@ -88,10 +88,10 @@ Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const 
 /// Finds out whether the body is apart from all walls, where that matters and is not known.
 template <int D>
 void Target_step<D>::find_out_if_apart() {
-  if (body_.region.holds_body())
-    body_.is_apart = true;
-  else if (sweep_.touch == Touch::pass)
+  if (sweep_.touch == Touch::pass)
     body_.is_apart = false;  // what moves now may touch
+  else if (body_.region.holds_body())
+    body_.is_apart = true;
   else if (!body_.is_apart)
     body_.is_apart = !touches_wall();
 }

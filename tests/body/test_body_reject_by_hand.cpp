@@ -207,5 +207,28 @@ TEST(BodyReject, RefusesRulesThatDoNotGoTogetherOrNotWithTheBody) {
   }
 }
 
+/// A vertex leaves a region for a wall where touching is allowed. What touches since is stopped.
+TEST(BodyReject, WhatCameToTouchIsNotTakenToBeApart) {
+  const Snapshot<2> snapshot = rooms<2>({1, 1});
+  for (const bool clearance : {true, false}) {
+    SCOPED_TRACE(clearance);
+    Body<2> body(snapshot, Locator<2>(snapshot), {{{0.5, 0.5}, {0.75, 0.5}}, {{0, 1}}, {}});
+    Body_options options;
+    options.policy = Contact_policy::reject;
+    options.edges = Edge_rule::at_target;
+    options.sweep.touch = Touch::pass;
+    options.clearance = clearance;
+    Step_report<2> report;
+    Body_counts counts;
+    body.step(std::vector<Point<2>>{{0.5, 0.5}, {0.75, 0.51}}, options, report, counts);
+    body.step(std::vector<Point<2>>{{0.5, 0.5}, {1, 0.5}}, options, report, counts);
+    EXPECT_TRUE(report.contacts.empty());
+    options.sweep.touch = Touch::stop;
+    body.step(std::vector<Point<2>>{{0.5, 0.51}, {1, 0.5}}, options, report, counts);
+    EXPECT_FALSE(report.contacts.empty());
+    EXPECT_EQ(body.positions()[0], (Point<2>{0.5, 0.5})) << "its edge touches the wall";
+  }
+}
+
 }  // namespace
 }  // namespace cellwalk::test
