@@ -98,7 +98,7 @@ class Environment {
   /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
   /// Names of cells and facets are kept; the loop of a facet may start at another vertex.
   /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
-  /// them; the first time linear in the number of facets.
+  /// them; the first time linear in the number of facets, as where it goes far out of all others.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
   /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the
