@@ -72,8 +72,8 @@ bool Region_cache<D>::take(const std::optional<Clear_region<D>>& found, std::spa
     target_backoff_ = backoff_with_targets;
     return false;
   }
-  // One that holds little of the body serves little, as of a rod: it is looked for the less.
-  const bool is_of_use = 2 * outside_ < is_outside_.size();
+  // One that holds little of a large body serves little, as of a rod: it is looked for the less.
+  const bool is_of_use = is_outside_.size() < least_vertices_by_clusters || 2 * outside_ < is_outside_.size();
   search_backoff_ = next_backoff_;
   next_backoff_ = is_of_use ? std::min(2 * next_backoff_, most_backoff)
                             : std::min(8 * next_backoff_, most_backoff_of_little);

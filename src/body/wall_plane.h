@@ -48,7 +48,7 @@ struct Wall_plane {
       for (std::size_t k = 0; k < 3; ++k) {
         const double first = a[(k + 1) % 3] * b[(k + 2) % 3], second = a[(k + 2) % 3] * b[(k + 1) % 3];
         normal[k] = first - second;
-        terms[k] = std::abs(first) + std::abs(second);
+        terms[k] = std::abs(first) + std::abs(second) + least_magnitude;  // products may underflow
       }
     }
     double size = 0;
