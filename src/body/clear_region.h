@@ -6,14 +6,13 @@
 
 #include <cellwalk/walk/walk.h>
 
-#include <boost/container/static_vector.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "open_box.h"
 #include "wall_plane.h"
@@ -91,8 +90,8 @@ class Clear_region {
   }
 
   Open_box<D> box_;
-  boost::container::static_vector<Wall_plane<D>, most_planes> planes_;
-  boost::container::static_vector<Plane_pair, most_planes / 2> pairs_;  ///< the same
+  std::vector<Wall_plane<D>> planes_;
+  std::vector<Plane_pair> pairs_;  ///< the same
   Particle<D> anchor_;
 };
 
