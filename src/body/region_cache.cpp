@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "region_pool.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -13,9 +15,8 @@ constexpr std::uint32_t least_backoff = 1, most_backoff = 64, most_backoff_of_li
 /// A search may look at so many cells: it must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 
-/// The walls about larger bodies are found by clusters, of so many at most; then the region holds the body or
-/// is none, as parts of it have their own.
-constexpr std::size_t least_vertices_by_clusters = 33, most_body_clusters = 64;
+/// The walls about a body whose parts have regions are found by clusters: of so many, and so many walls.
+constexpr std::size_t most_body_clusters = 64;
 constexpr std::size_t walls_per_vertex = 2, least_body_walls = 128, most_body_walls = 1024;
 
 }  // namespace
@@ -46,7 +47,7 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.targets = targets;
   request.most_cells = std::clamp(cells_per_vertex * positions.size(), least_cells, most_cells);
   request.steps_ahead = steps_ahead_;
-  request.by_clusters = positions.size() >= least_vertices_by_clusters;
+  request.by_clusters = positions.size() >= least_vertices_of_parts;
   if (request.by_clusters) {
     request.most_cells = most_body_clusters;
     request.most_walls = std::clamp(walls_per_vertex * positions.size(), least_body_walls, most_body_walls);
@@ -73,7 +74,7 @@ bool Region_cache<D>::take(const std::optional<Clear_region<D>>& found, std::spa
     return false;
   }
   // One that holds little of a large body serves little, as of a rod: it is looked for the less.
-  const bool is_of_use = is_outside_.size() < least_vertices_by_clusters || 2 * outside_ < is_outside_.size();
+  const bool is_of_use = is_outside_.size() < least_vertices_of_parts || 2 * outside_ < is_outside_.size();
   search_backoff_ = next_backoff_;
   next_backoff_ = is_of_use ? std::min(2 * next_backoff_, most_backoff)
                             : std::min(8 * next_backoff_, most_backoff_of_little);

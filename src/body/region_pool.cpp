@@ -8,8 +8,6 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Smaller bodies have one region.
-constexpr std::size_t least_vertices = 33;
 /// A search may look at so many cells.
 constexpr std::size_t most_clusters = 64, most_walls = 256;
 /// Those of a step at so many walls, so that no step is much longer than others: one more search may begin.
@@ -27,7 +25,7 @@ constexpr double least_margin = 0.05, most_margin = 16;
 
 template <int D>
 Region_pool<D>::Region_pool(std::size_t vertices) {
-  if (vertices < least_vertices) return;
+  if (vertices < least_vertices_of_parts) return;
   known_.resize(vertices);
   for (Known& known : known_) known = Known{none, none, none, none};
   wait_.resize(vertices);
@@ -96,12 +94,12 @@ bool Region_pool<D>::try_move(std::uint32_t vertex, const Point<D>& target,
   return false;
 }
 
-/// The vertex moves within a region: it comes first of those that hold it then.
+/// The vertex moves, within a region unless that is `none`: it comes first of those that hold it then.
 template <int D>
 void Region_pool<D>::stay_in(std::uint32_t vertex, int region, const Point<D>& position) {
   Known& known = known_[vertex];
   Known kept{region, none, none, none};
-  int count = 1;
+  int count = region == none ? 0 : 1;
   for (int k = 0; k < places_known && known[k] != none; ++k) {
     if (known[k] == region) continue;
     if (at(known[k]).holds(position))
@@ -192,17 +190,7 @@ int Region_pool<D>::free_place() {
 
 template <int D>
 void Region_pool<D>::place(std::uint32_t vertex, const Point<D>& position) {
-  if (!holds(vertex)) return;
-  Known& known = known_[vertex];
-  Known kept{none, none, none, none};
-  int count = 0;
-  for (int k = 0; k < places_known && known[k] != none; ++k) {
-    if (at(known[k]).holds(position))
-      kept[count++] = known[k];
-    else
-      --users(known[k]);
-  }
-  known = kept;
+  if (holds(vertex)) stay_in(vertex, none, position);
 }
 
 template <int D>

@@ -16,6 +16,9 @@
 
 namespace cellwalk::detail {
 
+/// Smaller bodies have one region, whose walls are found cell by cell.
+constexpr std::size_t least_vertices_of_parts = 33;
+
 /// Each vertex knows some of the regions that hold its position.
 template <int D>
 class Region_pool {
@@ -75,9 +78,9 @@ class Region_pool {
   int free_place();
 
   bool is_used_ = false;
-  std::vector<Known> known_;  ///< of each vertex
-  std::vector<std::uint8_t> wait_,
-      waits_;  ///< moves until the next search for a vertex; the last such number
+  std::vector<Known> known_;         ///< of each vertex
+  std::vector<std::uint8_t> wait_;   ///< of each vertex, moves until it may search again
+  std::vector<std::uint8_t> waits_;  ///< such moves after its next search in vain
   std::vector<Clear_region<D>> regions_;
   std::vector<std::uint32_t> users_;  ///< vertices known to lie in each
   int hand_ = 0;                      ///< the place looked at next for one without vertices
