@@ -7,78 +7,17 @@
 #include <tuple>
 #include <utility>
 
+#include "twofold_orientation.h"
+
 namespace cellwalk {
 namespace {
 
+using detail::largest_difference;
+using detail::least_difference;
+using detail::Twofold_normal;
+
 double double_below(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 double double_above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
-
-template <int D>
-using Twofold_vector = std::array<Twofold, static_cast<std::size_t>(D)>;
-
-/// The differences x - y, which are exact.
-template <int D>
-Twofold_vector<D> differences(const Point<D>& x, const Point<D>& y) {
-  Twofold_vector<D> d;
-  for (std::size_t i = 0; i < D; ++i) d[i] = detail::exact_difference(x[i], y[i]);
-  return d;
-}
-
-/// Between these, products of three differences and of their low parts neither overflow nor lose a bit to
-/// underflow that matters: the largest of them is 2^-450 at least, and what underflows 2^-900 at most.
-constexpr double least_difference = 0x1p-150, largest_difference = 0x1p150;
-
-template <int D>
-bool are_in_range(const Twofold_vector<D>& d) {
-  return std::all_of(d.begin(), d.end(), [](const Twofold& x) {
-    const double size = std::abs(x.high);
-    return size == 0 || (size > least_difference && size < largest_difference);
-  });
-}
-
-/// The normal of a line or plane, with the sums of the sizes of the terms of each component.
-template <int D>
-struct Twofold_normal {
-  Twofold_vector<D> value;
-  std::array<double, static_cast<std::size_t>(D)> size;
-  bool is_in_range;
-};
-
-Twofold_normal<2> normal_of(const std::array<Point<2>, 2>& line) {
-  const Twofold_vector<2> d = differences<2>(line[1], line[0]);
-  return {{-d[1], d[0]}, {std::abs(d[1].high), std::abs(d[0].high)}, are_in_range<2>(d)};
-}
-
-Twofold_normal<3> normal_of(const std::array<Point<3>, 3>& plane) {
-  const Twofold_vector<3> d = differences<3>(plane[1], plane[0]), e = differences<3>(plane[2], plane[0]);
-  Twofold_normal<3> normal;
-  normal.is_in_range = are_in_range<3>(d) && are_in_range<3>(e);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    normal.value[i] = d[j] * e[k] - d[k] * e[j];
-    normal.size[i] = std::abs(d[j].high * e[k].high) + std::abs(d[k].high * e[j].high);
-  }
-  return normal;
-}
-
-/// The errors of an orientation are less than this share of the sum of the sizes of its terms. In 3D a term
-/// has two products and three sums, hence at most 2 * 7 + 3 * 3 = 23 units, in 2D 7 + 3; the rest covers
-/// terms of higher order and that the sizes are computed in doubles.
-constexpr double orientation_share = 32 * detail::twofold_unit;
-
-template <int D>
-std::optional<Bounded_twofold> orientation(const Twofold_normal<D>& normal, const Point<D>& origin,
-                                           const Point<D>& x) {
-  const Twofold_vector<D> d = differences<D>(x, origin);
-  if (!are_in_range<D>(d)) return {};
-  Twofold value = normal.value[0] * d[0];
-  double size = normal.size[0] * std::abs(d[0].high);
-  for (std::size_t i = 1; i < D; ++i) {
-    value = value + normal.value[i] * d[i];
-    size += normal.size[i] * std::abs(d[i].high);
-  }
-  return Bounded_twofold{value, orientation_share * size};
-}
 
 /// Times below this are left to exact arithmetic, since their low parts might underflow.
 constexpr double least_time = 0x1p-400;
@@ -123,6 +62,33 @@ std::optional<Bounded_twofold> coordinate_at(double from, double to, const Bound
                                                                                 4 * std::abs(value.high))};
 }
 
+/// The time v_a / (v_a - v_b).
+std::optional<Bounded_twofold> quotient(const Bounded_twofold& at_a, const Bounded_twofold& at_b) {
+  if (!(std::abs(at_a.value.high) > least_certainty * at_a.error)) return {};
+  const Twofold difference = at_a.value - at_b.value;
+  const double size = std::abs(difference.high);
+  if (!(size > least_certainty * (at_a.error + at_b.error))) return {};
+  const Twofold time = at_a.value / difference;
+  if (!(time.high > least_time)) return {};
+  // The relative errors of v_a, of the difference and of the quotient; the factor covers their products.
+  const double share =
+      at_a.error / std::abs(at_a.value.high) + (at_a.error + at_b.error) / size + 32 * detail::twofold_unit;
+  return Bounded_twofold{time, (1 + 0x1p-8) * share * std::abs(time.high)};
+}
+
+/// The time rounded down, if twice the precision of a double tells; in a second attempt with smaller errors,
+/// which a motion needs that starts close to the plane.
+/// \param time what is known of it
+template <int D>
+std::optional<double> certain_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
+  if (time)
+    if (const auto rounded = certain_floor(*time)) return rounded;
+  const auto at_a = detail::sharp_orientation<D>(crossing.plane, crossing.a),
+             at_b = detail::sharp_orientation<D>(crossing.plane, crossing.b);
+  const auto sharper = at_a && at_b ? quotient(*at_a, *at_b) : std::nullopt;
+  return sharper ? certain_floor(*sharper) : std::nullopt;
+}
+
 /// The orientations of both ends of a motion.
 template <int D>
 std::array<Ring, 2> exact_orientations(const Crossing<D>& crossing) {
@@ -144,8 +110,7 @@ Fraction exact_coordinate(double from, double to, const Fraction& time) {
 /// The crossing_time(), given what is known of it.
 template <int D>
 double rounded_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
-  if (time)
-    if (const auto rounded = certain_floor(*time)) return *rounded;
+  if (const auto rounded = certain_time(crossing, time)) return *rounded;
   const auto [at_a, at_b] = exact_orientations(crossing);
   if (at_a == at_b) return 0;
   const Fraction exact(at_a, Ring(at_a - at_b));
@@ -201,21 +166,12 @@ std::optional<Bounded_twofold> bounded_time(const Crossing<D>& crossing) {
   for (std::size_t k = 0; k < D; ++k)
     if (is_in_coordinate_plane(crossing, k))
       return bounded_time_of_coordinate(crossing.a[k], crossing.b[k], crossing.plane[0][k]);
-  const Twofold_normal<D> normal = normal_of(crossing.plane);
+  const Twofold_normal<D> normal = detail::normal_of(crossing.plane);
   if (!normal.is_in_range) return {};
-  const auto at_a = orientation<D>(normal, crossing.plane[0], crossing.a);
-  const auto at_b = orientation<D>(normal, crossing.plane[0], crossing.b);
+  const auto at_a = detail::orientation<D>(normal, crossing.plane[0], crossing.a);
+  const auto at_b = detail::orientation<D>(normal, crossing.plane[0], crossing.b);
   if (!at_a || !at_b) return {};
-  if (!(std::abs(at_a->value.high) > least_certainty * at_a->error)) return {};
-  const Twofold difference = at_a->value - at_b->value;
-  const double size = std::abs(difference.high);
-  if (!(size > least_certainty * (at_a->error + at_b->error))) return {};
-  const Twofold time = at_a->value / difference;
-  if (!(time.high > least_time)) return {};
-  // The relative errors of v_a, of the difference and of the quotient; the factor covers their products.
-  const double share = at_a->error / std::abs(at_a->value.high) + (at_a->error + at_b->error) / size +
-                       32 * detail::twofold_unit;
-  return Bounded_twofold{time, (1 + 0x1p-8) * share * std::abs(time.high)};
+  return quotient(*at_a, *at_b);
 }
 
 template <int D>
@@ -229,8 +185,7 @@ Exact_time to_time(const Crossing<D>& crossing) {
   const auto with_source = [&](double rounded) {
     return Exact_time(rounded, std::make_shared<const Exact_fraction>(Exact_fraction{crossing}));
   };
-  if (const auto time = bounded_time(crossing))
-    if (const auto rounded = certain_floor(*time)) return with_source(*rounded);
+  if (const auto rounded = certain_time(crossing, bounded_time(crossing))) return with_source(*rounded);
   const Rounded rounded = rounded_down(fraction_of(crossing));
   return rounded.is_exact ? Exact_time(rounded.value) : with_source(rounded.value);
 }

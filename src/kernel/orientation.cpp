@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 
+#include "twofold_orientation.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -25,13 +27,22 @@ int orientation_in(const Point<3>& p, const Point<3>& q, const Point<3>& r, cons
                            P(s[0], s[1], s[2]));
 }
 
+template <class P>
+bool have_coincident(const P&) {
+  return false;
+}
+template <class P, class... Others>
+bool have_coincident(const P& p, const Others&... others) {
+  return ((others == p) || ...) || have_coincident(others...);
+}
+
 /// True if the points agree in a coordinate, or two of them coincide: then the orientation is 0. This is the
-/// common case of bodies at walls that are parallel to the axes.
+/// common case of bodies at walls that are parallel to the axes, and of walls that share a vertex.
 template <std::size_t D, class... Others>
 bool is_plainly_zero(const std::array<double, D>& p, const Others&... others) {
   for (std::size_t k = 0; k < D; ++k)
     if (((others[k] == p[k]) && ...)) return true;
-  return ((others == p) || ...);
+  return have_coincident(p, others...);
 }
 
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -41,11 +52,15 @@ using Rational_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 }  // namespace
 
 int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-  return is_plainly_zero(p, q, r) ? 0 : orientation_in<Filtered>(p, q, r);
+  if (is_plainly_zero(p, q, r)) return 0;
+  const int sign = twofold_sign<2>({p, q}, r);
+  return sign != 0 ? sign : orientation_in<Filtered>(p, q, r);
 }
 
 int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
-  return is_plainly_zero(p, q, r, s) ? 0 : orientation_in<Filtered>(p, q, r, s);
+  if (is_plainly_zero(p, q, r, s)) return 0;
+  const int sign = twofold_sign<3>({p, q, r}, s);
+  return sign != 0 ? sign : orientation_in<Filtered>(p, q, r, s);
 }
 
 int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r) {

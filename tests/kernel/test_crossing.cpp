@@ -12,6 +12,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "kernel/twofold_orientation.h"
+
 namespace cellwalk::test {
 namespace {
 
@@ -59,20 +61,22 @@ TEST(Twofold, OperationsKeepTheirBounds) {
 }
 
 template <int D>
+Judge exact_orientation(const std::array<Point<D>, D>& plane, const Point<D>& x) {
+  std::array<std::array<Judge, D>, D> m;
+  for (std::size_t row = 0; row < D; ++row)
+    for (std::size_t k = 0; k < D; ++k)
+      m[row][k] = Judge((row + 1 < D ? plane[row + 1] : x)[k]) - Judge(plane[0][k]);
+  if constexpr (D == 2)
+    return Judge(m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+  else
+    return Judge(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                 m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                 m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+}
+
+template <int D>
 Judge exact_time(const Crossing<D>& c) {
-  const auto orientation = [&](const Point<D>& x) {
-    std::array<std::array<Judge, D>, D> m;
-    for (std::size_t row = 0; row < D; ++row)
-      for (std::size_t k = 0; k < D; ++k)
-        m[row][k] = Judge((row + 1 < D ? c.plane[row + 1] : x)[k]) - Judge(c.plane[0][k]);
-    if constexpr (D == 2)
-      return Judge(m[0][0] * m[1][1] - m[0][1] * m[1][0]);
-    else
-      return Judge(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                   m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                   m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
-  };
-  const Judge at_a = orientation(c.a), at_b = orientation(c.b);
+  const Judge at_a = exact_orientation<D>(c.plane, c.a), at_b = exact_orientation<D>(c.plane, c.b);
   return at_a == at_b ? Judge(-1) : Judge(at_a / (at_a - at_b));
 }
 
@@ -129,6 +133,54 @@ template <class Dimension>
 class CrossingTime : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CrossingTime, Dimensions);
+
+/// Points in general position, some ulp off the plane, or in it.
+template <int D>
+Crossing<D> drawn_at_plane(Random& random, int kind) {
+  if (kind == 2) {
+    // Products of differences have more bits than the numbers tested: they do not cancel by themselves.
+    Crossing<D> c = drawn<D>([&] { return std::round(random.real(-0x1p45, 0x1p45)); });
+    c.a = c.plane[0];
+    for (std::size_t i = 1; i < D; ++i)
+      c.a = c.a + std::round(random.real(-8, 8)) * (c.plane[i] - c.plane[0]);
+    return c;
+  }
+  const bool is_close = kind == 1;
+  Crossing<D> c = drawn<D>([&] { return number(random, 4); });
+  const Judge time = exact_time(c);
+  if (!is_close || !(time > 0 && time < 1)) return c;
+  const Point_bounds<D> place = bounds_at<D>(c.a, c.b, to_time(c));
+  for (int k = 0; k < D; ++k) c.a[k] = random.below(2) == 0 ? place.below[k] : place.above[k];
+  return c;
+}
+
+TYPED_TEST(CrossingTime, OrientationsAreWithinTheirBounds) {
+  constexpr int D = TypeParam::value;
+  Random random(8);
+  int sharp = 0, sharper = 0, signs = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Crossing<D> c = drawn_at_plane<D>(random, i % 3);
+    const Judge exact = exact_orientation<D>(c.plane, c.a);
+    const detail::Twofold_normal<D> normal = detail::normal_of(c.plane);
+    if (!normal.is_in_range) continue;
+    const auto plain = detail::orientation<D>(normal, c.plane[0], c.a);
+    if (!plain) continue;
+    ASSERT_LE(abs(Judge(value(plain->value) - exact)), Judge(plain->error));
+    if (const int sign = detail::twofold_sign<D>(c.plane, c.a); sign != 0) {
+      ++signs;
+      ASSERT_EQ(sign, exact.sign());
+    }
+    const auto found = detail::sharp_orientation<D>(c.plane, c.a);
+    if (!found) continue;
+    ++sharp;
+    ASSERT_LE(abs(Judge(value(found->value) - exact)), Judge(found->error));
+    sharper += exact != 0 && plain->error > 0x1p-60 * std::abs(plain->value.high) &&
+               found->error < 0x1p-60 * std::abs(found->value.high);
+  }
+  EXPECT_GT(sharp, 15000);
+  EXPECT_GT(signs, 10000);
+  EXPECT_GT(sharper, 100) << "close to the plane, where it is needed";
+}
 
 TYPED_TEST(CrossingTime, IsRoundedDownInGeneralPosition) {
   constexpr int D = TypeParam::value;

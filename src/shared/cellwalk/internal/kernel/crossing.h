@@ -23,12 +23,6 @@ struct Crossing {
   std::array<Point<D>, static_cast<std::size_t>(D)> plane;
 };
 
-/// A number and a bound of the absolute error of its value.
-struct Bounded_twofold {
-  Twofold value;
-  double error;
-};
-
 /// The time at which the motion passes the plane: v_a / (v_a - v_b) for the orientations v_a of a and v_b of
 /// b. None if their errors leave the sign of v_a undecided, or coordinates differ by less than 2^-150 or more
 /// than 2^150.

@@ -13,6 +13,12 @@ struct Twofold {
   double high = 0, low = 0;
 };
 
+/// A number and a bound of the absolute error of its value.
+struct Bounded_twofold {
+  Twofold value;
+  double error;
+};
+
 namespace detail {
 
 /// u^2, the unit of the bounds.
