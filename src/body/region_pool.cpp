@@ -8,6 +8,8 @@
 namespace cellwalk::detail {
 namespace {
 
+/// If there are no more clusters, all are made before the first step.
+constexpr std::uint32_t clusters_at_once = 1024;
 /// A search may look at so many cells.
 constexpr std::size_t most_clusters = 64, most_walls = 256;
 /// Those of a step at so many walls, so that no step is much longer than others: one more search may begin.
@@ -36,6 +38,10 @@ template <int D>
 void Region_pool<D>::prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const {
   if (known_.empty()) return;
   const Cell_clusters<D>& clusters = snapshot.clusters();
+  if (const std::uint32_t count = clusters.size(snapshot); count <= clusters_at_once) {
+    for (std::uint32_t number = 0; number < count; ++number) clusters.cluster(snapshot, number);
+    return;
+  }
   for (const Particle<D>& particle : particles) {
     const auto& here = clusters.cluster(snapshot, clusters.cluster_of(snapshot, particle.cell));
     for (const Facet_boxes<D>& boxes : here.passages)

@@ -73,6 +73,11 @@ const typename Cell_clusters<D>::Table& Cell_clusters<D>::table(const Snapshot<D
 }
 
 template <int D>
+std::uint32_t Cell_clusters<D>::size(const Snapshot<D>& snapshot) const {
+  return static_cast<std::uint32_t>(table(snapshot).made.size());
+}
+
+template <int D>
 std::uint32_t Cell_clusters<D>::cluster_of(const Snapshot<D>& snapshot, Cell cell) const {
   return to_index(cell) / table(snapshot).size;
 }

@@ -34,6 +34,8 @@ class Cell_clusters {
   }
   ~Cell_clusters() { clear(); }
 
+  /// How many there are.
+  std::uint32_t size(const Snapshot<D>& snapshot) const;
   /// The number of a cell's cluster, of the snapshot that has these clusters.
   std::uint32_t cluster_of(const Snapshot<D>& snapshot, Cell cell) const;
   const Cell_cluster<D>& cluster(const Snapshot<D>& snapshot, std::uint32_t number) const;
