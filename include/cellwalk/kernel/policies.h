@@ -99,8 +99,8 @@ struct Predicate_counts {
 static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
 
 /// Exact signs at the cost of double arithmetic in nearly all cases. The default.
-/// Cost: about 5 ns if the filter decides; 0.1 us where points lie some ulp off a plane; to 10 us where they lie
-/// in one that is not parallel to an axis, and no two of them coincide.
+/// Cost: about 5 ns if the filter decides; 0.1 us where points lie some ulp off a plane; to 10 us where
+/// they lie in one that is not parallel to an axis, and no two of them coincide.
 struct Exact {
   static constexpr bool is_exact = true;
   static constexpr bool uses_certificates = true;
