@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How long the steps of a scene take, from the median to the longest: a catheter that slides through a vessel,
+// How long the steps of a scene take, up to the longest: a catheter that slides through a vessel,
 // its elastic rod, the complete sweep of its edges, contacts and verified stops included.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/vessel.h>
