@@ -103,8 +103,12 @@ void add_import(CLI::App& app, Action& chosen) {
                    "A closed surface inside; may be given several times")
       ->type_name("MESH2");
   add_mesher_options(*command, options->import.mesher);
-  command->add_flag("--no-split", options->no_split,
-                    "Refuse cells that are not exactly convex instead of splitting");
+  CLI::Option* const no_split = command->add_flag(
+      "--no-split", options->no_split, "Refuse cells that are not exactly convex instead of splitting");
+  command
+      ->add_flag("--simplicial", options->import.build.simplicial,
+                 "Split all cells into tetrahedra, or triangles in 2D, as walls that move need")
+      ->excludes(no_split);
   add_duplicates(*command, options->import.build.duplicates);
   add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);

@@ -4,9 +4,11 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/flatten.h>
+#include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -124,35 +126,82 @@ void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector
 }
 
 template <int D>
-void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) {
-  Map_storage<D>& storage = editable();
+void Environment<D>::check_point(std::uint32_t point) const {
   if (point >= snapshot_.points().size())
     throw Error(Error_code::usage, "there is no point " + std::to_string(point));
+}
+
+template <int D>
+void Environment<D>::check_move(std::uint32_t point, const Point<D>& position) const {
+  check_point(point);
   check_finite<D>(position);
+}
+
+template <int D>
+const detail::Star_index<D>& Environment<D>::stars() {
+  if (!stars_) stars_ = std::make_unique<detail::Star_index<D>>(snapshot_);
+  return *stars_;
+}
+
+template <int D>
+const detail::Boundary_index<D>& Environment<D>::boundary() {
+  if (!boundary_) boundary_ = std::make_unique<detail::Boundary_index<D>>(snapshot_);
+  return *boundary_;
+}
+
+template <int D>
+std::vector<Cell> Environment<D>::cells_around(std::uint32_t point) {
+  check_point(point);
+  std::vector<Cell> cells;
+  stars().find_cells(snapshot_, point, cells);
+  return cells;
+}
+
+template <int D>
+bool Environment<D>::is_on_boundary(std::uint32_t point, const std::vector<Cell>& star) const {
+  return std::any_of(star.begin(), star.end(), [&](Cell c) {
+    const Cell_view<D> view = snapshot_.view(c);
+    for (std::size_t i = 0; i < view.facet_count(); ++i)
+      if (snapshot_.neighbour(Snapshot<D>::half_facet(c, i)) == Cell::none &&
+          detail::has_point(view, i, point))
+        return true;
+    return false;
+  });
+}
+
+/// What follows the move of a point in the snapshot: the map and the index of the boundary.
+template <int D>
+void Environment<D>::follow_move(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary,
+                                 const Point<D>& from) {
+  const Point<D> position = snapshot_.point(point);
+  if (storage_)
+    for (const Map_vertex<D> vertex : storage_->vertices_of(point))
+      storage_->map.point_of_vertex_attribute(vertex) = to_map_point(position);
+  if (!on_boundary || !boundary_) return;
+  using Boundary = detail::Boundary_index<D>;
+  snapshot_.move_point(point, from);
+  const auto old_boundary = Boundary::entries(snapshot_, star);
+  snapshot_.move_point(point, position);
+  follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, star));
+}
+
+template <int D>
+void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) {
+  check_move(point, position);
   const Point<D> old_position = snapshot_.point(point);
   if (position == old_position) return;
-  const Star<D> found = find_star(storage, point);
-  std::vector<Cell> star;
-  for (const Dart<D> d : found.darts)
-    star.push_back(snapshot_.cell_of(Half_facet{storage.map.info(d).half_facet()}));
-
-  using Boundary = detail::Boundary_index<D>;
-  std::vector<typename Boundary::Entry> old_boundary;
-  if (found.on_boundary) {
-    if (!boundary_) boundary_ = std::make_unique<Boundary>(snapshot_);
-    old_boundary = Boundary::entries(snapshot_, star);
-  }
+  const std::vector<Cell> star = cells_around(point);
+  const bool on_boundary = is_on_boundary(point, star);
+  if (on_boundary) boundary();
   snapshot_.move_point(point, position);
   try {
-    check_moved_star(point, star, found.on_boundary);
+    check_moved_star(point, star, on_boundary);
   } catch (...) {
     snapshot_.move_point(point, old_position);
     throw;
   }
   snapshot_.update_geometry(star);
-  for (const Map_vertex<D> vertex : storage.vertices_of(point))
-    storage.map.point_of_vertex_attribute(vertex) = to_map_point(position);
-  if (found.on_boundary) follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, star));
+  follow_move(point, star, on_boundary, old_position);
 }
 
 template <int D>
@@ -181,6 +230,7 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
   const auto old_boundary = Boundary::entries(snapshot_, removed);
   std::vector<Cell> added = snapshot_.replace_cells(removed, flat.soup, flat.gluing, &slots);
   if (boundary_) follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, added));
+  if (stars_) stars_->replace(snapshot_, cell, added);
 
   for (std::size_t i = 0; i < facets.size(); ++i)
     storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))] = Dart<D>{};
@@ -198,14 +248,21 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
 }
 
 // The class as a whole is instantiated in environment.cpp.
-#define CELLWALK_INSTANTIATE(D)                                                                        \
-  template Map_storage<D>& Environment<D>::editable();                                                 \
-  template void Environment<D>::check_half_facet(Half_facet) const;                                    \
-  template void Environment<D>::check_cell_name(Cell) const;                                           \
-  template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const; \
-  template void Environment<D>::check_moved_boundary(std::uint32_t, const std::vector<Cell>&) const;   \
-  template void Environment<D>::set_impassable(Half_facet, bool);                                      \
-  template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                           \
+#define CELLWALK_INSTANTIATE(D)                                                                              \
+  template Map_storage<D>& Environment<D>::editable();                                                       \
+  template void Environment<D>::check_half_facet(Half_facet) const;                                          \
+  template void Environment<D>::check_cell_name(Cell) const;                                                 \
+  template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const;       \
+  template void Environment<D>::check_moved_boundary(std::uint32_t, const std::vector<Cell>&) const;         \
+  template void Environment<D>::check_point(std::uint32_t) const;                                            \
+  template void Environment<D>::check_move(std::uint32_t, const Point<D>&) const;                            \
+  template bool Environment<D>::is_on_boundary(std::uint32_t, const std::vector<Cell>&) const;               \
+  template const detail::Star_index<D>& Environment<D>::stars();                                             \
+  template const detail::Boundary_index<D>& Environment<D>::boundary();                                      \
+  template std::vector<Cell> Environment<D>::cells_around(std::uint32_t);                                    \
+  template void Environment<D>::follow_move(std::uint32_t, const std::vector<Cell>&, bool, const Point<D>&); \
+  template void Environment<D>::set_impassable(Half_facet, bool);                                            \
+  template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                                 \
   template std::vector<Cell> Environment<D>::insert_point(Cell, const Point<D>&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -2,6 +2,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/flatten.h>
+#include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
@@ -26,9 +27,10 @@ Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_repo
   clean_points(soup, options.duplicates, report);
   if (report.merged_points) check_soup(soup);  // after merging, a facet may have a vertex twice
   report.flipped = flip_if_inverted(soup);
-  if (!options.split) return soup;
+  if (!options.split && !options.simplicial) return soup;
   std::vector<std::uint32_t> origin;
-  soup = split(std::move(soup), report.split, &origin);
+  soup = split(std::move(soup), report.split, &origin,
+               options.simplicial ? Cells_to_split::all_but_simplices : Cells_to_split::invalid);
   if (report.split.cells_split) report.origin = std::move(origin);
   return soup;
 }

@@ -49,10 +49,11 @@ std::vector<std::string> changes(const Build_report& built) {
   changed(built.unused_points, "points of no cell left out");
   const Split_report& split = built.split;
   if (split.cells_split != 0)
-    lines.push_back(fmt::format(
-        "{} of {} cells split into {}: {} not exactly planar, {} not exactly convex, the "
-        "others beside them",
-        split.cells_split, built.cells_read, split.cells_made, split.not_planar, split.not_convex));
+    lines.push_back(
+        fmt::format("{} of {} cells split into {}: {} not exactly planar, {} not exactly convex, {}the "
+                    "others beside them",
+                    split.cells_split, built.cells_read, split.cells_made, split.not_planar, split.not_convex,
+                    split.not_simplices ? fmt::format("{} no simplices, ", split.not_simplices) : ""));
   changed(split.facets_triangulated, "facets cut into triangles");
   changed(split.points_added, "points added inside cells");
   if (lines.empty()) lines.push_back("nothing: every cell is exact as it is");
@@ -71,7 +72,8 @@ nlohmann::ordered_json to_json(const Build_report& built) {
           {"facets_triangulated", split.facets_triangulated},
           {"points_added", split.points_added},
           {"not_planar", split.not_planar},
-          {"not_convex", split.not_convex}};
+          {"not_convex", split.not_convex},
+          {"not_simplices", split.not_simplices}};
 }
 
 std::string rounded(double value) { return fmt::format("{:.6g}", value); }

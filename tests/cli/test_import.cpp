@@ -45,6 +45,16 @@ TEST_F(Import, LeavesExactCellsAsTheyAre) {
   EXPECT_EQ(points(text("env.ovm")), points(text("lattice.ovm"))) << "every coordinate bit by bit";
 }
 
+TEST_F(Import, SplitsAllCellsIntoSimplicesIfAsked) {
+  succeed({"generate", "hexes", "--cells", "2", "-o", "hexes.ovm"});
+  const auto report = import("hexes.ovm", {"--simplicial"});
+  EXPECT_EQ(report.at("changed").at("not_simplices"), 8);
+  EXPECT_EQ(report.at("changed").at("not_convex"), 0);
+  EXPECT_NE(said_.find("8 no simplices"), std::string::npos) << said_;
+  succeed({"import", "env.ovm", "-o", "again.ovm", "--simplicial", "--json", "again.json"});
+  EXPECT_EQ(nlohmann::json::parse(text("again.json")).at("changed").at("cells_split"), 0);
+}
+
 TEST_F(Import, TurnsInvertedCellsRoundAndSaysSo) {
   std::string inverted = hexahedron_ovm(0);
   inverted.replace(inverted.find("6 0 2 4 6 8 10"), 14, "6 1 3 5 7 9 11");

@@ -22,14 +22,21 @@ struct Map_storage;  // <cellwalk/environment/map.h>
 namespace detail {
 template <int D>
 class Boundary_index;
-}
+template <int D>
+class Star_index;
+template <int D>
+class Vertex_mover;
+}  // namespace detail
 
 /// The treatment of different points with equal coordinates.
 enum class Duplicate_vertices { refuse, merge, keep };
 
 struct Build_options {
   Duplicate_vertices duplicates = Duplicate_vertices::refuse;
-  bool split = true;     ///< split cells that are not exactly convex; otherwise they are refused
+  bool split = true;  ///< split cells that are not exactly convex; otherwise they are refused
+  /// Split all cells that are not tetrahedra (2D: triangles), as walls that move among bodies need. Implies
+  /// `split`.
+  bool simplicial = false;
   bool keep_map = true;  ///< false: build no map; the environment is frozen from the start
 };
 
@@ -71,17 +78,22 @@ class Environment {
   /// \throw Error(usage) once frozen
   const Map_storage<D>& storage() const;
   bool is_frozen() const { return !storage_; }
-  /// Drops the map: the environment can be walked but no longer edited.
+  /// Drops the map: vertices can still be moved, but no facet be opened or closed, and no point inserted.
   void freeze();
+
+  /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
+  /// \throw Error(usage) if there is no such point
+  /// Cost: that of the cells found; the first time about 1 us for each point of the environment.
+  std::vector<Cell> cells_around(std::uint32_t point);
 
   /// The cells as a soup, with their indices and walls: the content of an .ovm file.
   /// Cost: linear.
   Cell_soup<D> soup() const;
 
   // Edits change map and snapshot consistently; only affected cells are recompiled. An edit that throws
-  // changes nothing. It throws Error(usage) if the environment is frozen, or for a facet, point or cell that
-  // does not exist; Error(input) for a position that is not finite; Error(not_certified), with the reason, if
-  // the result would not be certified.
+  // changes nothing. It throws Error(usage) if the environment is frozen, unless a vertex moves, or for a
+  // facet, point or cell that does not exist; Error(input) for a position that is not finite;
+  // Error(not_certified), with the reason, if the result would not be certified.
   //
   // Edits ignore objects that move in the environment. Each edit that changes anything raises
   // Snapshot::epoch(), and a Body that was registered before throws Error(usage) until
@@ -96,7 +108,8 @@ class Environment {
 
   /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar
   /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
-  /// Names of cells and facets are kept; the loop of a facet may start at another vertex.
+  /// Names of cells and facets are kept; the loop of a facet may start at another vertex. Works without the
+  /// map. What moves in the environment is not looked at: see Reshaping for that.
   /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
   /// them; the first time linear in the number of facets, as where it goes far out of all others.
   void move_vertex(std::uint32_t point, const Point<D>& position);
@@ -118,12 +131,23 @@ class Environment {
   void check_cell_name(Cell cell) const;
   void check_moved_star(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary) const;
   void check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
+  void check_point(std::uint32_t point) const;
+  void check_move(std::uint32_t point, const Point<D>& position) const;
+  bool is_on_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
+  const detail::Star_index<D>& stars();
+  const detail::Boundary_index<D>& boundary();
+  void follow_move(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary,
+                   const Point<D>& from);
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;
   /// Built when a vertex of the boundary first moves.
   std::unique_ptr<detail::Boundary_index<D>> boundary_;
+  /// Built when a vertex first moves.
+  std::unique_ptr<detail::Star_index<D>> stars_;
   bool allow_duplicates_ = false;
+
+  friend detail::Vertex_mover<D>;
 };
 
 extern template class Environment<2>;

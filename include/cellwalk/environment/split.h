@@ -17,6 +17,13 @@ struct Split_report {
   std::size_t points_added = 0;         ///< interior points of stars
   std::size_t not_planar = 0;           ///< cells split because a facet is not exactly planar
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
+  std::size_t not_simplices = 0;        ///< valid cells split because simplices were asked for
+};
+
+/// Which cells are split.
+enum class Cells_to_split {
+  invalid,           ///< those that are not exactly convex with exactly planar convex facets
+  all_but_simplices  ///< the same, and all that are not tetrahedra (2D: triangles)
 };
 
 /// Splits every cell that is not exactly convex with exactly planar convex facets into tetrahedra (2D:
@@ -26,12 +33,14 @@ struct Split_report {
 /// certify() checks the whole complex. The choice of facet diagonals, and so the result, depends on the input
 /// only.
 /// \param origin if not null, receives the input cell of each result cell
+/// \param which whether valid cells are split as well that are no simplices; then all cells of the result are
 /// \throw Error(not_certified) naming a cell that cannot be split (the same one for any number of threads),
 ///        and why; as glue, if a cell is split
 /// \throw Error(input) for a vertex index out of range or a coordinate that is not finite
 /// Cost: about 0.1 us a valid tetrahedron, 6 us a hexahedron that is split; parallel.
 template <int D>
-Cell_soup<D> split(Cell_soup<D> soup, Split_report& report, std::vector<std::uint32_t>* origin = nullptr);
+Cell_soup<D> split(Cell_soup<D> soup, Split_report& report, std::vector<std::uint32_t>* origin = nullptr,
+                   Cells_to_split which = Cells_to_split::invalid);
 
 }  // namespace cellwalk
 

@@ -103,6 +103,25 @@ void Snapshot_compiler<D>::remove_cell(Cell c) {
 }
 
 template <int D>
+void Snapshot_compiler<D>::withdraw(Cell c) {
+  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
+  const std::size_t facets = s_.facet_count(c);
+  s_.uncertified_planes_ += facets - count_uncertified(c);
+  for (std::size_t i = 0; i < facets; ++i) {
+    Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
+    for (Float4& n : block.normal) n[i % 4] = 0;
+    block.offset[i % 4] = 0;
+    std::uint32_t& link = s_.links_[4 * std::size_t{to_index(c)} + i];
+    const Cell other = s_.neighbour(s_.half_facet(c, i));
+    if (!(link & bit)) continue;
+    link &= ~bit;
+    for (std::size_t k = 0; k < s_.facet_count(other); ++k)
+      if (s_.neighbour(s_.half_facet(other, k)) == c) s_.links_[4 * std::size_t{to_index(other)} + k] &= ~bit;
+  }
+  s_.clusters_.forget(c);
+}
+
+template <int D>
 void Snapshot_compiler<D>::turn_loops(Cell c) {
   if constexpr (D == 3) {
     const Cell_view<3> cell = s_.view(c);

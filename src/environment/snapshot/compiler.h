@@ -27,6 +27,11 @@ class Snapshot_compiler {
   /// Rotates each loop whose first three vertices are collinear until they are not, if it has three such
   /// consecutive vertices.
   void turn_loops(Cell c);
+  /// Withdraws what planes and convex pairs certify of a cell, before its points move: all of it is decided
+  /// exactly until Snapshot::update_geometry(). Also of the other sides of its facets.
+  void withdraw(Cell c);
+  /// Raises the epochs, as an edit of points does.
+  void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
   /// Recomputes the planes of a cell. Returns the number of those that could not be certified.
   std::size_t write_planes(Cell c);
   /// The number of current planes of a cell that certify nothing; 0 for a cell just written, which has no

@@ -31,10 +31,12 @@ void for_each_index(std::size_t n, const Body& body) {
 
 }  // namespace
 
-Split_plan::Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks) : soup_(soup) {
+Split_plan::Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks, Cells_to_split which)
+    : soup_(soup) {
   slot_of_cell_.assign(soup.cell_count(), none);
   for (std::uint32_t c = 0; c < checks.size(); ++c) {
-    if (checks[c].defect == Cell_defect::none) continue;
+    if (checks[c].defect == Cell_defect::none && (which == Cells_to_split::invalid || is_simplex(soup, c)))
+      continue;
     slot_of_cell_[c] = static_cast<std::uint32_t>(split_cells_.size());
     split_cells_.push_back(c);
   }

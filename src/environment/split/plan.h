@@ -6,6 +6,7 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/environment/split.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>
@@ -29,7 +30,7 @@ class Split_plan {
  public:
   /// Cuts facets in the preferred way, searches for stars, and tries other cuts if there is none.
   /// \throw Error(not_certified) naming a cell that cannot be split, and the reason
-  Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks);
+  Split_plan(const Cell_soup<3>& soup, const std::vector<Cell_check>& checks, Cells_to_split which);
 
   bool is_split(std::size_t cell) const { return slot_of_cell_[cell] != none; }
   const Star& star(std::size_t cell) const { return stars_[slot_of_cell_[cell]]; }

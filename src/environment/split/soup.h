@@ -15,6 +15,15 @@ namespace cellwalk::detail {
 /// Names a cell: "cell 12".
 inline std::string cell_name(std::size_t c) { return "cell " + std::to_string(c); }
 
+/// True if a cell is a tetrahedron (2D: a triangle) without vertices inside its edges.
+template <int D>
+bool is_simplex(const Cell_soup<D>& soup, std::size_t c) {
+  if (soup.cell_begin[c + 1] - soup.cell_begin[c] != D + 1) return false;
+  for (std::size_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
+    if (soup.facet(f).size() != D) return false;
+  return true;
+}
+
 /// The result of check_cell for every cell of a soup. Parallel.
 /// \throw Error(input) if a vertex index is out of range or a cell has more vertices than its shape can
 ///        number

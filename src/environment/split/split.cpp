@@ -95,11 +95,12 @@ class Writer {
 }  // namespace
 
 template <>
-Cell_soup<3> split(Cell_soup<3> soup, Split_report& report, std::vector<std::uint32_t>* origin) {
+Cell_soup<3> split(Cell_soup<3> soup, Split_report& report, std::vector<std::uint32_t>* origin,
+                   Cells_to_split which) {
   report = {};
   const std::vector<Cell_check> checks = detail::check_soup(soup);
   detail::refuse_hopeless(checks);
-  const Split_plan plan(soup, checks);
+  const Split_plan plan(soup, checks, which);
   if (plan.split_cells() == 0) {
     if (origin) {
       origin->resize(soup.cell_count());
@@ -113,6 +114,7 @@ Cell_soup<3> split(Cell_soup<3> soup, Split_report& report, std::vector<std::uin
     report.not_planar += check.defect == Cell_defect::facet_not_planar;
     report.not_convex += check.defect != Cell_defect::facet_not_planar && check.defect != Cell_defect::none;
   }
+  report.not_simplices = report.cells_split - report.not_planar - report.not_convex;
   if (origin) origin->clear();
   Writer writer(soup, plan);
   for (std::uint32_t c = 0; c < soup.cell_count(); ++c) {

@@ -43,7 +43,8 @@ std::size_t split_cell(const Cell_soup<2>& soup, std::size_t c, Cell_soup<2>& re
 }  // namespace
 
 template <>
-Cell_soup<2> split(Cell_soup<2> soup, Split_report& report, std::vector<std::uint32_t>* origin) {
+Cell_soup<2> split(Cell_soup<2> soup, Split_report& report, std::vector<std::uint32_t>* origin,
+                   Cells_to_split which) {
   report = {};
   const std::vector<Cell_check> checks = detail::check_soup(soup);
   detail::refuse_hopeless(checks);
@@ -51,14 +52,15 @@ Cell_soup<2> split(Cell_soup<2> soup, Split_report& report, std::vector<std::uin
   Cell_soup<2> result;
   for (std::uint32_t c = 0; c < soup.cell_count(); ++c) {
     std::size_t made = 1;
-    if (checks[c].defect == Cell_defect::none) {
+    const bool is_valid = checks[c].defect == Cell_defect::none;
+    if (is_valid && (which == Cells_to_split::invalid || detail::is_simplex(soup, c))) {
       for (std::size_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
         result.add_facet(soup.facet(f), soup.impassable[f]);
       result.end_cell(soup.solid[c]);
     } else {
       made = split_cell(soup, c, result);
       ++report.cells_split;
-      ++report.not_convex;
+      ++(is_valid ? report.not_simplices : report.not_convex);
       report.cells_made += made;
     }
     if (origin) origin->insert(origin->end(), made, c);

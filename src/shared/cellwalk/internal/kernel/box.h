@@ -25,6 +25,12 @@ struct Box {
   Point<D> low = with_all_coordinates<D>(std::numeric_limits<double>::infinity());
   Point<D> high = with_all_coordinates<D>(-std::numeric_limits<double>::infinity());
 
+  /// True if the closed boxes have a point in common.
+  bool meets(const Box& other) const {
+    for (std::size_t k = 0; k < D; ++k)
+      if (other.high[k] < low[k] || high[k] < other.low[k]) return false;
+    return true;
+  }
   void extend(const Point<D>& x) { extend(Box{x, x}); }
   void extend(const Box& other) {
     for (std::size_t k = 0; k < D; ++k) {

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/edge/moving_star.h>
+#include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "edge/exact/rational_segment.h"
+
+namespace cellwalk::detail {
+namespace {
+
+[[noreturn]] void fail() {
+  throw Error(
+      Error_code::other,
+      "what stands in the environment has no way through the cells around a vertex that moved past it: "
+      "the environment is not certified, or it was not listed");
+}
+
+/// Appends a facet to a word, or deletes the last one if it is the same in the other direction.
+template <int D>
+void append_reduced(const Snapshot<D>& snapshot, Chain& chain, Half_facet f) {
+  if (!chain.empty() && snapshot.neighbour(f) == snapshot.cell_of(chain.back()) &&
+      snapshot.opposite(f) == chain.back())
+    chain.pop_back();
+  else
+    chain.push_back(f);
+}
+
+/// The sign of an orientation just after the vertex began to move: that with the vertex where it was or, if
+/// that is 0, since it is affine, that where it goes. of(at) is the sign, at(v) gives the points of the cell.
+template <int D, class Sign>
+int sign_at_start(const Cell_view<D>& cell, std::uint32_t vertex, const Point<D>& from, const Sign& of) {
+  const int before = of([&](std::uint16_t v) -> const Point<D>& {
+    return cell.point_index(v) == vertex ? from : cell.point(v);
+  });
+  return before != 0 ? before : of([&](std::uint16_t v) -> const Point<D>& { return cell.point(v); });
+}
+
+}  // namespace
+
+template <int D>
+Moving_star<D>::Moving_star(const Snapshot<D>& snapshot, std::uint32_t vertex, const Point<D>& from,
+                            std::span<const Cell> cells, Walk_counts& counts)
+    : snapshot_(snapshot), vertex_(vertex), from_(from), cells_(cells.begin(), cells.end()), counts_(counts) {
+  std::sort(cells_.begin(), cells_.end());
+  for (const Cell c : cells_) {
+    if (snapshot.is_solid(c)) continue;
+    const Cell_view<D> view = snapshot.view(c);
+    for (std::size_t i = 0; i < view.facet_count(); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(c, i);
+      if (!snapshot.is_impassable(f) || !has_point(view, i, vertex)) continue;
+      const Cell other = snapshot.neighbour(f);
+      // One with free space on both sides is listed from the first of its cells.
+      if (other == Cell::none || snapshot.is_solid(other) || c < other) add_wall(f, from);
+    }
+  }
+}
+
+template <int D>
+void Moving_star<D>::add_wall(Half_facet facet, const Point<D>& from) {
+  const Point<D>& to = snapshot_.point(vertex_);
+  const auto before = [&](std::uint32_t v) -> const Point<D>& {
+    return v == vertex_ ? from : snapshot_.point(v);
+  };
+  std::vector<std::uint32_t> loop = snapshot_.loop(facet);
+  int outside;
+  if constexpr (D == 2)
+    outside = -Exact::orientation(counts_.predicates, before(loop[0]), before(loop[1]), to);
+  else
+    outside = Exact::orientation(counts_.predicates, before(loop[0]), before(loop[1]), before(loop[2]), to);
+  const Cell other = snapshot_.neighbour(facet);
+  if (outside > 0 && other != Cell::none && !snapshot_.is_solid(other)) {
+    facet = snapshot_.opposite(facet);
+    loop = snapshot_.loop(facet);
+  }
+  typename Swept_simplex<D>::Corners still;
+  std::size_t corners = 0;
+  for (const std::uint32_t v : loop)
+    if (v != vertex_) still[corners++] = snapshot_.point(v);
+  walls_.push_back({facet, Swept_simplex<D>(from, to, still, counts_.predicates)});
+  box_.extend(walls_.back().swept.box());
+}
+
+template <int D>
+bool Moving_star<D>::has(Cell cell) const {
+  return std::binary_search(cells_.begin(), cells_.end(), cell);
+}
+
+template <int D>
+bool Moving_star<D>::has(Half_facet facet) const {
+  const Cell c = snapshot_.cell_of(facet);
+  return has(c) && has_point(snapshot_.view(c), snapshot_.facet_of(facet), vertex_);
+}
+
+template <int D>
+Star_meeting Moving_star<D>::meet(std::span<const Point<D>> feature, bool locates) const {
+  Star_meeting result;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const Swept_simplex<D>& swept = walls_[w].swept;
+    const Meeting meeting = swept.meet(feature, counts_.predicates);
+    if (meeting == Meeting::apart) continue;
+    if (meeting == Meeting::touch) {
+      if (result.meeting == Meeting::hit) continue;
+      result.leaves = (result.meeting == Meeting::apart || result.leaves) && swept.leaves(feature);
+      result.meeting = Meeting::touch;
+      continue;
+    }
+    result.meeting = Meeting::hit;
+    if (!locates) {
+      result.wall = w;
+      return result;
+    }
+    Swept_hit hit = swept.first_hit(feature);
+    if (result.hit && !is_before(hit, *result.hit)) continue;
+    result.wall = w;
+    result.hit = std::move(hit);
+  }
+  return result;
+}
+
+template <int D>
+bool Moving_star<D>::keeps_cell(const Particle<D>& p) const {
+  return in_closure(snapshot_, p.cell, p.position);
+}
+
+template <int D>
+bool Moving_star<D>::keeps_chain(const Chain& chain, const Point<D>& p, const Point<D>& q) const {
+  Chain moved;
+  for (const Half_facet f : chain)
+    if (has(f)) moved.push_back(f);
+  return passes(snapshot_, moved, p, q, counts_);
+}
+
+template <int D>
+int Moving_star<D>::side_at_start(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) const {
+  const auto loop = cell.loop(i);
+  return sign_at_start(cell, vertex_, from_, [&](const auto& at) {
+    ++counts_.side_tests;
+    if constexpr (D == 2)
+      return -Exact::orientation(counts_.predicates, at(loop[0]), at(loop[1]), x);
+    else
+      return Exact::orientation(counts_.predicates, at(loop[0]), at(loop[1]), at(loop[2]), x);
+  });
+}
+
+template <int D>
+int Moving_star<D>::along_at_start(const Cell_view<D>& cell, std::size_t i, std::size_t k, const Point<D>& p,
+                                   const Point<D>& q) const {
+  const auto loop = cell.loop(i);
+  return sign_at_start(cell, vertex_, from_, [&](const auto& at) {
+    ++counts_.along_tests;
+    if constexpr (D == 2) {
+      const int s = Exact::orientation(counts_.predicates, p, q, at(loop[k]));
+      return k == 0 ? -s : s;
+    } else {
+      return Exact::orientation(counts_.predicates, p, q, at(loop[k]),
+                                at(loop[k + 1 == loop.size() ? 0 : k + 1]));
+    }
+  });
+}
+
+template <int D>
+bool Moving_star<D>::keeps_cell_at_start(const Particle<D>& p) const {
+  if (!has(p.cell)) return true;
+  const Cell_view<D> cell = snapshot_.view(p.cell);
+  for (std::size_t i = 0; i < cell.facet_count(); ++i)
+    if (side_at_start(cell, i, p.position) > 0) return false;
+  return true;
+}
+
+template <int D>
+bool Moving_star<D>::keeps_chain_at_start(const Chain& chain, const Point<D>& p, const Point<D>& q) const {
+  for (const Half_facet f : chain) {
+    if (!has(f)) continue;
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
+    const std::size_t i = snapshot_.facet_of(f);
+    const int at_p = side_at_start(cell, i, p), at_q = side_at_start(cell, i, q);
+    if (at_p > 0 || at_q < 0 || (at_p == 0 && at_q == 0)) return false;
+    for (std::size_t k = 0; k < cell.loop(i).size(); ++k)
+      if (along_at_start(cell, i, k, p, q) < 0) return false;
+  }
+  return true;
+}
+
+template <int D>
+Particle<D> Moving_star<D>::registered(const Particle<D>& p) const {
+  Particle<D> result = p;
+  Link_search<D> links(snapshot_, p.cell);
+  result.cell = Cell::none;
+  while (result.cell == Cell::none && links.next()) {
+    if (in_closure(snapshot_, links.cell(), p.position)) result.cell = links.cell();
+    links.expand([&](const Cell_view<D>& cell, std::size_t i) { return has_point(cell, i, vertex_); });
+  }
+  if (result.cell == Cell::none) fail();
+  const Cell_view<D> cell = snapshot_.view(result.cell);
+  result.dimension = lowest_dimension(
+      cell, p.position, [&](std::size_t i) { return side<Exact>(cell, i, p.position, counts_) == 0; });
+  if (result.cell != p.cell) result.aimed = 0;
+  return result;
+}
+
+template <int D>
+Chain Moving_star<D>::relinked(const Chain& before, Cell first, const Particle<D>& p,
+                               const Particle<D>& q) const {
+  Chain chain;
+  Cell old = first, now = p.cell;
+  for (auto f = before.begin();;) {
+    while (f != before.end() && has(*f)) old = snapshot_.neighbour(*f++);
+    const Cell goal = f == before.end() ? q.cell : old;
+    if (now != goal) append_way(chain, now, goal, p, q);
+    if (f == before.end()) return chain;
+    append_reduced(snapshot_, chain, *f);
+    now = old = snapshot_.neighbour(*f++);
+  }
+}
+
+/// Appends the facets at the vertex through which the edge pq passes from one cell to another.
+template <int D>
+void Moving_star<D>::append_way(Chain& chain, Cell from, Cell to, const Particle<D>& p,
+                                const Particle<D>& q) const {
+  const std::size_t before = chain.size();
+  if (append_by_signs(chain, from, to, p.position, q.position)) return;
+  chain.resize(before);
+  if (!append_exactly(chain, from, to, p.position, q.position)) fail();
+}
+
+/// Where the edge passes each of these facets in its interior. False if it does not.
+template <int D>
+bool Moving_star<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                     const Point<D>& q) const {
+  const Line<Exact, D> line{p, q, counts_};
+  for (std::size_t steps = 0; from != to; ++steps) {
+    if (steps == cells_.size()) return false;
+    const Cell_view<D> cell = snapshot_.view(from);
+    Half_facet exit = Half_facet::none;
+    for (std::size_t i = 0; i < cell.facet_count() && exit == Half_facet::none; ++i)
+      if (side<Exact>(cell, i, q, counts_) > 0 && exit_through(cell, i, line).kind == Exit::facet)
+        exit = Snapshot<D>::half_facet(from, i);
+    if (exit == Half_facet::none || snapshot_.is_impassable(exit) || !has(exit)) return false;
+    append_reduced(snapshot_, chain, exit);
+    from = snapshot_.neighbour(exit);
+  }
+  return true;
+}
+
+/// The same in every position: each cell is reached as early along the edge as possible. All ways to it
+/// through facets at the vertex are equal, so any will do.
+template <int D>
+bool Moving_star<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                    const Point<D>& q) const {
+  struct Reached {
+    Cell cell;
+    Fraction at;
+    std::size_t parent;
+    Half_facet through;
+  };
+  const Rational_segment<D> segment(p, q);
+  const auto met = [&](Half_facet f) {
+    return segment.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
+  };
+  Fraction start = 0;
+  for (const Half_facet f : chain)
+    if (const auto span = met(f)) start = std::max<Fraction>(start, span->low);
+  std::vector<Reached> reached{{from, start, 0, Half_facet::none}};
+  std::optional<std::size_t> end;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Reached here = reached[k];
+    if (here.cell == to && (!end || here.at < reached[*end].at)) end = k;
+    for (std::size_t i = 0; i < snapshot_.facet_count(here.cell); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(here.cell, i);
+      if (snapshot_.is_impassable(f) || !has(f)) continue;
+      const auto span = met(f);
+      if (!span || span->high < here.at) continue;
+      const Cell next = snapshot_.neighbour(f);
+      const Fraction at = std::max<Fraction>(here.at, span->low);
+      if (std::none_of(reached.begin(), reached.end(),
+                       [&](const Reached& other) { return other.cell == next && other.at <= at; }))
+        reached.push_back({next, at, k, f});
+    }
+  }
+  if (!end) return false;
+  Chain way;
+  for (std::size_t k = *end; k != 0; k = reached[k].parent) way.push_back(reached[k].through);
+  for (auto f = way.rbegin(); f != way.rend(); ++f) append_reduced(snapshot_, chain, *f);
+  return true;
+}
+
+template class Moving_star<2>;
+template class Moving_star<3>;
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/environment/star_index.h>
+
+#include <algorithm>
+
+namespace cellwalk::detail {
+namespace {
+
+/// Appends the cells joined with `first` through facets that have the point, walls included.
+template <int D>
+void append_part(const Snapshot<D>& snapshot, std::uint32_t point, Cell first, std::vector<Cell>& cells) {
+  const std::size_t begin = cells.size();
+  cells.push_back(first);
+  for (std::size_t visited = begin; visited < cells.size(); ++visited) {
+    const Cell c = cells[visited];
+    const Cell_view<D> view = snapshot.view(c);
+    for (std::size_t i = 0; i < view.facet_count(); ++i) {
+      const Cell next = snapshot.neighbour(Snapshot<D>::half_facet(c, i));
+      if (next == Cell::none || !has_point(view, i, point)) continue;
+      if (std::find(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(), next) == cells.end())
+        cells.push_back(next);
+    }
+  }
+}
+
+/// Calls visit(point, cell) for all cells and their points.
+template <int D, class Visit>
+void for_each_corner(const Snapshot<D>& snapshot, const Visit& visit) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell c = snapshot.cell(i); c != Cell::none)
+      for (const std::uint32_t point : snapshot.view(c).vertices) visit(point, c);
+}
+
+}  // namespace
+
+template <int D>
+Star_index<D>::Star_index(const Snapshot<D>& snapshot) : first_(snapshot.points().size(), Cell::none) {
+  std::vector<std::uint32_t> missed(first_.size());
+  for_each_corner(snapshot, [&](std::uint32_t point, Cell c) {
+    if (first_[point] == Cell::none) first_[point] = c;
+    ++missed[point];
+  });
+  std::vector<Cell> cells;
+  bool are_pinched = false;
+  for (std::uint32_t point = 0; point < first_.size(); ++point) {
+    if (first_[point] == Cell::none) continue;
+    cells.clear();
+    append_part(snapshot, point, first_[point], cells);
+    missed[point] -= static_cast<std::uint32_t>(cells.size());
+    are_pinched |= missed[point] != 0;
+  }
+  if (!are_pinched) return;
+  for_each_corner(snapshot, [&](std::uint32_t point, Cell c) {
+    if (missed[point] == 0) return;
+    find_cells(snapshot, point, cells);
+    if (std::find(cells.begin(), cells.end(), c) != cells.end()) return;
+    other_parts_.insert(std::upper_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, c)),
+                        {point, c});
+    const std::size_t before = cells.size();
+    append_part(snapshot, point, c, cells);
+    missed[point] -= static_cast<std::uint32_t>(cells.size() - before);
+  });
+}
+
+template <int D>
+void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point,
+                               std::vector<Cell>& cells) const {
+  cells.clear();
+  if (point >= first_.size() || first_[point] == Cell::none) return;
+  append_part(snapshot, point, first_[point], cells);
+  for (auto part = std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
+       part != other_parts_.end() && part->first == point; ++part)
+    append_part(snapshot, point, part->second, cells);
+}
+
+template <int D>
+void Star_index<D>::replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added) {
+  first_.resize(snapshot.points().size(), Cell::none);
+  for (const Cell c : added)
+    for (const std::uint32_t point : snapshot.view(c).vertices) {
+      if (first_[point] == Cell::none || first_[point] == removed) first_[point] = c;
+      for (auto part = std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
+           part != other_parts_.end() && part->first == point; ++part)
+        if (part->second == removed) part->second = c;
+    }
+}
+
+template class Star_index<2>;
+template class Star_index<3>;
+
+}  // namespace cellwalk::detail

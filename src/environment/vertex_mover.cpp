@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/environment/vertex_mover.h>
+#include <cellwalk/internal/kernel/swept_simplex.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <string>
+
+#include "environment/certify/boundary_index.h"
+#include "environment/snapshot/compiler.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// The orientation of a simplex with one of its points moved to x, positive if it keeps its sense: exact
+/// sign and rounded value.
+struct Moved_volume {
+  int sign;
+  double value;
+};
+
+template <int D>
+Moved_volume volume_with(const Cell_view<D>& cell, std::uint32_t point, const Point<D>& x) {
+  std::size_t facet = 0;
+  while (has_point(cell, facet, point)) ++facet;
+  const auto loop = cell.loop(facet);
+  Predicate_counts counts;
+  if constexpr (D == 2) {
+    const Point<2>&a = cell.point(loop[0]), &b = cell.point(loop[1]);
+    return {Exact::orientation(counts, a, b, x), determinant<double>(a, b, x).value};
+  } else {
+    const Point<3>&a = cell.point(loop[0]), &b = cell.point(loop[1]), &c = cell.point(loop[2]);
+    return {-Exact::orientation(counts, a, b, c, x), -determinant<double>(a, b, c, x).value};
+  }
+}
+
+}  // namespace
+
+template <int D>
+Vertex_mover<D>::~Vertex_mover() {
+  try {
+    restore();
+  } catch (...) {  // memory: certificates stay withdrawn
+  }
+}
+
+template <int D>
+Star_check Vertex_mover<D>::begin(std::uint32_t point, const Point<D>& target) {
+  environment_.check_move(point, target);
+  point_ = point;
+  from_ = snapshot().point(point);
+  target_ = target;
+  environment_.stars().find_cells(snapshot(), point, star_);
+  is_on_boundary_ = environment_.is_on_boundary(point, star_);
+  for (const Cell c : star_)
+    if (snapshot().view(c).vertex_count() != D + 1)
+      throw Error(Error_code::usage, "point " + std::to_string(point) +
+                                         " cannot be moved among bodies: cell " +
+                                         std::to_string(snapshot().index(c)) +
+                                         " is not a simplex; build the environment with "
+                                         "Build_options::simplicial");
+  Star_check check;
+  if (from_ == target_) return check;
+  check = check_cells();
+  if (check.defect == Star_defect::none && is_on_boundary_ && runs_into_boundary())
+    check.defect = Star_defect::boundary;
+  return check;
+}
+
+/// All volumes are affine in the position of the point: if they are positive at the end, they are so always.
+template <int D>
+Star_check Vertex_mover<D>::check_cells() const {
+  Star_check check;
+  for (const Cell c : star_) {
+    const Cell_view<D> view = snapshot().view(c);
+    const Moved_volume at_target = volume_with(view, point_, target_);
+    if (at_target.sign > 0) continue;
+    const double before = volume_with(view, point_, from_).value;
+    const double share = std::clamp(before / (before - at_target.value), 0.0, 1.0);
+    if (check.defect != Star_defect::none && !(share < check.share)) continue;
+    check = {Star_defect::cell, c, share >= 0 ? share : 0};
+  }
+  return check;
+}
+
+/// True if boundary facets at the point meet others on their way or at its end.
+template <int D>
+bool Vertex_mover<D>::runs_into_boundary() {
+  Snapshot<D>& snapshot = environment_.snapshot_;
+  Predicate_counts counts;
+  std::vector<Point<D>> polygon;
+  const Boundary_index<D>& boundary = environment_.boundary();
+  for (const auto& entry : Boundary_index<D>::entries(snapshot, star_)) {
+    const Half_facet w{entry.second};
+    typename Swept_simplex<D>::Corners still;
+    std::size_t corners = 0;
+    const std::vector<std::uint32_t> loop = snapshot.loop(w);
+    if (std::find(loop.begin(), loop.end(), point_) == loop.end()) continue;
+    for (const std::uint32_t v : loop)
+      if (v != point_) still[corners++] = snapshot.point(v);
+    const Swept_simplex<D> swept(from_, target_, still, counts);
+    Tree_box<D> box;
+    const Point<D>&low = swept.box().low, &high = swept.box().high;
+    if constexpr (D == 2)
+      box = {{low[0], low[1]}, {high[0], high[1]}};
+    else
+      box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    for (const Half_facet f : boundary.meeting(box)) {
+      polygon.clear();
+      bool is_at_point = false;
+      for (const std::uint32_t v : snapshot.loop(f)) {
+        is_at_point |= v == point_;
+        polygon.push_back(snapshot.point(v));
+      }
+      if (!is_at_point && swept.reaches(polygon, counts)) return true;
+    }
+  }
+  snapshot.move_point(point_, target_);
+  bool is_refused = false;
+  try {
+    environment_.check_moved_boundary(point_, star_);
+  } catch (const Error&) {
+    is_refused = true;
+  }
+  snapshot.move_point(point_, from_);
+  return is_refused;
+}
+
+template <int D>
+void Vertex_mover<D>::place() {
+  Snapshot<D>& snapshot = environment_.snapshot_;
+  withdrawn_.insert(withdrawn_.end(), star_.begin(), star_.end());
+  if (withdrawn_.size() > next_tidy_) tidy();
+  Snapshot_compiler<D> compiler(snapshot);
+  for (const Cell c : star_) compiler.withdraw(c);
+  compiler.raise_epochs();
+  snapshot.move_point(point_, target_);
+}
+
+template <int D>
+void Vertex_mover<D>::take_back() {
+  environment_.snapshot_.move_point(point_, from_);
+}
+
+template <int D>
+void Vertex_mover<D>::commit() {
+  environment_.follow_move(point_, star_, is_on_boundary_, from_);
+}
+
+template <int D>
+void Vertex_mover<D>::tidy() {
+  std::sort(withdrawn_.begin(), withdrawn_.end());
+  withdrawn_.erase(std::unique(withdrawn_.begin(), withdrawn_.end()), withdrawn_.end());
+  next_tidy_ = std::max<std::size_t>(next_tidy_, 2 * withdrawn_.size());
+}
+
+template <int D>
+void Vertex_mover<D>::restore() {
+  if (withdrawn_.empty()) return;
+  tidy();
+  environment_.snapshot_.update_geometry(withdrawn_);
+  withdrawn_.clear();
+}
+
+template class Vertex_mover<2>;
+template class Vertex_mover<3>;
+
+}  // namespace cellwalk::detail

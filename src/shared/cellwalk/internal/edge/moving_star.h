@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A vertex of the environment that moves while particles and edges stand still: what its walls meet, and how
+// cells and chains go on. Theory: docs/moving.md.
+#ifndef CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
+#define CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/internal/kernel/swept_simplex.h>
+#include <cellwalk/walk/walk.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cellwalk::detail {
+
+/// A wall at the vertex that moves.
+template <int D>
+struct Moving_wall {
+  Half_facet facet;  ///< on the side to which it moves, if that is free
+  Swept_simplex<D> swept;
+};
+
+/// How the walls meet a set.
+struct Star_meeting {
+  Meeting meeting = Meeting::apart;  ///< hit if one wall hits it, else touch if one touches it
+  bool leaves = false;               ///< of a touch: all walls that touch it leave it at once
+  std::size_t wall = 0;              ///< the wall that hits it first
+  std::optional<Swept_hit> hit;
+};
+
+/// The cells around a vertex, all simplices, while it moves. The snapshot has the vertex where it goes, and
+/// certifies nothing of these cells.
+template <int D>
+class Moving_star {
+ public:
+  /// \param from where the vertex was
+  /// \param cells all cells that have the vertex, as names or in any order
+  Moving_star(const Snapshot<D>& snapshot, std::uint32_t vertex, const Point<D>& from,
+              std::span<const Cell> cells, Walk_counts& counts);
+
+  const std::vector<Moving_wall<D>>& walls() const { return walls_; }
+  /// The box of all that the walls sweep; empty if there are none.
+  const Box<D>& box() const { return box_; }
+  /// True for a cell that has the vertex.
+  bool has(Cell cell) const;
+  /// True for a facet that has it.
+  bool has(Half_facet facet) const;
+
+  /// How the walls meet a point, a segment or a triangle.
+  /// \param locates if false, `hit` is left out and `wall` is one that hits it
+  /// Cost: that of Swept_simplex::meet() a wall, and some 20 us a wall that hits it and is located.
+  Star_meeting meet(std::span<const Point<D>> feature, bool locates) const;
+
+  /// True if a particle still lies in its cell: then it did so all the time, and met no wall.
+  bool keeps_cell(const Particle<D>& p) const;
+  /// True proves that an edge whose ends kept their cells is free and keeps its chain.
+  bool keeps_chain(const Chain& chain, const Point<D>& p, const Point<D>& q) const;
+  /// The same just after the vertex began to move.
+  bool keeps_cell_at_start(const Particle<D>& p) const;
+  bool keeps_chain_at_start(const Chain& chain, const Point<D>& p, const Point<D>& q) const;
+  /// The particle in a cell that holds it now, on the same side of all walls.
+  /// \pre its cell has the vertex; it keeps its cell, or no wall touches it after the vertex began to move,
+  ///      and it keeps its cell at the start
+  Particle<D> registered(const Particle<D>& p) const;
+  /// The chain of an edge.
+  /// \pre no wall touches it after the vertex began to move, and it keeps its chain at the start
+  /// \param before the chain before, from the cell `first` of p
+  /// \param p, q the ends as registered() gives them
+  Chain relinked(const Chain& before, Cell first, const Particle<D>& p, const Particle<D>& q) const;
+
+ private:
+  void add_wall(Half_facet facet, const Point<D>& from);
+  int side_at_start(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) const;
+  int along_at_start(const Cell_view<D>& cell, std::size_t i, std::size_t k, const Point<D>& p,
+                     const Point<D>& q) const;
+  void append_way(Chain& chain, Cell from, Cell to, const Particle<D>& p, const Particle<D>& q) const;
+  bool append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
+  bool append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
+
+  const Snapshot<D>& snapshot_;
+  std::uint32_t vertex_;
+  Point<D> from_;
+  std::vector<Cell> cells_;  ///< ascending
+  std::vector<Moving_wall<D>> walls_;
+  Box<D> box_;
+  Walk_counts& counts_;
+};
+
+extern template class Moving_star<2>;
+extern template class Moving_star<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_EDGE_MOVING_STAR_H

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells around a point, found in the snapshot: a frozen environment has no map.
+#ifndef CELLWALK_INTERNAL_ENVIRONMENT_STAR_INDEX_H
+#define CELLWALK_INTERNAL_ENVIRONMENT_STAR_INDEX_H
+
+#include <cellwalk/environment/snapshot.h>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace cellwalk::detail {
+
+/// True if a facet of a cell has a point.
+template <int D>
+bool has_point(const Cell_view<D>& cell, std::size_t facet, std::uint32_t point) {
+  for (const std::uint16_t v : cell.loop(facet))
+    if (cell.point_index(v) == point) return true;
+  return false;
+}
+
+/// One cell at each point, and one more for each further part of a pinched point: cells that are joined
+/// through facets that contain it. Stays valid while points move and facets are opened and closed.
+template <int D>
+class Star_index {
+ public:
+  /// Cost: about 1 us a point.
+  explicit Star_index(const Snapshot<D>& snapshot);
+
+  /// Sets `cells` to all cells that have a point, part after part; solid ones too. The order depends on the
+  /// numbering of cells.
+  /// Cost: that of the cells found.
+  void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells) const;
+
+  /// Follows an edit that replaces a cell by cells that cover it and have its vertices, and new ones.
+  void replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added);
+
+ private:
+  std::vector<Cell> first_;                                  ///< of each point
+  std::vector<std::pair<std::uint32_t, Cell>> other_parts_;  ///< by point
+};
+
+extern template class Star_index<2>;
+extern template class Star_index<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_ENVIRONMENT_STAR_INDEX_H

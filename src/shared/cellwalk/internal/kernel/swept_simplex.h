@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The simplex that a wall sweeps while one of its corners moves, and how it meets what stands still. Theory:
+// docs/moving.md. Includes CGAL; users link CGAL::CGAL.
+#ifndef CELLWALK_INTERNAL_KERNEL_SWEPT_SIMPLEX_H
+#define CELLWALK_INTERNAL_KERNEL_SWEPT_SIMPLEX_H
+
+#include <cellwalk/internal/kernel/box.h>
+#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/kernel/policies.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cellwalk::detail {
+
+/// How a closed convex set meets a swept simplex.
+enum class Meeting : std::uint8_t {
+  apart,  ///< it has no point in common with the closed simplex
+  touch,  ///< only with its boundary
+  hit     ///< with the open simplex
+};
+
+/// The first meeting of a wall with a set that it hits, in exact numbers. Weights are of points and not
+/// negative; each set of them may have a common factor.
+struct Swept_hit {
+  Fraction time;
+  std::vector<Ring> wall;  ///< weights of the corners of the wall: first the one that moves, then the others
+  std::vector<Ring> feature;  ///< weights of the points that span the set
+};
+
+/// How many points have weights that are not 0: they span the lowest face that holds the place.
+std::size_t corners_used(const std::vector<Ring>& weights);
+
+/// The order of hits: by time, then by the lowest face of the set, then by that of the wall.
+bool is_before(const Swept_hit& a, const Swept_hit& b);
+
+/// The simplex K that a wall sweeps while its corner moves from one point to another and its other corners
+/// stand still (2D: a triangle that an edge sweeps; 3D: a tetrahedron that a triangle sweeps). Sets are given
+/// by the points that span them: a point, a segment, or a convex polygon with its vertices in order.
+template <int D>
+class Swept_simplex {
+ public:
+  static constexpr std::size_t D_ = static_cast<std::size_t>(D);
+  using Corners = std::array<Point<D>, D_ - 1>;
+
+  /// \param still the corners of the wall that stand still
+  /// \pre from != to; the wall is not degenerate before it moves
+  Swept_simplex(const Point<D>& from, const Point<D>& to, const Corners& still, Predicate_counts& counts);
+
+  /// True if K has no volume: the wall moves in its own plane.
+  bool is_flat() const { return sense_ == 0; }
+  const Box<D>& box() const { return box_; }
+  /// The corners of K: where the moving corner starts, where it ends, then the others.
+  const std::array<Point<D>, D_ + 1>& corners() const { return corners_; }
+
+  /// Exact in every position. What meets a flat K touches it.
+  /// \pre there is at least one point; polygons are convex, and only in 3D
+  /// Cost: a comparison of boxes; up to some 20 signs near K; exact numbers, some 10 us, for touches and for
+  /// polygons that no plane of theirs or of K parts from it.
+  Meeting meet(std::span<const Point<D>> feature, Predicate_counts& counts) const;
+
+  /// The infimum of the times at which the wall passes a point of the set in K, and the first such point in
+  /// the order of hits.
+  /// \pre meet(feature) is Meeting::hit
+  Swept_hit first_hit(std::span<const Point<D>> feature) const;
+
+  /// True if the wall meets the set only where it starts, and off its still corners and what they span: it
+  /// leaves it at once.
+  /// \pre meet(feature) is Meeting::touch
+  /// Cost: exact numbers.
+  bool leaves(std::span<const Point<D>> feature) const;
+
+  /// True if the wall meets the set after it has begun to move, elsewhere than at its still corners and what
+  /// they span. A wall that moves off a set that it touched does not.
+  /// Cost: some 20 signs; exact numbers if no plane of a facet of K, nor that of the set, tells.
+  bool reaches(std::span<const Point<D>> feature, Predicate_counts& counts) const;
+
+ private:
+  Meeting by_signs(std::span<const Point<D>> feature, Predicate_counts& counts, bool& is_certain) const;
+  bool is_surely_left(std::span<const Point<D>> feature, Predicate_counts& counts) const;
+  bool passes_beside(std::span<const Point<D>> feature, bool& is_strict, Predicate_counts& counts) const;
+  int side(std::size_t corner, const Point<D>& x, Predicate_counts& counts) const;
+
+  std::array<Point<D>, D_ + 1> corners_;
+  Box<D> box_;
+  int sense_;  ///< orientation of the corners
+};
+
+extern template class Swept_simplex<2>;
+extern template class Swept_simplex<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_KERNEL_SWEPT_SIMPLEX_H
