@@ -39,8 +39,9 @@ void check_rule(const Body_options& options, const detail::Body_topology& topolo
 template <int D>
 std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, const Locator<D>& locator,
                                                   const Body_soup<D>& soup,
-                                                  std::span<const Particle<D>> before) {
-  auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before);
+                                                  std::span<const Particle<D>> before,
+                                                  const detail::Body_certificates& certificates) {
+  auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before, certificates);
   if constexpr (D == 3) {
     Face_counts counts;
     detail::register_faces(*state, Error_code::outside, counts);
@@ -52,7 +53,7 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : state_(registered<D>(snapshot, locator, soup, {})) {}
+    : state_(registered<D>(snapshot, locator, soup, {}, {})) {}
 
 template <int D>
 Body<D>::Body(const Body& other) : state_(std::make_unique<detail::Body_state<D>>(*other.state_)) {}
@@ -73,7 +74,7 @@ template <int D>
 void Body<D>::register_again(const Locator<D>& locator) {
   const detail::Body_state<D>& now = *state_;
   const Body_soup<D> soup{now.positions, now.topology.edges(), now.topology.faces()};
-  state_ = registered<D>(*now.snapshot, locator, soup, now.particles);
+  state_ = registered<D>(*now.snapshot, locator, soup, now.particles, now.certificates);
 }
 
 template <int D>
@@ -126,7 +127,8 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
   }
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
   if (options.edges == Edge_rule::at_target)
-    detail::Target_step<D>(body, options.sweep, counts).move_each(targets, options.reported, report);
+    detail::Target_step<D>(body, options.sweep, counts)
+        .move_each(targets, options.reported, options.parallel, report);
   else
     detail::move_each(body, targets, options, report.contacts, counts);
 }

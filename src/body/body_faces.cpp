@@ -34,6 +34,7 @@ void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts) {
   for (std::uint32_t f = 0; f < body.supporting_walls.size(); ++f) {
     const Face_registration found = registered_face(body, f, counts);
     body.supporting_walls[f] = found.supporting_walls;
+    body.may_have_supporting_walls |= !found.supporting_walls.empty();
     if (found.piercing == Half_facet::none) continue;
     const auto& [u, v, w] = body.topology.faces()[f];
     const auto place = [&](std::uint32_t x) {

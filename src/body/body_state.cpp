@@ -9,15 +9,17 @@ namespace cellwalk::detail {
 
 template <int D>
 Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-                          std::span<const Particle<D>> before)
+                          std::span<const Particle<D>> before, const Body_certificates& of_body)
     : snapshot(&of_snapshot),
       epoch(of_snapshot.epoch()),
       positions(soup.points),
       topology(soup.points.size(), soup.edges,
                D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
       supporting_walls(topology.faces().size()),
-      region(soup.points.size(), soup.edges.size()),
-      pool(soup.points.size()) {
+      region(soup.points.size(), soup.edges.size(), of_body),
+      pool(soup.points.size(), of_body),
+      certificates(of_body),
+      free_moves(soup.points.size(), of_body) {
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
@@ -60,12 +62,15 @@ bool Body_state<D>::move_in_region(std::uint32_t vertex, const Point<D>& target,
 
 template <int D>
 bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
-  if (!pool.try_move(vertex, target, positions, topology)) {
-    if (!pool.should_search(vertex)) return false;
-    refresh_vertex(vertex, counts);
-    if (!pool.search(*snapshot, particles[vertex], vertex, target, positions, topology, counts) ||
-        !pool.try_move(vertex, target, positions, topology))
-      return false;
+  if (!pool.try_move_in_known(vertex, target, topology)) {
+    take_back_after(vertex, counts);
+    if (!pool.try_move_in_other(vertex, target, positions, topology)) {
+      if (!pool.should_search(vertex)) return false;
+      refresh_vertex(vertex, counts);
+      if (!pool.search(*snapshot, particles[vertex], vertex, target, positions, topology, counts) ||
+          !pool.try_move_in_known(vertex, target, topology))
+        return false;
+    }
   }
   move_untested(vertex, target, counts);
   if (region.has_region()) region.set_outside(vertex, !region.holds(target), topology);
@@ -76,7 +81,8 @@ template <int D>
 inline void Body_state<D>::move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
   positions[vertex] = target;
   region.mark_moved(vertex);
-  for (const Face_corner& corner : topology.face_corners_of(vertex)) supporting_walls[corner.face].clear();
+  if (may_have_supporting_walls)
+    for (const Face_corner& corner : topology.face_corners_of(vertex)) supporting_walls[corner.face].clear();
   ++counts.in_region;
 }
 
@@ -111,7 +117,38 @@ void Body_state<D>::spread_marks() {
   if (!region.are_all_stale()) return;
   region.spread_marks();
   pool.forget_all();
-  for (Supporting_walls& of_face : supporting_walls) of_face.clear();
+  if (may_have_supporting_walls)
+    for (Supporting_walls& of_face : supporting_walls) of_face.clear();
+  may_have_supporting_walls = false;
+}
+
+template <int D>
+void Body_state<D>::make_free_moves(std::span<const Point<D>> targets, bool parallel, Body_counts& counts) {
+  if (!pool.is_used()) {
+    free_moves.make_none();
+    return;
+  }
+  counts.in_region += free_moves.make({positions, topology, region, pool}, targets, supported(), parallel);
+}
+
+template <int D>
+void Body_state<D>::take_back_after(std::uint32_t vertex, Body_counts& counts) {
+  counts.in_region -= free_moves.take_back_after({positions, topology, region, pool}, vertex);
+}
+
+/// Bit by bit, the vertices of faces that have supporting walls; empty if there are none.
+template <int D>
+std::vector<std::uint64_t> Body_state<D>::supported() {
+  if (!may_have_supporting_walls) return {};
+  constexpr std::size_t bits = 64;
+  std::vector<std::uint64_t> result((positions.size() + bits - 1) / bits);
+  may_have_supporting_walls = false;
+  for (std::size_t f = 0; f < supporting_walls.size(); ++f) {
+    if (supporting_walls[f].empty()) continue;
+    may_have_supporting_walls = true;
+    for (const std::uint32_t v : topology.faces()[f]) result[v / bits] |= std::uint64_t{1} << v % bits;
+  }
+  return may_have_supporting_walls ? result : std::vector<std::uint64_t>();
 }
 
 template <int D>

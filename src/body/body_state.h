@@ -6,6 +6,7 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/edge/face.h>
+#include <cellwalk/internal/body/certificates.h>
 
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "body_topology.h"
+#include "free_moves.h"
 #include "region_cache.h"
 #include "region_pool.h"
 
@@ -44,7 +46,7 @@ struct Body_state {
   /// Registers a body; faces are left.
   /// \throw Error(outside) as Body does
   Body_state(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-             std::span<const Particle<D>> before);
+             std::span<const Particle<D>> before, const Body_certificates& of_body);
 
   /// \throw Error(usage) if the environment was edited since the body was registered
   void check_epoch() const {
@@ -67,6 +69,8 @@ struct Body_state {
     return region.holds_star(vertex, target) ? move_in_region(vertex, target, counts)
                                              : pool.is_used() && try_move_in_pool(vertex, target, counts);
   }
+  /// Makes the moves of a step that are free whatever becomes of the others, and leaves the rest.
+  void make_free_moves(std::span<const Point<D>> targets, bool parallel, Body_counts& counts);
   /// Gives the region up.
   /// \pre nothing is stale
   void give_region_up();
@@ -89,17 +93,22 @@ struct Body_state {
   std::vector<Particle<D>> particles;
   std::vector<Chain> chains;                       ///< of the edges, from their first end to their second
   std::vector<Supporting_walls> supporting_walls;  ///< of each face
+  bool may_have_supporting_walls = false;          ///< some face has; else none
   bool are_faces_swept = true;
   bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
   Region_cache<D> region;
   Region_pool<D> pool;
+  Body_certificates certificates;
+  Free_moves<D> free_moves;
   Move_scratch scratch;
 
  private:
   bool move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   bool try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   void move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
+  void take_back_after(std::uint32_t vertex, Body_counts& counts);
   void spread_marks();
+  std::vector<std::uint64_t> supported();
   bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
 };
 

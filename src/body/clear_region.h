@@ -43,6 +43,9 @@ class Clear_region {
     return box_.holds_all(points) && (planes_.empty() || are_before_planes(points));
   }
 
+  /// True if a point lies before the plane that was cut along last.
+  bool is_before_last_plane(const Point<D>& x) const { return planes_.back().has_before(x); }
+
   void set_box(const Point<D>& low, const Point<D>& high) { box_ = {low, high}; }
   /// Makes it smaller: to the part below (above) a value along an axis.
   void cut_above(int axis, double value) { box_.cut_above(axis, value); }

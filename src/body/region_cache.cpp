@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "region_pool.h"
-
 namespace cellwalk::detail {
 namespace {
 
@@ -31,6 +29,7 @@ void Region_cache<D>::change_outside(std::uint32_t vertex, bool is_outside, cons
 
 template <int D>
 bool Region_cache<D>::must_wait() {
+  if (!certificates_.body_region) return true;
   std::uint32_t& backoff = holds_body() ? target_backoff_ : search_backoff_;
   if (backoff == 0) return false;
   --backoff;
@@ -47,7 +46,7 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.targets = targets;
   request.most_cells = std::clamp(cells_per_vertex * positions.size(), least_cells, most_cells);
   request.steps_ahead = steps_ahead_;
-  request.by_clusters = positions.size() >= least_vertices_of_parts;
+  request.by_clusters = certificates_.clusters && has_parts();
   if (request.by_clusters) {
     request.most_cells = most_body_clusters;
     request.most_walls = std::clamp(walls_per_vertex * positions.size(), least_body_walls, most_body_walls);
@@ -74,7 +73,7 @@ bool Region_cache<D>::take(const std::optional<Clear_region<D>>& found, std::spa
     return false;
   }
   // One that holds little of a large body serves little, as of a rod: it is looked for the less.
-  const bool is_of_use = is_outside_.size() < least_vertices_of_parts || 2 * outside_ < is_outside_.size();
+  const bool is_of_use = !has_parts() || 2 * outside_ < is_outside_.size();
   search_backoff_ = next_backoff_;
   next_backoff_ = is_of_use ? std::min(2 * next_backoff_, most_backoff)
                             : std::min(8 * next_backoff_, most_backoff_of_little);

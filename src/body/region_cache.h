@@ -4,8 +4,9 @@
 #ifndef CELLWALK_BODY_REGION_CACHE_H
 #define CELLWALK_BODY_REGION_CACHE_H
 
-#include <cellwalk/body/step.h>
+#include <cellwalk/internal/body/certificates.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,13 +21,16 @@ namespace cellwalk::detail {
 template <int D>
 class Region_cache {
  public:
-  Region_cache(std::size_t vertices, std::size_t edges)
-      : is_outside_(vertices),
+  Region_cache(std::size_t vertices, std::size_t edges, const Body_certificates& certificates)
+      : certificates_(certificates),
+        is_outside_(vertices),
         outside_neighbours_(vertices),
         is_vertex_stale_(vertices),
         is_edge_stale_(edges) {}
 
   bool has_region() const { return region_.has_value(); }
+  /// The region, or null.
+  const Clear_region<D>* region() const { return region_ ? &*region_ : nullptr; }
   /// True if there is a region, and all vertices lie in it.
   bool holds_body() const { return region_ && outside_ == 0; }
   /// \pre there is a region
@@ -41,13 +45,22 @@ class Region_cache {
   bool holds_star(std::uint32_t vertex, const Point<D>& x) const {
     return region_ && !is_outside_[vertex] && outside_neighbours_[vertex] == 0 && region_->holds(x);
   }
+  bool holds_neighbours(std::uint32_t vertex) const { return outside_neighbours_[vertex] == 0; }
+  /// True if vertices that follow one another lie in the region, and their neighbours do.
+  bool holds_stars(std::size_t first, std::size_t count) const {
+    std::uint32_t outside = 0;
+    for (std::size_t v = first; v < first + count; ++v)
+      outside |= outside_neighbours_[v] | static_cast<unsigned char>(is_outside_[v]);
+    return outside == 0;
+  }
   bool is_outside(std::uint32_t vertex) const { return is_outside_[vertex]; }
   void set_outside(std::uint32_t vertex, bool is_outside, const Body_topology& topology) {
     if (is_outside != static_cast<bool>(is_outside_[vertex])) change_outside(vertex, is_outside, topology);
   }
   void give_up() { region_.reset(); }
 
-  /// Begins a step in which the region there is does not do: true if no other is to be looked for yet.
+  /// Begins a step in which the region there is does not do: true if no other is to be looked for, or not
+  /// yet.
   bool must_wait();
   /// The vertex about which the next region is looked for.
   std::uint32_t anchor_vertex() const { return anchor_vertex_; }
@@ -70,6 +83,9 @@ class Region_cache {
   // known. Edges at a stale vertex are as well, marked or not.
   void mark_all_moved() { are_all_stale_ = true; }
   void mark_moved(std::uint32_t vertex) { is_vertex_stale_[vertex] = true; }
+  void mark_moved(std::size_t first, std::size_t count) {
+    std::fill_n(is_vertex_stale_.begin() + static_cast<std::ptrdiff_t>(first), count, true);
+  }
   bool are_all_stale() const { return are_all_stale_; }
   /// Marks vertex by vertex what was marked at once.
   void spread_marks();
@@ -81,7 +97,10 @@ class Region_cache {
 
  private:
   void change_outside(std::uint32_t vertex, bool is_outside, const Body_topology& topology);
+  /// True if parts of the body may have regions of their own.
+  bool has_parts() const { return is_outside_.size() >= certificates_.least_vertices_of_parts; }
 
+  Body_certificates certificates_;
   std::optional<Clear_region<D>> region_;
   std::uint32_t outside_ = 0;  ///< vertices not in it
   std::vector<char> is_outside_;

@@ -26,8 +26,9 @@ constexpr double least_margin = 0.05, most_margin = 16;
 }  // namespace
 
 template <int D>
-Region_pool<D>::Region_pool(std::size_t vertices) {
-  if (vertices < least_vertices_of_parts) return;
+Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates)
+    : by_clusters_(certificates.clusters) {
+  if (!certificates.star_regions || vertices < certificates.least_vertices_of_parts) return;
   known_.resize(vertices);
   for (Known& known : known_) known = Known{none, none, none, none};
   wait_.resize(vertices);
@@ -72,14 +73,40 @@ void Region_pool<D>::add(std::uint32_t vertex, int region) {
 }
 
 template <int D>
-bool Region_pool<D>::try_move(std::uint32_t vertex, const Point<D>& target,
-                              std::span<const Point<D>> positions, const Body_topology& topology) {
+int Region_pool<D>::known_with_star(std::uint32_t vertex, const Point<D>& target,
+                                    const Body_topology& topology) const {
+  const Known known = known_[vertex];
+  for (int k = 0; k < places_known && known[k] != none; ++k)
+    if (!at(known[k]).holds(target)) return none;
+  for (int k = 0; k < places_known && known[k] != none; ++k)
+    if (know_star(vertex, known[k], topology)) return k;
+  return none;
+}
+
+template <int D>
+void Region_pool<D>::put_first(std::uint32_t vertex, int number) {
+  Known& known = known_[vertex];
+  const int region = known[number];
+  for (int k = number; k > 0; --k) known[k] = known[k - 1];
+  known[0] = region;
+}
+
+template <int D>
+bool Region_pool<D>::try_move_in_known(std::uint32_t vertex, const Point<D>& target,
+                                       const Body_topology& topology) {
   const Known known = known_[vertex];
   for (int k = 0; k < places_known && known[k] != none; ++k)
     if (know_star(vertex, known[k], topology) && at(known[k]).holds(target)) {
       stay_in(vertex, known[k], target);
       return true;
     }
+  return false;
+}
+
+template <int D>
+bool Region_pool<D>::try_move_in_other(std::uint32_t vertex, const Point<D>& target,
+                                       std::span<const Point<D>> positions, const Body_topology& topology) {
+  const Known known = known_[vertex];
   if (wait_[vertex] > 0) return false;
   // Others that hold the neighbours may hold the vertex as well, or its neighbours without their knowing it.
   const auto has = [&](int region) {
@@ -153,7 +180,7 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   Region_request<D> request;
   request.positions = star;
   request.most_cells = most_clusters;
-  request.by_clusters = true;
+  request.by_clusters = by_clusters_;
   request.most_walls = most_walls;
   request.margin = margin_ * size;
   request.keeps_all = true;

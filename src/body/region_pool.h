@@ -4,7 +4,7 @@
 #ifndef CELLWALK_BODY_REGION_POOL_H
 #define CELLWALK_BODY_REGION_POOL_H
 
-#include <cellwalk/body/step.h>
+#include <cellwalk/internal/body/certificates.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,37 +16,51 @@
 
 namespace cellwalk::detail {
 
-/// Smaller bodies have one region, whose walls are found cell by cell.
-constexpr std::size_t least_vertices_of_parts = 33;
-
 /// Each vertex knows some of the regions that hold its position.
 template <int D>
 class Region_pool {
  public:
-  explicit Region_pool(std::size_t vertices);
+  Region_pool(std::size_t vertices, const Body_certificates& certificates);
 
   /// True if regions of parts of the body are used: it is large enough, and it is asked for.
   bool is_used() const { return is_used_; }
   /// True if some region is known to hold the vertex.
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
+  /// True if that is so of none of some vertices that follow one another.
+  bool holds_none(std::size_t first, std::size_t count) const {
+    Known of_all{none, none, none, none};
+    for (std::size_t v = first; v < first + count; ++v) of_all &= known_[v];
+    return of_all[0] == none;
+  }
   /// One of those.
   /// \pre holds(vertex)
   const Clear_region<D>& region_of(std::uint32_t vertex) const {
     return regions_[static_cast<std::size_t>(known_[vertex][0])];
   }
 
+  /// All regions that there are.
+  std::span<const Clear_region<D>> regions() const { return regions_; }
+
   /// Makes the clusters about the vertices of a body, so that its first steps need not.
   void prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const;
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
-  /// True if a region that there is holds a vertex, its neighbours, and the target; then the vertex is taken
-  /// to lie at the target.
-  bool try_move(std::uint32_t vertex, const Point<D>& target, std::span<const Point<D>> positions,
-                const Body_topology& topology);
+  /// The number of the first region known to hold a vertex that is known to hold its neighbours as well; -1
+  /// if there is none, or if one that is known to hold the vertex does not hold the target.
+  int known_with_star(std::uint32_t vertex, const Point<D>& target, const Body_topology& topology) const;
+  /// The region with that number comes first from now on.
+  void put_first(std::uint32_t vertex, int number);
+
+  /// True if a region known to hold a vertex is known to hold its neighbours, and holds the target; then the
+  /// vertex is taken to lie at the target.
+  bool try_move_in_known(std::uint32_t vertex, const Point<D>& target, const Body_topology& topology);
+  /// The same of any region that there is, where none of those does.
+  bool try_move_in_other(std::uint32_t vertex, const Point<D>& target, std::span<const Point<D>> positions,
+                         const Body_topology& topology);
   /// True if a region for a vertex should be looked for now.
   bool should_search(std::uint32_t vertex);
-  /// Looks for a region that holds the same. True if it is found; then try_move() is true.
-  /// \pre should_search(vertex), try_move() was false
+  /// Looks for a region that holds the same. True if it is found; then try_move_in_known() is true.
+  /// \pre should_search(vertex), both others were false
   /// \param particle of the vertex, at its position
   bool search(const Snapshot<D>& snapshot, const Particle<D>& particle, std::uint32_t vertex,
               const Point<D>& target, std::span<const Point<D>> positions, const Body_topology& topology,
@@ -78,6 +92,7 @@ class Region_pool {
   int free_place();
 
   bool is_used_ = false;
+  bool by_clusters_;
   std::vector<Known> known_;         ///< of each vertex
   std::vector<std::uint8_t> wait_;   ///< of each vertex, moves until it may search again
   std::vector<std::uint8_t> waits_;  ///< such moves after its next search in vain

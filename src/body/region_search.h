@@ -231,7 +231,11 @@ class Region_search {
     else
       region_.cut_below(axis, facet.high[axis]);
     is_mapped_ = false;
-    if (!with_targets) lose_targets();
+    if (!with_targets)
+      lose_targets([&](const Point<D>& x) {
+        return above ? x[static_cast<std::size_t>(axis)] < facet.low[axis]
+                     : x[static_cast<std::size_t>(axis)] > facet.high[axis];
+      });
     return true;
   }
 
@@ -263,9 +267,10 @@ class Region_search {
     else
       region_.cut_below(static_cast<int>(best / 2), facet.high[best / 2]);
     is_mapped_ = false;
+    const auto is_left_now = [&](const Point<D>& x) { return is_left(best, x); };
     lose_what_is_outside(kept_);
-    lose_points(positions_, positions_left_);
-    lose_targets();
+    lose_points(positions_, positions_left_, is_left_now);
+    lose_targets(is_left_now);
     return true;
   }
 
@@ -274,9 +279,14 @@ class Region_search {
     planes_.push_back(plane);
   }
 
-  void lose_targets() {
+  /// The points that a cut loses are lost: it alone is looked at.
+  template <class Is_left>
+  void lose_targets(const Is_left& is_left) {
     lose_what_is_outside(wanted_);
-    lose_points(targets_, targets_left_);
+    lose_points(targets_, targets_left_, is_left);
+  }
+  void lose_targets_behind_plane() {
+    lose_targets([this](const Point<D>& x) { return region_.is_before_last_plane(x); });
   }
   void lose_what_is_outside(Box<D>& box) const {
     for (int k = 0; k < D; ++k) {
@@ -284,9 +294,11 @@ class Region_search {
       box.high[k] = std::min(box.high[k], region_.box().high(k));
     }
   }
-  void lose_points(std::span<const Point<D>>& points, std::vector<Point<D>>& left) const {
+  template <class Is_left>
+  static void lose_points(std::span<const Point<D>>& points, std::vector<Point<D>>& left,
+                          const Is_left& is_left) {
     if (points.data() != left.data()) left.assign(points.begin(), points.end());
-    std::erase_if(left, [this](const Point<D>& x) { return !region_.holds(x); });
+    std::erase_if(left, [&](const Point<D>& x) { return !is_left(x); });
     points = left;
   }
 
@@ -301,7 +313,7 @@ class Region_search {
     const auto plane = plane_before(cell, i, normal, sizes_);
     if (!plane || !(most < plane->offset - gap)) return false;
     cut(*plane);
-    if (!with_targets) lose_targets();
+    if (!with_targets) lose_targets_behind_plane();
     return true;
   }
 
@@ -315,7 +327,7 @@ class Region_search {
     };
     if (!are_before(positions_) || (with_targets && !are_before(targets_))) return false;
     region_.cut(plane);
-    if (!with_targets) lose_targets();
+    if (!with_targets) lose_targets_behind_plane();
     return true;
   }
 

@@ -3,12 +3,11 @@
 #ifndef CELLWALK_BODY_SLIDE_H
 #define CELLWALK_BODY_SLIDE_H
 
+#include <cellwalk/internal/body/stop_candidates.h>
 #include <cellwalk/kernel/point.h>
 
 #include <algorithm>
 #include <span>
-
-#include "stop_candidates.h"
 
 namespace cellwalk::detail {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The step of a body: its vertices one after the other, stopped at walls and led along them.
+#include <cellwalk/internal/body/stop_candidates.h>
+
 #include <algorithm>
 
 #include "body_faces.h"
 #include "slide.h"
-#include "stop_candidates.h"
 #include "vertex_move.h"
 
 namespace cellwalk::detail {
@@ -33,8 +34,10 @@ void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Bod
   // It may throw: not after some vertices have moved.
   if constexpr (D == 3)
     if (options.sweep.sweep == Sweep::faces) take_up_faces(body, counts);
+  body.make_free_moves(targets, options.parallel, counts);
   std::vector<Vector<D>> normals;
-  for (std::uint32_t v = 0; v < targets.size(); ++v) {
+  for (std::uint32_t v = body.free_moves.next_left(0); v < targets.size();
+       v = body.free_moves.next_left(v + 1)) {
     if (body.try_move_in_region(v, targets[v], counts)) continue;
     Point<D> target = targets[v];
     normals.clear();

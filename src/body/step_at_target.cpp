@@ -11,11 +11,13 @@ namespace cellwalk::detail {
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
 [[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, Reported reported,
-                                                 Step_report<D>& report) {
+                                                 bool parallel, Step_report<D>& report) {
   find_out_if_apart();
   // Planes prove that nothing is touched where nothing was.
-  const bool may_be_certified = sweep_.touch == Touch::pass || body_.is_apart;
-  for (std::uint32_t v = 0; v < targets.size(); ++v) {
+  const bool may_be_certified = body_.certificates.planes && (sweep_.touch == Touch::pass || body_.is_apart);
+  body_.make_free_moves(targets, parallel, counts_);
+  for (std::uint32_t v = body_.free_moves.next_left(0); v < targets.size();
+       v = body_.free_moves.next_left(v + 1)) {
     if (body_.try_move_in_region(v, targets[v], counts_) ||
         (may_be_certified && try_certified_move(v, targets[v])))
       continue;
@@ -154,7 +156,7 @@ inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Partic
     ++proofs.same_cell;
   else if (sweep_.certificates.convex_pair && snapshot().convex_passage(p.cell, q.cell) != Half_facet::none)
     ++proofs.convex_pair;
-  else if (certain_end(snapshot(), p, q.position, counts_.edges.walk) != q.cell)
+  else if (!body_.certificates.planes || certain_end(snapshot(), p, q.position, counts_.edges.walk) != q.cell)
     return false;
   ++proofs.edges;
   return true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "stop_candidates.h"
-
+#include <cellwalk/internal/body/stop_candidates.h>
 #include <cellwalk/internal/kernel/crossing.h>
 
 #include <algorithm>
@@ -28,18 +27,20 @@ template <int D>
 bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,
                const std::function<bool(const Point<D>&)>& try_at) {
   const Point_bounds<D> bounds = bounds_at<D>(p, target, contact.time);
-  Point<D> nearer, farther;  // as seen from p
+  Point<D> nearer, first;  // nearest to p; furthest from the wall
   for (int k = 0; k < D; ++k) {
-    nearer[k] = target[k] >= p[k] ? bounds.below[k] : bounds.above[k];
-    farther[k] = target[k] >= p[k] ? bounds.above[k] : bounds.below[k];
+    const bool is_upwards = target[k] >= p[k];
+    nearer[k] = is_upwards ? bounds.below[k] : bounds.above[k];
+    const double n = contact.normal[k];
+    first[k] = n > 0 ? bounds.above[k] : n < 0 ? bounds.below[k] : nearer[k];
   }
   for (unsigned mask = 0; mask < 1u << D; ++mask) {
-    Point<D> x = nearer;
+    Point<D> x = first;
     bool is_new = true;
     for (int k = 0; k < D; ++k)
       if (mask >> k & 1) {
-        is_new = is_new && farther[k] != nearer[k];
-        x[k] = farther[k];
+        x[k] = first[k] == bounds.below[k] ? bounds.above[k] : bounds.below[k];
+        is_new = is_new && x[k] != first[k];
       }
     if (is_new && try_at(x)) return true;
   }

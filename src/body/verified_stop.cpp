@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/body/stop_candidates.h>
 
 #include <algorithm>
 #include <span>
 
 #include "slide.h"
-#include "stop_candidates.h"
 
 namespace cellwalk {
 namespace {

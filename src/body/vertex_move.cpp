@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "vertex_move.h"
 
+#include <utility>
+
 #include "body_faces.h"
 
 namespace cellwalk::detail {
@@ -29,6 +31,7 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, s
   body.is_apart = false;
   for (const auto& [face, supporting_walls] : scratch.supporting_walls)
     body.supporting_walls[face] = supporting_walls;
+  body.may_have_supporting_walls |= !scratch.supporting_walls.empty();
   body.commit(vertex, to, scratch.chains);
   return {};
 }
@@ -64,16 +67,24 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratc
   scratch.chains.resize(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
+    Moved_chain& moved = scratch.chains[i];
+    moved.is_stale = false;
+    if (any && options.touch == Touch::pass) {
+      auto free = free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner), options,
+                             counts.edges);
+      if (!free) return Contact<D>{};
+      moved.chain = std::move(free->chain);
+      moved.is_free = true;
+      continue;
+    }
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
                                              body.seen_from(corner), options, counts.edges);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
       keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
       if (any) return first;
     }
-    Moved_chain& moved = scratch.chains[i];
     moved.chain = swept.chain;
     moved.is_free = !swept.contact;
-    moved.is_stale = false;
   }
   scratch.supporting_walls.clear();
   if constexpr (D == 3)

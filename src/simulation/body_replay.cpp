@@ -15,6 +15,7 @@ Body_options body_trace_options(Sweep sweep) {
   options.policy = Contact_policy::reject;
   options.edges = Edge_rule::at_target;
   options.reported = Reported::blocked;
+  options.parallel = false;
   return options;
 }
 
@@ -80,8 +81,9 @@ Body<3> Body_replay::registered(std::size_t body, std::size_t step) const {
 }
 
 void Body_replay::prepare() {
+  const auto before = trace_->before_step(steps_done_);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const auto positions = part(trace_->before_step(steps_done_), b);
+    const auto positions = part(before, b);
     if (std::ranges::equal(bodies_[b].positions(), positions)) continue;
     Step_report<3>& report = reports_[b];
     report.clear();

@@ -93,6 +93,8 @@ TEST(BodyStep, SlidesAlongAnObliqueWall) {
   EXPECT_GT(body.positions()[0][0], 8) << "it stuck to the wall";
   EXPECT_GT(report.contacts.size(), 20u);
   EXPECT_LT(counts.held, report.contacts.size() / 2);
+  EXPECT_LT(counts.stop_tries, 1.05 * static_cast<double>(report.contacts.size()))
+      << "the rounding along the normal comes first";
 }
 
 TEST(BodyStep, ReportsTheEdgeThatMeetsASpike) {

@@ -209,6 +209,39 @@ TEST(ClearRegion, IsNotEnlargedByUnderflowOrOverflow) {
   EXPECT_GT(with_planes, 100);
 }
 
+/// The box of a search ends beyond a wall, by less than single precision can tell.
+TEST(ClearRegion, HoldsNoWallThatItsBoxHardlyMeets) {
+  Random random(8);
+  int trials = 0;
+  while (trials < 400) {
+    std::array<Point<2>, 3> corners;
+    for (Point<2>& x : corners)
+      for (double& c : x) c = random.real(-1, 1);
+    const Vector<2> u = corners[1] - corners[0], v = corners[2] - corners[0];
+    if (u[0] * v[1] - u[1] * v[0] < 0.1) continue;
+    Cell_soup<2> soup;
+    soup.points.assign(corners.begin(), corners.end());
+    for (std::uint32_t k = 0; k < 3; ++k) soup.add_facet({k, (k + 1) % 3}, true);
+    soup.end_cell();
+    const Snapshot<2> snapshot = compile(soup);
+    const Locator<2> locator(snapshot);
+    // A step to beyond the middle of a side, which is the corner of the box that is furthest out.
+    const Point<2> end = corners[0] + 0.5 * u + 1e-9 * Vector<2>{u[1], -u[0]};
+    const Point<2> start = end - 0.01 * Vector<2>{u[1], -u[0]};
+    const auto anchor = locator.particle_at(start);
+    if (!anchor || locator.particle_at(end)) continue;
+    ++trials;
+    const std::vector<Point<2>> positions{start}, targets{end};
+    Region_request<2> request;
+    request.positions = positions;
+    request.targets = targets;
+    request.steps_ahead = request.steps_around = 1e-9;
+    Region_effort effort;
+    const auto region = find_clear_region(snapshot, *anchor, request, effort);
+    EXPECT_FALSE(region && region->holds(end));
+  }
+}
+
 /// Where coordinates are too large for planes in single precision, nothing is known of any lane, also of
 /// those without a facet.
 TEST(ClearRegion, IsFoundWherePlanesSayNothing) {

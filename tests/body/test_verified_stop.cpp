@@ -80,7 +80,7 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
   const auto start = particle_at<3>(snapshot, {1, 1, 1});
   ASSERT_NE(start.cell, Cell::none);
   Random random(5);
-  Walk_counts counts;
+  Walk_counts counts, of_stops;
   int stops = 0, rounded = 0, towards_start = 0, stuck = 0;
   for (int i = 0; i < 5000; ++i) {
     auto particle = start;
@@ -92,7 +92,7 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
     if (result.status != Walk_status::contact) continue;
     ++stops;
     const Contact<3> contact = contact_of(snapshot, particle, target, counts);
-    if (!stop_at_contact(snapshot, particle, target, contact, counts)) ++stuck;
+    if (!stop_at_contact(snapshot, particle, target, contact, of_stops)) ++stuck;
     rounded += is_rounded_contact(particle.position, inside, target, contact);
     towards_start += lies_before_contact(particle.position, inside, target, contact);
     EXPECT_TRUE(in_closure(snapshot, particle.cell, particle.position));
@@ -103,6 +103,7 @@ TEST(VerifiedStop, ReachesObliqueWallsClosely) {
   EXPECT_GT(towards_start, stops / 5);
   EXPECT_GT(stops - towards_start, stops / 5) << "that towards the start lies behind an oblique wall";
   EXPECT_EQ(stuck, 0);
+  EXPECT_LT(of_stops.walks, 1.01 * stops) << "the rounding along the normal comes first";
 }
 
 TEST(VerifiedStop, GoesBackOnTheWayWhereNothingNearTheContactIsFree) {

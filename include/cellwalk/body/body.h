@@ -17,10 +17,19 @@
 #include <vector>
 
 namespace cellwalk {
+
+template <int D>
+class Body;
+
 namespace detail {
 template <int D>
 struct Body_state;
-}
+struct Body_certificates;
+template <int D>
+void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts);
+template <int D>
+class Body_access;
+}  // namespace detail
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is
 /// moved with Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
@@ -28,7 +37,7 @@ struct Body_state;
 ///
 /// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves,
 /// registers or checks it throws Error(usage), until register_again(); what it is made of and where it stands
-/// can be asked still.
+/// can be asked still. A Reshaping in which the body is listed keeps it registered instead.
 template <int D>
 class Body {
  public:
@@ -107,7 +116,11 @@ class Body {
   void validate() const;
 
  private:
+  friend void detail::use_certificates<D>(Body&, const detail::Body_certificates&, Body_counts&);
+
   std::unique_ptr<detail::Body_state<D>> state_;
+
+  friend detail::Body_access<D>;
 };
 
 extern template class Body<2>;

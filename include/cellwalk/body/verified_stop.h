@@ -12,12 +12,12 @@ namespace cellwalk {
 
 /// Moves a particle to a point near a contact for which the complete move from where it stands is found free.
 /// Tried in this order, which is that of bodies: the exact contact point with each coordinate rounded up or
-/// down, towards where the particle stands first; that point shifted along the normal by 1, 2, 4 .. 1024 ulp
-/// of its largest coordinate; points on the way at time (1 - 2^-k) of the contact's, k = 20 .. 1; where it
-/// stands.
+/// down, along the normal of the contact first; that point rounded towards where the particle stands, shifted
+/// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at time (1 - 2^-k) of
+/// the contact's, k = 20 .. 1; where it stands.
 /// \pre contact is that of moving this particle to `target`, see vertex_contact()
 /// Returns true if the particle moved.
-/// Cost: usually one to three walks and some rational arithmetic, at most 39 walks.
+/// Cost: nearly always one walk, and some rational arithmetic, at most 39 walks.
 template <int D>
 bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                      const Contact<D>& contact, Walk_counts& counts);

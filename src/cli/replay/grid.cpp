@@ -133,6 +133,11 @@ Replay_report replay_grid(Trace trace, const Replay_options& options) {
   if (!options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment: {} holds its grid: leave the option out", options.trace));
+  if (options.threads != 1)
+    throw Error(Error_code::usage,
+                fmt::format("--threads: the bodies of {} have 8 vertices, which one thread moves: leave the "
+                            "option out",
+                            options.trace));
   if (options.sheared) trace = mapped(std::move(trace), sheared<3>());
   const Environment<3> environment = build(trace, options);
   const Replayed replayed = replay_rounds(trace, environment, options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Double positions just before a contact, in the order in which they are tried.
-#ifndef CELLWALK_BODY_STOP_CANDIDATES_H
-#define CELLWALK_BODY_STOP_CANDIDATES_H
+#ifndef CELLWALK_INTERNAL_BODY_STOP_CANDIDATES_H
+#define CELLWALK_INTERNAL_BODY_STOP_CANDIDATES_H
 
 #include <cellwalk/edge/contact.h>
 
@@ -10,8 +10,9 @@
 namespace cellwalk::detail {
 
 /// Offers positions to `try_at` until it returns true: the exact point p(s) with each coordinate rounded up
-/// or down, towards p first; these points shifted along the normal by 1, 2, 4 .. 1024 ulp of the largest
-/// coordinate, at the origin of p's; then p(s (1 - 2^-k)) for k = 20 .. 1. s is the time of the contact.
+/// or down, along the normal of the contact first, and towards p across it; the point rounded towards p,
+/// shifted along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate, at the origin of p's; then
+/// p(s (1 - 2^-k)) for k = 20 .. 1. s is the time of the contact.
 /// False if it never does.
 /// \pre the contact is not at time 0
 template <int D>
@@ -24,4 +25,4 @@ double ulp(const Point<D>& p);
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_BODY_STOP_CANDIDATES_H
+#endif  // CELLWALK_INTERNAL_BODY_STOP_CANDIDATES_H

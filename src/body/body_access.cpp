@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/body/body_access.h>
+
+#include "body_state.h"
+
+namespace cellwalk::detail {
+namespace {
+
+template <int D>
+void extend(Box<D>& box, const Clear_region<D>& region) {
+  Box<D> of_region;
+  for (int k = 0; k < D; ++k) {
+    of_region.low[k] = region.box().low(k);
+    of_region.high[k] = region.box().high(k);
+  }
+  box.extend(of_region);
+  box.extend(region.anchor().position);
+}
+
+}  // namespace
+
+template <int D>
+const Snapshot<D>& Body_access<D>::snapshot() const {
+  return *state_->snapshot;
+}
+
+template <int D>
+void Body_access<D>::check_epoch() const {
+  state_->check_epoch();
+}
+
+template <int D>
+void Body_access<D>::follow_epoch() {
+  state_->epoch = state_->snapshot->epoch();
+}
+
+template <int D>
+Box<D> Body_access<D>::reach() const {
+  Box<D> box;
+  for (const Point<D>& x : state_->positions) box.extend(x);
+  for (const Particle<D>& particle : state_->particles) box.extend(particle.position);
+  if (const Clear_region<D>* region = state_->region.region()) extend(box, *region);
+  for (const Clear_region<D>& region : state_->pool.regions()) extend(box, region);
+  return box;
+}
+
+template <int D>
+void Body_access<D>::leave_regions(Body_counts& counts) {
+  state_->refresh_all(counts);
+  state_->give_region_up();
+}
+
+template <int D>
+bool Body_access<D>::keeps_faces() const {
+  return state_->are_faces_swept && !state_->topology.faces().empty();
+}
+
+template <int D>
+std::span<Particle<D>> Body_access<D>::particles() {
+  return state_->particles;
+}
+
+template <int D>
+Chain& Body_access<D>::chain(std::size_t edge) {
+  return state_->chains[edge];
+}
+
+template class Body_access<2>;
+template class Body_access<3>;
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What the layer reshape needs of a body while the environment around it changes.
+#ifndef CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
+#define CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
+
+#include <cellwalk/body/body.h>
+#include <cellwalk/internal/kernel/box.h>
+
+#include <cstdint>
+#include <span>
+
+namespace cellwalk::detail {
+
+template <int D>
+class Body_access {
+ public:
+  explicit Body_access(Body<D>& body) : state_(body.state_.get()) {}
+
+  const Snapshot<D>& snapshot() const;
+  /// \throw Error(usage) if the environment was edited since the body was registered
+  void check_epoch() const;
+  /// The body is registered in the environment as that is now.
+  void follow_epoch();
+
+  /// The box of all places that the registration of the body depends on: its positions, those at which
+  /// particles were registered last, and the regions free of walls with their anchors.
+  /// Cost: reading them.
+  Box<D> reach() const;
+  /// Registers what is stale, and gives regions free of walls up.
+  void leave_regions(Body_counts& counts);
+  /// True if no wall pierces a face, and that is to stay so.
+  bool keeps_faces() const;
+
+  /// \pre leave_regions() was called
+  std::span<Particle<D>> particles();
+  Chain& chain(std::size_t edge);
+
+ private:
+  Body_state<D>* state_;
+};
+
+extern template class Body_access<2>;
+extern template class Body_access<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_BODY_BODY_ACCESS_H

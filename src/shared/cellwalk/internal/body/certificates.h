@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What may prove moves of a body free before they are tested exactly, so that tests can ask for each alone.
+// Theory: docs/bodies.md, clearance and certified moves.
+#ifndef CELLWALK_INTERNAL_BODY_CERTIFICATES_H
+#define CELLWALK_INTERNAL_BODY_CERTIFICATES_H
+
+#include <cellwalk/body/body.h>
+
+#include <cstddef>
+
+namespace cellwalk::detail {
+
+/// Each is sound by itself; without one, only the cost is different. Those of an edge are chosen with the
+/// sweep, see Edge_certificates; without Body_options::clearance there are no regions at all.
+struct Body_certificates {
+  bool body_region = true;   ///< one region for the whole body
+  bool star_regions = true;  ///< a pool of regions, each about a star
+  bool clusters = true;      ///< walls near a region are found by clusters of cells, not cell by cell
+  bool planes = true;        ///< moves that planes alone prove free, by Edge_rule::at_target
+  /// Bodies of so many vertices have regions about stars, and clusters.
+  std::size_t least_vertices_of_parts = 33;
+};
+
+// use_certificates(body, chosen, counts), declared with Body, chooses the certificates of one body, which
+// keeps them when it is copied or registered again. It gives the regions of the body up.
+// Throws Error(usage) if the environment was edited since the body was registered.
+extern template void use_certificates(Body<2>&, const Body_certificates&, Body_counts&);
+extern template void use_certificates(Body<3>&, const Body_certificates&, Body_counts&);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_BODY_CERTIFICATES_H

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// All certificates of bodies, none, and each alone.
+#ifndef CELLWALK_TESTS_BODY_CERTIFICATE_SETS_H
+#define CELLWALK_TESTS_BODY_CERTIFICATE_SETS_H
+
+#include <cellwalk/internal/body/certificates.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cellwalk::test {
+
+struct Certificate_set {
+  const char* name;
+  bool clearance;
+  detail::Body_certificates of_body;
+  Edge_certificates of_edges;
+  /// What is counted more often where they decide, or less often, than where there are none.
+  std::uint64_t (*counted)(const Body_counts&);
+  bool is_less_often = false;
+
+  Body_options chosen(Body_options options) const {
+    options.clearance = clearance;
+    options.sweep.certificates = of_edges;
+    return options;
+  }
+};
+
+/// The first set is the empty one. Where regions for parts of a body are asked for, bodies of any size have
+/// them.
+inline std::vector<Certificate_set> certificate_sets() {
+  constexpr std::size_t any = 1, never = ~std::size_t{0};
+  constexpr detail::Body_certificates no_others{false, false, false, false, never};
+  constexpr Edge_certificates none{false, false, false, false}, all{};
+  const auto in_region = [](const Body_counts& c) { return c.in_region; };
+  const auto walks = [](const Body_counts& c) { return c.edges.walk.walks; };
+  const auto same_cell = [](const Body_counts& c) { return c.edges.same_cell; };
+  const auto convex_pair = [](const Body_counts& c) { return c.edges.convex_pair; };
+  const auto same_chain = [](const Body_counts& c) { return c.edges.same_chain; };
+  const auto event_sweeps = [](const Body_counts& c) { return c.edges.event_sweeps; };
+  return {
+      {"none", false, no_others, none, in_region},
+      {"all", true, {}, all, in_region},
+      {"all, in bodies of any size", true, {true, true, true, true, any}, all, in_region},
+      {"region of the body", true, {true, false, false, false, never}, none, in_region},
+      {"region of the body by clusters", true, {true, false, true, false, any}, none, in_region},
+      {"regions of stars", true, {false, true, false, false, any}, none, in_region},
+      {"regions of stars by clusters", true, {false, true, true, false, any}, none, in_region},
+      // A vertex that planes alone prove inside its cell does not walk.
+      {"planes", false, {false, false, false, true, never}, none, walks, true},
+      {"planes, and the same chain",
+       false,
+       {false, false, false, true, never},
+       {false, false, true, false},
+       same_chain},
+      {"same cell", false, no_others, {true, false, false, false}, same_cell},
+      {"convex pair", false, no_others, {false, true, false, false}, convex_pair},
+      {"same chain", false, no_others, {false, false, true, false}, same_chain},
+      {"flood", false, no_others, {false, false, false, true}, event_sweeps, true},
+  };
+}
+
+}  // namespace cellwalk::test
+
+#endif  // CELLWALK_TESTS_BODY_CERTIFICATE_SETS_H

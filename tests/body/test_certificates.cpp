@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Each certificate of a body alone, and all together, against none: the same moves, of bodies of all kinds,
+// in worlds of all kinds.
+#include <cellwalk/environment/gluing.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "body/certificate_sets.h"
+#include "body/random_bodies.h"
+#include "walk/oracle_trial.h"
+
+namespace cellwalk::test {
+namespace {
+
+struct Certificates_seen {
+  int bodies = 0, calls = 0, different = 0, invalid = 0;
+  std::size_t contacts = 0, blocked = 0, refused = 0;
+  std::vector<Body_counts> counts;     ///< of each set
+  std::vector<std::uint64_t> decided;  ///< by each set, what is not without
+  std::string first;
+
+  void note(const std::string& what) {
+    if (++different <= 5) (first += "\n  ") += what;
+  }
+};
+
+/// Bodies that stand in one place, each with a set of certificates of its own.
+template <int D>
+class Bodies_by_sets {
+ public:
+  Bodies_by_sets(const std::vector<Certificate_set>& sets, const std::string& world, const Body<D>& body,
+                 Certificates_seen& seen)
+      : sets_(sets), world_(world), bodies_(sets.size(), body), seen_(seen) {
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      detail::use_certificates(bodies_[i], sets[i].of_body, seen.counts[i]);
+  }
+
+  void follow(Random_bodies<D>& random, std::size_t calls) {
+    for (std::size_t k = 0; k < calls; ++k) {
+      const Call<D> call = random.call(bodies_[0].positions(), k);
+      ++seen_.calls;
+      const Answer<D> expected = ask(call, 0);
+      seen_.contacts += expected.report.contacts.size();
+      seen_.blocked += expected.report.blocked.size();
+      seen_.refused += expected.error.has_value();
+      for (std::size_t i = 1; i < sets_.size(); ++i) {
+        std::string what = difference(ask(call, i), expected);
+        if (what.empty() && !std::ranges::equal(bodies_[i].positions(), bodies_[0].positions()))
+          what = "where it stands";
+        if (!what.empty())
+          return seen_.note(world_ + ", call " + std::to_string(k) + ", " + sets_[i].name + ": " + what);
+      }
+      if (expected.error) return;
+    }
+    validate();
+  }
+
+ private:
+  Answer<D> ask(const Call<D>& call, std::size_t i) {
+    const Certificate_set& set = sets_[i];
+    Body_counts counts;
+    const Answer<D> answer = call.ask(bodies_[i], set.chosen(call.options), counts);
+    seen_.counts[i] += counts;
+    if (i == 0) of_none_ = counts;
+    const auto more = static_cast<std::int64_t>(set.counted(counts) - set.counted(of_none_));
+    seen_.decided[i] +=
+        static_cast<std::uint64_t>(std::max<std::int64_t>(0, set.is_less_often ? -more : more));
+    return answer;
+  }
+
+  void validate() {
+    for (std::size_t i = 0; i < sets_.size(); ++i) try {
+        bodies_[i].refresh(seen_.counts[i]);
+        bodies_[i].validate();
+      } catch (const Error& error) {
+        ++seen_.invalid;
+        seen_.note(world_ + ", " + sets_[i].name + ": " + error.what());
+      }
+  }
+
+  const std::vector<Certificate_set>& sets_;
+  const std::string world_;
+  std::vector<Body<D>> bodies_;
+  Body_counts of_none_;  ///< in the last call
+  Certificates_seen& seen_;
+};
+
+/// Worlds that no other test has.
+constexpr std::uint64_t first_world = 5'000'000 * oracle::world_kinds;
+/// So that every kind comes in turn, small and large.
+constexpr std::uint64_t world_stride = oracle::world_kinds + 1;
+
+template <int D>
+void run_world(std::uint64_t number, bool generic, const std::vector<Certificate_set>& sets,
+               Certificates_seen& seen) {
+  const oracle::World<D> world = oracle::make_world<D>(number);
+  const Snapshot<D> snapshot = Snapshot<D>::compile(world.soup, glue(world.soup));
+  const Locator<D> locator(snapshot);
+  Random_bodies<D> random(world, snapshot, number, generic);
+  constexpr std::array kinds{Body_kind::simplex,   Body_kind::simplex, Body_kind::rod,  Body_kind::simplex,
+                             Body_kind::simplices, Body_kind::simplex, Body_kind::block};
+  for (const Body_kind kind : kinds) {
+    const Body_soup<D> soup = random.make(kind, locator);
+    std::optional<Body<D>> body;
+    try {
+      body.emplace(snapshot, locator, soup);
+    } catch (const Error&) {  // no room there
+      continue;
+    }
+    ++seen.bodies;
+    Bodies_by_sets<D>(sets, world.name, *body, seen).follow(random, 8);
+  }
+}
+
+template <int D>
+void test_certificates() {
+  const std::vector<Certificate_set> sets = certificate_sets();
+  const std::size_t worlds = oracle::scaled_count(oracle::world_kinds);
+  for (const bool generic : {true, false}) {
+    Certificates_seen seen;
+    seen.counts.resize(sets.size());
+    seen.decided.resize(sets.size());
+    for (std::uint64_t number = 0; number < worlds; ++number)
+      run_world<D>(first_world + world_stride * number, generic, sets, seen);
+    std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.bodies << " bodies, "
+              << seen.calls << " calls, " << seen.contacts << " contacts, " << seen.blocked << " blocked, "
+              << seen.refused << " refused; different " << seen.different << ", invalid " << seen.invalid
+              << "; decided by";
+    for (std::size_t i = 1; i < sets.size(); ++i)
+      std::cout << (i > 1 ? ", " : " ") << sets[i].name << " " << seen.decided[i];
+    std::cout << "\n";
+    EXPECT_EQ(seen.different, 0) << seen.first;
+    if (worlds < oracle::world_kinds) continue;  // too few to meet everything
+    EXPECT_GT(seen.contacts, 1'000u);
+    EXPECT_GT(seen.blocked, 100u);
+    for (std::size_t i = 1; i < sets.size(); ++i) {
+      SCOPED_TRACE(sets[i].name);
+      const Body_counts& counts = seen.counts[i];
+      EXPECT_EQ(counts.regions + counts.no_region > 0, sets[i].clearance) << "searches of regions";
+      EXPECT_EQ(counts.region_walls > 0, sets[i].clearance && sets[i].of_body.clusters) << "clusters";
+      EXPECT_GT(seen.decided[i], 5u);
+    }
+    const Body_counts& none = seen.counts[0];
+    EXPECT_EQ(none.in_region + none.edges.same_cell + none.edges.convex_pair + none.edges.clear, 0u);
+  }
+}
+
+TEST(BodyCertificates, DecideAlikeEachAlone2) { test_certificates<2>(); }
+TEST(BodyCertificates, DecideAlikeEachAlone3) { test_certificates<3>(); }
+
+}  // namespace
+}  // namespace cellwalk::test
