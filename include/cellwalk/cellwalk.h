@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The core in one header: environments and their generators, particles, edges, bodies, queries. It does not
-// include CGAL. Not included: the map (environment/map.h), the walk for your own kernels (walk/walk_impl.h),
-// scenes (simulation/), and the other components (io/, meshing/, loading/).
+// The core in one header: environments and their generators, particles, edges, bodies, queries, walls that
+// move. It does not include CGAL. Not included: the map (environment/map.h), the walk for your own kernels
+// (walk/walk_impl.h), scenes (simulation/), and the other components (io/, meshing/, loading/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 
@@ -18,6 +18,7 @@
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
 #include <cellwalk/records/make_body.h>
+#include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 # The one header for users, which no file of the library includes.
 UMBRELLA = Path("include/cellwalk/cellwalk.h")
-CORE = ["kernel", "records", "generators", "environment", "walk", "edge", "query", "body", "simulation"]
+CORE = ["kernel", "records", "generators", "environment", "walk", "edge", "query", "body", "reshape", "simulation"]
 # Headers that layers share and users do not see: <cellwalk/internal/LAYER/...>.
 SHARED = Path("src/shared")
 PAGE = Path("docs/architecture.md")
@@ -27,7 +27,8 @@ CGAL_HEADERS = {Path("include/cellwalk/environment/map.h")}
 
 # What tests of a layer include besides what the layer itself may: worlds to test in, and readers of public data.
 TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "walk": {"generators", "io", "meshing"},
-               "edge": {"generators", "io"}, "query": {"generators"}, "body": {"generators"}, "simulation": {"io", "meshing"},
+               "edge": {"generators", "io"}, "query": {"generators"}, "body": {"generators"}, "reshape": {"generators"},
+               "simulation": {"io", "meshing"},
                "meshing": {"environment"}, "drawing": {"io"}}
 # Folders of tests that are of no one layer.
 OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}

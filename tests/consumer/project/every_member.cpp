@@ -47,7 +47,7 @@ void keep_environments() {
   keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
        &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::soup,
        &Environment<D>::set_impassable, &Environment<D>::move_vertex, &Environment<D>::insert_point,
-       &Environment<D>::certify);
+       &Environment<D>::certify, &Environment<D>::cells_around);
 
   keep(
       +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
@@ -79,6 +79,15 @@ void keep_bodies() {
   keep(&transformed<D>, &make_body<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
        static_cast<Body_soup<D> (*)(const Polyline_shape<D>&)>(&generate_body));
+}
+
+template <int D>
+void keep_reshaping() {
+  keep(
+      +[](Environment<D>& e, const Residents<D>& r) { return Reshaping<D>(e, r); }, &moved<Reshaping<D>>,
+      static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
+      static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
+      &Reshaping<D>::close, &Reshaping<D>::counts);
 }
 
 template <int D>
@@ -127,7 +136,7 @@ void keep_readers() {
 }  // namespace
 
 int main() {
-  keep_environments<2>(), keep_bodies<2>(), keep_simulation<2>(), keep_readers<2>();
-  keep_environments<3>(), keep_bodies<3>(), keep_simulation<3>(), keep_readers<3>();
+  keep_environments<2>(), keep_bodies<2>(), keep_reshaping<2>(), keep_simulation<2>(), keep_readers<2>();
+  keep_environments<3>(), keep_bodies<3>(), keep_reshaping<3>(), keep_simulation<3>(), keep_readers<3>();
   std::printf("%d members and functions\n", kept_count);
 }

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/body/stop_candidates.h>
+#include <cellwalk/internal/environment/vertex_mover.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/reshape/reshaping.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "resident_groups.h"
+#include "vertex_trial.h"
+#include "wall_hit.h"
+
+namespace cellwalk {
+namespace {
+
+/// A vertex that touches something tries these shares of its way, halved so often.
+constexpr int touch_halvings = 6;
+
+}  // namespace
+
+template <int D>
+struct Reshaping<D>::State {
+  State(Environment<D>& environment, const Residents<D>& residents, const Reshape_options& given)
+      : options(given),
+        groups(environment.snapshot(), residents),
+        mover(environment),
+        trial(groups, counts) {}
+
+  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, bool any);
+  bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);
+  Vertex_result<D> move(std::uint32_t point, const Point<D>& target);
+  detail::Box<D> box_of_star(const Point<D>& target) const;
+  void close();
+
+  Reshape_options options;
+  Reshape_counts counts;
+  detail::Resident_groups<D> groups;
+  detail::Vertex_mover<D> mover;
+  detail::Vertex_trial<D> trial;
+  bool is_open = true;
+};
+
+/// The box of the cells around the point of the mover, before and after its move.
+template <int D>
+detail::Box<D> Reshaping<D>::State::box_of_star(const Point<D>& target) const {
+  detail::Box<D> box;
+  box.extend(target);
+  for (const Cell c : mover.star()) {
+    const Cell_view<D> view = mover.snapshot().view(c);
+    for (std::size_t v = 0; v < view.vertex_count(); ++v) box.extend(view.point(v));
+  }
+  return box;
+}
+
+/// Moves the point to the target or leaves it where it is.
+/// \param any if true, the result need not say what it meets
+template <int D>
+Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, bool any) {
+  const detail::Star_check check = mover.begin(point, target);
+  ++counts.moves;
+  counts.cells += mover.star().size();
+  Vertex_result<D> result;
+  result.point = point;
+  result.position = mover.from();
+  if (check.defect != detail::Star_defect::none) {
+    result.end = check.defect == detail::Star_defect::cell ? Move_end::cell : Move_end::boundary;
+    result.cell = check.cell;
+    result.share = check.share;
+    return result;
+  }
+  if (target == mover.from()) return result;
+  counts.opened += groups.open(box_of_star(target));
+  mover.place();
+  bool is_free = false;
+  try {
+    is_free = decide(mover.from(), point, any, result);
+  } catch (...) {
+    mover.take_back();
+    throw;
+  }
+  if (!is_free) {
+    mover.take_back();
+    return result;
+  }
+  trial.commit();
+  mover.commit();
+  ++counts.made;
+  result.position = target;
+  return result;
+}
+
+/// True if nothing is in the way of the point, which the snapshot has at its target.
+template <int D>
+bool Reshaping<D>::State::decide(const Point<D>& from, std::uint32_t point, bool any,
+                                 Vertex_result<D>& result) {
+  if (!groups.has_open()) {
+    trial.clear();
+    return true;
+  }
+  const detail::Moving_star<D> star(mover.snapshot(), point, from, mover.star(), counts.walk);
+  counts.walls += star.walls().size();
+  const detail::Obstruction met = trial.run(star, mover.star(), any);
+  if (met.meeting == detail::Meeting::apart) return true;
+  result.end = met.meeting == detail::Meeting::hit ? Move_end::contact : Move_end::touch;
+  if (met.hit) result.hit = to_wall_hit(met, star, groups);
+  return false;
+}
+
+template <int D>
+Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& target) {
+  if (!is_open)
+    throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
+  Vertex_result<D> result = attempt(point, target, false);
+  if (options.at_contact == At_contact::hold) return result;
+  const Point<D> from = result.position;
+  const auto try_at = [&](const Point<D>& x) {
+    if (x == from || attempt(point, x, true).end != Move_end::reached) return false;
+    result.position = x;
+    return true;
+  };
+  if (result.end == Move_end::contact && result.hit->time != Exact_time()) {
+    Contact<D> contact;
+    contact.time = result.hit->time;
+    contact.normal = -1.0 * result.hit->normal;
+    detail::try_stops<D>(from, target, contact, try_at);
+  } else if (result.end == Move_end::touch) {
+    for (int k = 1; k <= touch_halvings; ++k)
+      if (try_at(from + std::ldexp(1.0, -k) * (target - from))) break;
+  }
+  return result;
+}
+
+template <int D>
+void Reshaping<D>::State::close() {
+  if (!std::exchange(is_open, false)) return;
+  mover.restore();
+  groups.follow_epoch();
+}
+
+template <int D>
+Reshaping<D>::Reshaping(Environment<D>& environment, const Residents<D>& residents,
+                        const Reshape_options& options)
+    : state_(std::make_unique<State>(environment, residents, options)) {}
+
+template <int D>
+Reshaping<D>::~Reshaping() {
+  try {
+    if (state_) state_->close();
+  } catch (...) {  // memory: certificates stay withdrawn, and bodies refuse to go on
+  }
+}
+
+template <int D>
+Reshaping<D>::Reshaping(Reshaping&&) noexcept = default;
+
+template <int D>
+Reshaping<D>& Reshaping<D>::operator=(Reshaping&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+template <int D>
+Vertex_result<D> Reshaping<D>::move(std::uint32_t point, const Point<D>& target) {
+  return state_->move(point, target);
+}
+
+template <int D>
+Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
+  Move_report<D> report;
+  std::vector<std::size_t> left(moves.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
+  std::vector<Vertex_result<D>> last(moves.size());
+  for (bool gets_on = true;
+       gets_on && !left.empty() && static_cast<int>(report.rounds) < state_->options.most_rounds;) {
+    gets_on = false;
+    ++report.rounds;
+    std::vector<std::size_t> still_left;
+    for (const std::size_t i : left) {
+      const auto& [point, target] = moves[i];
+      Vertex_result<D>& result = last[i];
+      result = state_->move(point, target);
+      if (result.hit) report.hits.push_back(*result.hit);
+      if (result.end == Move_end::reached) {
+        gets_on = true;
+        continue;
+      }
+      still_left.push_back(i);
+      const Point<D> from = result.position;
+      if (result.end != Move_end::cell || !(result.share > 0)) continue;
+      const Vertex_result<D> part = state_->move(point, from + 0.5 * result.share * (target - from));
+      if (part.hit) report.hits.push_back(*part.hit);
+      gets_on |= part.position != from;
+      result.position = part.position;
+    }
+    std::reverse(still_left.begin(), still_left.end());
+    left = std::move(still_left);
+  }
+  std::sort(left.begin(), left.end());
+  for (const std::size_t i : left) report.short_of_target.push_back(last[i]);
+  return report;
+}
+
+template <int D>
+void Reshaping<D>::close() {
+  state_->close();
+}
+
+template <int D>
+const Reshape_counts& Reshaping<D>::counts() const {
+  return state_->counts;
+}
+
+template class Reshaping<2>;
+template class Reshaping<3>;
+
+}  // namespace cellwalk

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "resident_groups.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <string>
+
+namespace cellwalk::detail {
+namespace {
+
+void sort_unique(std::vector<Member>& members) {
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+}  // namespace
+
+template <int D>
+Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents<D>& residents)
+    : snapshot_(snapshot) {
+  for (Body<D>* body : residents.bodies) {
+    Resident_group<D>& group = groups_.emplace_back();
+    group.body.emplace(*body);
+    if (&group.body->snapshot() != &snapshot)
+      throw Error(Error_code::usage, "a body listed lies in another environment: list it where it is");
+    group.body->check_epoch();
+    group.edges = body->edges();
+    group.faces = body->faces();
+    group.reach = group.body->reach();
+  }
+  for (const std::span<Particle<D>> particles : residents.particles) {
+    Resident_group<D>& group = groups_.emplace_back();
+    group.particles = particles;
+    for (const Particle<D>& p : particles) group.reach.extend(p.position);
+  }
+}
+
+template <int D>
+std::size_t Resident_groups<D>::open(const Box<D>& box) {
+  if (open_ == groups_.size()) return 0;
+  std::size_t opened = 0;
+  for (std::uint32_t g = 0; g < groups_.size(); ++g) {
+    Resident_group<D>& group = groups_[g];
+    if (group.is_open || !group.reach.meets(box)) continue;
+    if (group.body) {
+      Body_counts uncounted;
+      group.body->leave_regions(uncounted);
+      group.particles = group.body->particles();
+    } else {
+      for (std::size_t i = 0; i < group.particles.size(); ++i)
+        if (const Particle<D>& p = group.particles[i];
+            !in_closure(snapshot_, p.cell, p.position) || snapshot_.is_solid(p.cell))
+          throw Error(Error_code::usage, "particle " + std::to_string(i) +
+                                             " of those listed does not lie in its cell: locate it again");
+    }
+    group.is_open = true;
+    ++open_;
+    ++opened;
+    enter_all(g);
+  }
+  if (opened != 0) most_entries_ = 4 * entries_.size() + 4096;
+  return opened;
+}
+
+template <int D>
+void Resident_groups<D>::enter_all(std::uint32_t group) {
+  const Resident_group<D>& of = groups_[group];
+  for (std::uint32_t v = 0; v < of.particles.size(); ++v) enter_vertex({group, v});
+  for (std::uint32_t e = 0; e < of.edges.size(); ++e) enter_edge({group, e});
+}
+
+template <int D>
+Resident Resident_groups<D>::at(Member member, Body_feature feature) const {
+  const auto bodies = static_cast<std::uint32_t>(std::count_if(
+      groups_.begin(), groups_.end(), [](const auto& group) { return group.body.has_value(); }));
+  const bool is_particle = member.group >= bodies;
+  return {is_particle, is_particle ? member.group - bodies : member.group, feature, member.number};
+}
+
+template <int D>
+void Resident_groups<D>::find(std::span<const Cell> cells, std::vector<Member>& vertices,
+                              std::vector<Member>& edges) const {
+  vertices.clear();
+  edges.clear();
+  for (const Cell c : cells) {
+    const auto first = first_.find(to_index(c));
+    if (first == first_.end()) continue;
+    for (std::uint32_t e = first->second; e != none; e = entries_[e].next) {
+      const Entry& entry = entries_[e];
+      if (entry.is_edge)
+        edges.push_back(entry.member);
+      else if (groups_[entry.member.group].particles[entry.member.number].cell == c)
+        vertices.push_back(entry.member);
+    }
+  }
+  sort_unique(vertices);
+  sort_unique(edges);
+}
+
+template <int D>
+void Resident_groups<D>::enter(Cell cell, Member member, bool is_edge) {
+  const auto [place, is_new] = first_.try_emplace(to_index(cell), none);
+  entries_.push_back({member, is_edge, place->second});
+  place->second = static_cast<std::uint32_t>(entries_.size() - 1);
+}
+
+template <int D>
+void Resident_groups<D>::enter_vertex(Member vertex) {
+  enter(particle(vertex).cell, vertex, false);
+  if (entries_.size() < most_entries_ || most_entries_ == 0) return;
+  most_entries_ = 0;
+  first_.clear();
+  entries_.clear();
+  for (std::uint32_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].is_open) enter_all(g);
+  most_entries_ = 4 * entries_.size() + 4096;
+}
+
+template <int D>
+void Resident_groups<D>::enter_edge(Member edge) {
+  const auto [u, v] = groups_[edge.group].edges[edge.number];
+  enter(particle({edge.group, u}).cell, edge, true);
+  for (const Half_facet f : chain(edge)) enter(snapshot_.neighbour(f), edge, true);
+}
+
+template <int D>
+void Resident_groups<D>::follow_epoch() {
+  for (Resident_group<D>& group : groups_)
+    if (group.body) group.body->follow_epoch();
+}
+
+template class Resident_groups<2>;
+template class Resident_groups<3>;
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies and spans of particles alike, and which of their vertices and edges lie in a cell.
+#ifndef CELLWALK_RESHAPE_RESIDENT_GROUPS_H
+#define CELLWALK_RESHAPE_RESIDENT_GROUPS_H
+
+#include <cellwalk/internal/body/body_access.h>
+#include <cellwalk/internal/kernel/box.h>
+#include <cellwalk/reshape/residents.h>
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace cellwalk::detail {
+
+/// A body, or a span of particles.
+template <int D>
+struct Resident_group {
+  std::optional<Body_access<D>> body;
+  std::span<Particle<D>> particles;  ///< of a body: once it is open
+  std::span<const std::array<std::uint32_t, 2>> edges;
+  std::span<const std::array<std::uint32_t, 3>> faces;
+  Box<D> reach;  ///< of all places that its registration depends on
+  bool is_open = false;
+};
+
+/// A vertex or an edge of a group.
+struct Member {
+  std::uint32_t group, number;
+  auto operator<=>(const Member&) const = default;
+};
+
+/// Groups are opened when a vertex of the environment moves near them: all that is stale is registered while
+/// what it depends on still stands. From then on their vertices and edges are known by cell.
+template <int D>
+class Resident_groups {
+ public:
+  /// \throw Error(usage) for a body of another environment, or one registered before an edit
+  Resident_groups(const Snapshot<D>& snapshot, const Residents<D>& residents);
+
+  /// Opens the groups whose reach meets a box. Returns their number.
+  /// \throw Error(usage) for a particle that does not lie in its cell
+  std::size_t open(const Box<D>& box);
+  bool has_open() const { return open_ != 0; }
+
+  const std::vector<Resident_group<D>>& all() const { return groups_; }
+  Resident at(Member member, Body_feature feature) const;
+  Particle<D>& particle(Member vertex) { return groups_[vertex.group].particles[vertex.number]; }
+  Chain& chain(Member edge) { return groups_[edge.group].body->chain(edge.number); }
+
+  /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
+  void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges) const;
+
+  /// Enters a vertex into the table of cells, or an edge, after it was registered anew. Old entries stay.
+  void enter_vertex(Member vertex);
+  void enter_edge(Member edge);
+
+  /// Bodies go on in the environment as it is now.
+  void follow_epoch();
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu;
+  struct Entry {
+    Member member;
+    bool is_edge;
+    std::uint32_t next;
+  };
+  void enter(Cell cell, Member member, bool is_edge);
+  void enter_all(std::uint32_t group);
+
+  const Snapshot<D>& snapshot_;
+  std::vector<Resident_group<D>> groups_;
+  std::size_t open_ = 0;
+  std::unordered_map<std::uint32_t, std::uint32_t> first_;  ///< entry of each cell
+  std::vector<Entry> entries_;
+  std::size_t most_entries_ = 0;  ///< before outdated ones are dropped
+};
+
+extern template class Resident_groups<2>;
+extern template class Resident_groups<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_RESIDENT_GROUPS_H

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "vertex_trial.h"
+
+#include <algorithm>
+#include <array>
+
+namespace cellwalk::detail {
+
+template <int D>
+Obstruction Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
+  any_ = any;
+  obstruction_ = {};
+  clear();
+  groups_.find(cells, vertices_, edges_);
+  const bool goes_on = try_vertices(star) && try_edges(star);
+  if (D == 3 && goes_on && !star.walls().empty()) try_faces(star);
+  return std::move(obstruction_);
+}
+
+/// False if nothing else needs to be looked at.
+template <int D>
+bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star) {
+  for (const Member v : vertices_) {
+    ++counts_.vertices;
+    const Particle<D>& p = groups_.particle(v);
+    const bool keeps_cell = star.keeps_cell(p);
+    counts_.same_cell += keeps_cell;
+    const bool is_free =
+        keeps_cell || this->is_free(star, v, Body_feature::vertex, std::span<const Point<D>>(&p.position, 1),
+                                    [&] { return star.keeps_cell_at_start(p); });
+    if (!is_free && any_) return false;
+    moved_.push_back({v, is_free ? star.registered(p) : p, keeps_cell, is_free});
+  }
+  return true;
+}
+
+template <int D>
+bool Vertex_trial<D>::try_edges(const Moving_star<D>& star) {
+  for (const Member e : edges_)
+    if (!try_edge(star, e) && any_) return false;
+  return true;
+}
+
+template <int D>
+const typename Vertex_trial<D>::Moved_vertex* Vertex_trial<D>::find(Member vertex) const {
+  const auto found = std::ranges::lower_bound(moved_, vertex, {}, &Moved_vertex::member);
+  return found != moved_.end() && found->member == vertex ? &*found : nullptr;
+}
+
+/// True if an edge is free; then its chain is kept, or a new one found.
+template <int D>
+bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
+  const auto [u, v] = groups_.all()[edge.group].edges[edge.number];
+  const Member first{edge.group, u}, second{edge.group, v};
+  const Particle<D>&p = groups_.particle(first), &q = groups_.particle(second);
+  const Chain& chain = groups_.chain(edge);
+  const Moved_vertex *moved_p = find(first), *moved_q = find(second);
+  const bool passes_star = std::any_of(chain.begin(), chain.end(), [&](Half_facet f) { return star.has(f); });
+  if (!moved_p && !moved_q && !passes_star) return true;
+  ++counts_.edges;
+  const bool keeps_ends = (!moved_p || moved_p->keeps_cell) && (!moved_q || moved_q->keeps_cell);
+  if (keeps_ends && (!passes_star || star.keeps_chain(chain, p.position, q.position))) {
+    ++counts_.same_chain;
+    return true;
+  }
+  const auto keeps_at_start = [&] {
+    return star.keeps_cell_at_start(p) && star.keeps_cell_at_start(q) &&
+           star.keeps_chain_at_start(chain, p.position, q.position);
+  };
+  if (!is_free(star, edge, Body_feature::edge, std::array{p.position, q.position}, keeps_at_start))
+    return false;
+  const auto is_blocked = [](const Moved_vertex* moved) { return moved && !moved->is_free; };
+  if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
+  ++counts_.relinked;
+  chains_.emplace_back(edge,
+                       star.relinked(chain, p.cell, moved_p ? moved_p->now : p, moved_q ? moved_q->now : q));
+  return true;
+}
+
+/// Faces need no registration: a wall that is apart from one is none of those that it rests on, and changes
+/// no side.
+template <int D>
+bool Vertex_trial<D>::try_faces(const Moving_star<D>& star) {
+  const auto& groups = groups_.all();
+  for (std::uint32_t g = 0; g < groups.size(); ++g) {
+    const Resident_group<D>& group = groups[g];
+    if (!group.is_open || !group.body || !group.reach.meets(star.box()) || !group.body->keeps_faces())
+      continue;
+    for (std::uint32_t f = 0; f < group.faces.size(); ++f) {
+      std::array<Point<D>, 3> corners;
+      Box<D> box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = group.particles[group.faces[f][k]].position;
+        box.extend(corners[k]);
+      }
+      if (!box.meets(star.box())) continue;
+      ++counts_.faces;
+      if (!is_free(star, {g, f}, Body_feature::face, corners, [] { return false; }) && any_) return false;
+    }
+  }
+  return true;
+}
+
+/// True if no wall meets a member, or all that do leave it at once.
+/// \param keeps_at_start whether it keeps its registration just after the vertex began to move
+template <int D>
+template <class Starts>
+bool Vertex_trial<D>::is_free(const Moving_star<D>& star, Member member, Body_feature feature,
+                              std::span<const Point<D>> points, const Starts& keeps_at_start) {
+  Star_meeting met = star.meet(points, !any_);
+  if (met.meeting == Meeting::apart) {
+    ++counts_.apart;
+    return true;
+  }
+  if (met.meeting == Meeting::touch && met.leaves && keeps_at_start()) {
+    ++counts_.left;
+    return true;
+  }
+  ++(met.meeting == Meeting::hit ? counts_.hits : counts_.touches);
+  obstruction_.meeting = std::max(obstruction_.meeting, met.meeting);
+  if (met.hit && (!obstruction_.hit || is_before(*met.hit, *obstruction_.hit))) {
+    obstruction_.hit = std::move(met.hit);
+    obstruction_.wall = met.wall;
+    obstruction_.member = member;
+    obstruction_.feature = feature;
+  }
+  return false;
+}
+
+template <int D>
+void Vertex_trial<D>::commit() {
+  for (const Moved_vertex& moved : moved_) {
+    groups_.particle(moved.member) = moved.now;
+    if (!moved.keeps_cell) groups_.enter_vertex(moved.member);
+  }
+  for (auto& [edge, chain] : chains_) {
+    groups_.chain(edge) = std::move(chain);
+    groups_.enter_edge(edge);
+  }
+}
+
+template class Vertex_trial<2>;
+template class Vertex_trial<3>;
+
+}  // namespace cellwalk::detail

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The decision whether a vertex of the environment may move among residents, and how they are registered
+// then.
+#ifndef CELLWALK_RESHAPE_VERTEX_TRIAL_H
+#define CELLWALK_RESHAPE_VERTEX_TRIAL_H
+
+#include <cellwalk/internal/edge/moving_star.h>
+#include <cellwalk/reshape/reshaping.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "resident_groups.h"
+
+namespace cellwalk::detail {
+
+/// What is in the way of a move.
+struct Obstruction {
+  Meeting meeting = Meeting::apart;
+  // The first hit, if it was to be located:
+  std::size_t wall = 0;
+  std::optional<Swept_hit> hit;
+  Member member{};
+  Body_feature feature = Body_feature::vertex;  ///< which kind of member was hit: its number is that of one
+};
+
+/// One after the other: run() decides about a move, commit() registers what it touched. Kept for its memory.
+template <int D>
+class Vertex_trial {
+ public:
+  Vertex_trial(Resident_groups<D>& groups, Reshape_counts& counts) : groups_(groups), counts_(counts) {}
+
+  /// Decides about the move of the vertex of a star.
+  /// \param cells the cells around it
+  /// \param any if true, the first obstruction found will do
+  Obstruction run(const Moving_star<D>& star, std::span<const Cell> cells, bool any);
+  /// Registers the residents near.
+  /// \pre run() found no obstruction, or clear() was called
+  void commit();
+  /// Nothing is near.
+  void clear() {
+    moved_.clear();
+    chains_.clear();
+  }
+
+ private:
+  bool try_vertices(const Moving_star<D>& star);
+  bool try_edges(const Moving_star<D>& star);
+  bool try_faces(const Moving_star<D>& star);
+  bool try_edge(const Moving_star<D>& star, Member edge);
+  template <class Starts>
+  bool is_free(const Moving_star<D>& star, Member member, Body_feature feature,
+               std::span<const Point<D>> points, const Starts& keeps_at_start);
+  struct Moved_vertex {
+    Member member;
+    Particle<D> now;
+    bool keeps_cell, is_free;
+  };
+  const Moved_vertex* find(Member vertex) const;
+
+  Resident_groups<D>& groups_;
+  Reshape_counts& counts_;
+  bool any_ = false;
+  Obstruction obstruction_;
+  std::vector<Member> vertices_, edges_;
+  std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
+  std::vector<std::pair<Member, Chain>> chains_;
+};
+
+extern template class Vertex_trial<2>;
+extern template class Vertex_trial<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_VERTEX_TRIAL_H

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The report of a hit.
+#ifndef CELLWALK_RESHAPE_WALL_HIT_H
+#define CELLWALK_RESHAPE_WALL_HIT_H
+
+#include <cellwalk/internal/edge/moving_star.h>
+#include <cellwalk/reshape/reshaping.h>
+
+#include "resident_groups.h"
+#include "vertex_trial.h"
+
+namespace cellwalk::detail {
+
+/// \pre the obstruction is a hit that was located
+template <int D>
+Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& star,
+                        const Resident_groups<D>& groups);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_WALL_HIT_H

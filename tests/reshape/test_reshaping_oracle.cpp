@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Random moves of vertices among particles and bodies, judged one by one.
+#include <cellwalk/internal/kernel/fraction.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "reshape/wall_judge.h"
+#include "walk/oracle_trial.h"
+
+namespace cellwalk {
+namespace {
+
+template <int D>
+typename test::Wall_judge<D>::Tally run(bool generic, std::size_t worlds, Reshape_counts& counts) {
+  typename test::Wall_judge<D>::Tally tally;
+  constexpr int phases = 4, moves = 12;
+  for (std::uint64_t number = 0; number < worlds; ++number) {
+    test::Reshape_world<D> world(number, generic);
+    world.populate(12, 8);
+    test::Wall_judge<D> judge(world, tally);
+    for (int phase = 0; phase < phases; ++phase) {
+      {
+        Reshaping<D> reshaping(world.environment, world.residents(), {.at_contact = At_contact::hold});
+        for (int i = 0; i < moves; ++i) {
+          const std::uint32_t v = world.vertex();
+          judge.judge(reshaping, v, world.target(v));
+        }
+        reshaping.close();
+        counts += reshaping.counts();
+      }
+      for (const auto& body : world.bodies) EXPECT_NO_THROW(body->validate()) << world.name();
+      EXPECT_NO_THROW(world.environment.certify()) << world.name();
+    }
+    EXPECT_EQ(tally.wrong(), 0) << world.name();
+    if (testing::Test::HasFailure()) break;
+  }
+  const auto& t = tally;
+  std::printf(
+      "%dD %s: %d moves, %d reached (%d touching), %d contacts, %d touches, %d cells, %d boundaries; missed "
+      "%d, "
+      "false blocks %d, wrong times %d, sides %d, ends %d\n",
+      D, generic ? "generic" : "degenerate", t.moves, t.reached, t.free_touching, t.contacts, t.touches,
+      t.cells, t.boundaries, t.missed, t.false_blocks, t.wrong_times, t.wrong_sides, t.wrong_ends);
+  for (const auto& [name, count] : named_counts(counts))
+    std::printf("  %s %llu", std::string(name).c_str(), static_cast<unsigned long long>(count));
+  std::printf("\n");
+  return tally;
+}
+
+template <int D>
+void expect_all_right(bool generic, std::size_t worlds) {
+  Reshape_counts counts;
+  const auto tally = run<D>(generic, oracle::scaled_count(worlds), counts);
+  EXPECT_EQ(tally.wrong(), 0);
+  EXPECT_GT(tally.reached, tally.moves / 8);
+  EXPECT_GT(tally.contacts, tally.moves / 100);
+  EXPECT_GT(counts.relinked, tally.moves / 50u);
+  if (!generic) {
+    EXPECT_GT(tally.touches, tally.moves / 100);
+  }
+}
+
+TEST(ReshapingOracle, Generic2D) { expect_all_right<2>(true, 60); }
+TEST(ReshapingOracle, Degenerate2D) { expect_all_right<2>(false, 60); }
+TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 30); }
+TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 30); }
+
+}  // namespace
+}  // namespace cellwalk
