@@ -124,6 +124,7 @@ int main(int argc, char** argv) {
   add_query(app, action);
   add_replay(app, action);
   add_run(app, action);
+  add_deform(app, action);
   add_view(app, action);
   add_completion(app, action);
 

@@ -35,6 +35,9 @@ class Outputs : public Program {
   Outputs() {
     succeed({"generate", "hexes", "--cells", "2", "-o", "env.ovm"});
     succeed({"generate", "squares", "--cells", "2", "-o", "flat.ovm"});
+    succeed({"import", "flat.ovm", "--simplicial", "-o", "triangles.ovm"});
+    write("points.csv", "point,x,y\n4,0.75,1.25\n");
+    write("rod.csv", "x,y\n0.5,0.5\n0.75,0.5\n");
     write("moves.csv", "ax,ay,az,bx,by,bz\n0.5,0.5,0.5,1.5,0.5,0.5\n");
     write("flat.csv", "ax,ay,bx,by\n0.5,0.5,1.5,0.5\n");
     write("cube.off", cube_off(2));
@@ -57,6 +60,9 @@ class Outputs : public Program {
         {{"query", "flat.ovm", "flat.csv", "--row", "0"},
          {{"-o", "a.csv"}, {"--json", "r.json"}, {"--picture", "p.png"}},
          {"flat.ovm", "flat.csv"}},
+        {{"deform", "triangles.ovm", "points.csv", "--body", "rod.csv"},
+         {{"-o", "e.ovm"}, {"--report", "a.csv"}, {"--json", "r.json"}},
+         {"triangles.ovm", "points.csv", "rod.csv"}},
         {{"replay", "t.trace", "--environment", "env.ovm", "--repeat", "1"},
          {{"--json", "r.json"}},
          {"t.trace", "env.ovm"}},
@@ -75,7 +81,8 @@ class Outputs : public Program {
     return command.arguments[0] == "run" && option == "-o";
   }
   static bool is_environment(const Writing_command& command, const std::string& option) {
-    return option == "-o" && (command.arguments[0] == "import" || command.arguments[0] == "generate");
+    const std::string& name = command.arguments[0];
+    return option == "-o" && (name == "import" || name == "generate" || name == "deform");
   }
 
   std::vector<Writing_command> commands_;

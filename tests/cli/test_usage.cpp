@@ -50,13 +50,13 @@ TEST_F(Usage, VersionIsToldToProgramsToo) {
 
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
-  for (const char* text : {"import", "check", "generate", "query", "replay", "run", "view",
+  for (const char* text : {"import", "check", "generate", "query", "replay", "run", "deform", "view",
                            "4 environment not certified", "--version", "--json [FILE]"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"import", "check", "generate", "query", "replay", "run", "view"})
+  for (const char* command : {"import", "check", "generate", "query", "replay", "run", "deform", "view"})
     EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
               std::string::npos);
 }
@@ -122,7 +122,7 @@ TEST_F(Usage, AFullDeviceIsAnError) {
 
 TEST_F(Usage, HelpEndsWithExamples) {
   for (const char* command :
-       {"import", "check", "generate", "query", "replay", "run", "view", "completion"}) {
+       {"import", "check", "generate", "query", "replay", "run", "deform", "view", "completion"}) {
     const std::string help = succeed({command, "--help"});
     const std::size_t at = help.find("Examples:\n  ");
     ASSERT_NE(at, std::string::npos) << help;
@@ -145,6 +145,8 @@ TEST_F(Usage, ShellsCompleteCommandsOptionsAndChoices) {
   EXPECT_EQ(answer("generate hexes --so"), "--solid\n");
   EXPECT_EQ(answer("query env.ovm q.csv --mode s"), "sweep\n");
   EXPECT_EQ(answer("import --mesher ''"), "tetgen mesh3\n");
+  EXPECT_EQ(answer("deform env.ovm m.csv --at-contact ''"), "stop hold\n");
+  EXPECT_EQ(answer("deform env.ovm m.csv --b"), "--body\n");
   EXPECT_EQ(answer("--version --j"), "--json\n");
   EXPECT_EQ(answer("check data/x"), "\n") << "files are for the shell";
   const std::string fish = succeed({"completion", "fish"});
