@@ -195,7 +195,7 @@ bool Swept_simplex<D>::passes_beside(std::span<const Point<D>> feature, bool& is
   int first = 0;
   bool is_beside = true;
   for (const Point<D>& corner : corners_) {
-    int s;
+    int s = 0;
     if constexpr (D == 2)
       s = Exact::orientation(counts, feature[0], feature[1], corner);
     else
@@ -210,8 +210,8 @@ bool Swept_simplex<D>::passes_beside(std::span<const Point<D>> feature, bool& is
 /// What signs of input points tell.
 /// \pre K is not flat
 template <int D>
-Meeting Swept_simplex<D>::by_signs(std::span<const Point<D>> feature, Predicate_counts& counts,
-                                   bool& is_certain) const {
+Encounter Swept_simplex<D>::by_signs(std::span<const Point<D>> feature, Predicate_counts& counts,
+                                     bool& is_certain) const {
   is_certain = true;
   bool is_strict = true, has_inside = false;
   std::vector<int> least(feature.size(), 1);
@@ -223,38 +223,38 @@ Meeting Swept_simplex<D>::by_signs(std::span<const Point<D>> feature, Predicate_
       is_strict &= s != 0;
       least[i] = std::min(least[i], s);
     }
-    if (is_outside) return Meeting::apart;
+    if (is_outside) return Encounter::apart;
   }
   for (const int s : least) has_inside |= s > 0;
-  if (has_inside) return Meeting::hit;
-  if (feature.size() == 1) return Meeting::touch;
+  if (has_inside) return Encounter::hit;
+  if (feature.size() == 1) return Encounter::touch;
   bool is_line_strict = false;
-  if (passes_beside(feature, is_line_strict, counts)) return Meeting::apart;
+  if (passes_beside(feature, is_line_strict, counts)) return Encounter::apart;
   // The line of a segment passes the inside of K. No end lies in the plane of a facet, and no facet has both
   // ends outside: so they are not both before the line enters K, nor both behind.
-  if (feature.size() == 2 && is_strict && is_line_strict) return Meeting::hit;
+  if (feature.size() == 2 && is_strict && is_line_strict) return Encounter::hit;
   is_certain = false;
-  return Meeting::touch;
+  return Encounter::touch;
 }
 
 template <int D>
-Meeting Swept_simplex<D>::meet(std::span<const Point<D>> feature, Predicate_counts& counts) const {
+Encounter Swept_simplex<D>::meet(std::span<const Point<D>> feature, Predicate_counts& counts) const {
   Box<D> box;
   for (const Point<D>& x : feature) box.extend(x);
-  if (!box_.meets(box)) return Meeting::apart;
+  if (!box_.meets(box)) return Encounter::apart;
   if (is_flat()) {
     bool is_met = false;
     for_each_part(corners_, feature, [&](const Part& part, std::size_t) { is_met |= !part.empty(); });
-    return is_met ? Meeting::touch : Meeting::apart;
+    return is_met ? Encounter::touch : Encounter::apart;
   }
   bool is_certain = false;
-  const Meeting meeting = by_signs(feature, counts, is_certain);
+  const Encounter meeting = by_signs(feature, counts, is_certain);
   if (is_certain) return meeting;
   const Part part = part_in<D>(corners_, sense_, feature);
-  if (part.empty()) return Meeting::apart;
+  if (part.empty()) return Encounter::apart;
   for (std::size_t k = 0; k < corners_.size(); ++k)
-    if (are_all_zero(part, k)) return Meeting::touch;
-  return Meeting::hit;
+    if (are_all_zero(part, k)) return Encounter::touch;
+  return Encounter::hit;
 }
 
 template <int D>
@@ -300,7 +300,7 @@ bool Swept_simplex<D>::is_surely_left(std::span<const Point<D>> feature, Predica
       if (k == 1) return false;
       continue;
     }
-    int s;
+    int s = 0;
     if constexpr (D == 2)
       s = Exact::orientation(counts, feature[0], feature[1], corners_[k]);
     else
@@ -324,8 +324,8 @@ bool Swept_simplex<D>::reaches(std::span<const Point<D>> feature, Predicate_coun
   }
   if (is_surely_left(feature, counts)) return false;
   bool is_certain = false;
-  const Meeting meeting = by_signs(feature, counts, is_certain);
-  if (is_certain && meeting != Meeting::touch) return meeting == Meeting::hit;
+  const Encounter meeting = by_signs(feature, counts, is_certain);
+  if (is_certain && meeting != Encounter::touch) return meeting == Encounter::hit;
   // Where its second volume is 0, a point lies in the wall as that starts.
   return !are_all_zero(part_in<D>(corners_, sense_, feature), 1);
 }

@@ -102,8 +102,8 @@ bool Reshaping<D>::State::decide(const Point<D>& from, std::uint32_t point, bool
   const detail::Moving_star<D> star(mover.snapshot(), point, from, mover.star(), counts.walk);
   counts.walls += star.walls().size();
   const detail::Obstruction met = trial.run(star, mover.star(), any);
-  if (met.meeting == detail::Meeting::apart) return true;
-  result.end = met.meeting == detail::Meeting::hit ? Move_end::contact : Move_end::touch;
+  if (met.meeting == detail::Encounter::apart) return true;
+  result.end = met.meeting == detail::Encounter::hit ? Move_end::contact : Move_end::touch;
   if (met.hit) result.hit = to_wall_hit(met, star, groups);
   return false;
 }

@@ -108,15 +108,15 @@ template <class Starts>
 bool Vertex_trial<D>::is_free(const Moving_star<D>& star, Member member, Body_feature feature,
                               std::span<const Point<D>> points, const Starts& keeps_at_start) {
   Star_meeting met = star.meet(points, !any_);
-  if (met.meeting == Meeting::apart) {
+  if (met.meeting == Encounter::apart) {
     ++counts_.apart;
     return true;
   }
-  if (met.meeting == Meeting::touch && met.leaves && keeps_at_start()) {
+  if (met.meeting == Encounter::touch && met.leaves && keeps_at_start()) {
     ++counts_.left;
     return true;
   }
-  ++(met.meeting == Meeting::hit ? counts_.hits : counts_.touches);
+  ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
   obstruction_.meeting = std::max(obstruction_.meeting, met.meeting);
   if (met.hit && (!obstruction_.hit || is_before(*met.hit, *obstruction_.hit))) {
     obstruction_.hit = std::move(met.hit);

@@ -19,7 +19,7 @@ namespace cellwalk::detail {
 
 /// What is in the way of a move.
 struct Obstruction {
-  Meeting meeting = Meeting::apart;
+  Encounter meeting = Encounter::apart;
   // The first hit, if it was to be located:
   std::size_t wall = 0;
   std::optional<Swept_hit> hit;

@@ -14,6 +14,7 @@ std::vector<double> rounded(const std::vector<Ring>& weights) {
   Ring sum = 0;
   for (const Ring& w : weights) sum += w;
   std::vector<double> result;
+  result.reserve(weights.size());
   for (const Ring& w : weights) result.push_back(to_double(Fraction(w, sum)));
   return result;
 }
@@ -96,6 +97,7 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
   std::vector<Point<D>> now{point_on<D>(corners[0], corners[1], hit.time.rounded())};
   now.insert(now.end(), corners.begin() + 2, corners.end());
   std::vector<Point<D>> ordered;
+  ordered.reserve(now.size());
   for (const std::size_t k : of_wall) ordered.push_back(now[k]);
   for (std::size_t k = 0; k < now.size(); ++k)
     if (std::find(of_wall.begin(), of_wall.end(), k) == of_wall.end()) ordered.push_back(now[k]);

@@ -14,7 +14,7 @@
 namespace cellwalk {
 namespace {
 
-using detail::Meeting;
+using detail::Encounter;
 using detail::Swept_simplex;
 using test::Relation;
 
@@ -93,7 +93,7 @@ void compare(bool generic, std::map<std::pair<std::size_t, Relation>, int>& seen
     const Relation expected = test::relation<D>(simplex, set);
     flat += swept.is_flat();
     ++seen[{size, expected}];
-    const Meeting meeting = swept.meet(set, counts);
+    const Encounter meeting = swept.meet(set, counts);
     ASSERT_EQ(static_cast<int>(meeting), static_cast<int>(expected)) << "round " << round;
     if (expected == Relation::apart) {
       EXPECT_FALSE(swept.reaches(set, counts));
@@ -141,16 +141,16 @@ TEST(SweptSimplex, WhatAWallLeavesIsNotReached) {
   const Swept_simplex<3> up({0, 0, 0}, {0, 0, 1}, {Point<3>{4, 0, 0}, Point<3>{0, 4, 0}}, counts);
   const std::vector<Point<3>> below{{1, 1, 0}, {1, 1, -1}, {2, 1, -1}},
       above{{1, 1, 0}, {1, 1, 1}, {2, 1, 1}};
-  EXPECT_EQ(up.meet(below, counts), Meeting::touch);
+  EXPECT_EQ(up.meet(below, counts), Encounter::touch);
   EXPECT_FALSE(up.reaches(below, counts));
-  EXPECT_EQ(up.meet(above, counts), Meeting::hit);
+  EXPECT_EQ(up.meet(above, counts), Encounter::hit);
   EXPECT_TRUE(up.reaches(above, counts));
   // In its own plane it reaches what it did not cover, but not what meets its still edge alone.
   const Swept_simplex<3> within({0, 0, 0}, {-2, -2, 0}, {Point<3>{4, 0, 0}, Point<3>{0, 4, 0}}, counts);
   ASSERT_TRUE(within.is_flat());
   const std::vector<Point<3>> on_edge{{2, 2, 0}, {3, 3, 0}, {2, 2, 2}},
       ahead{{-1, -1, 0}, {-1, -1, 1}, {-2, -1, 1}};
-  EXPECT_EQ(within.meet(on_edge, counts), Meeting::touch);
+  EXPECT_EQ(within.meet(on_edge, counts), Encounter::touch);
   EXPECT_FALSE(within.reaches(on_edge, counts));
   EXPECT_TRUE(within.reaches(ahead, counts));
 }
@@ -160,7 +160,7 @@ TEST(SweptSimplex, HitsAreOrderedByTheLowestFeatures) {
   Predicate_counts counts;
   const Swept_simplex<2> swept({0, 0}, {4, 0}, {Point<2>{2, 3}}, counts);
   const std::vector<Point<2>> segment{{1, 0}, {2, 1}};
-  ASSERT_EQ(swept.meet(segment, counts), Meeting::hit);
+  ASSERT_EQ(swept.meet(segment, counts), Encounter::hit);
   const detail::Swept_hit hit = swept.first_hit(segment);
   EXPECT_EQ(hit.time, Fraction(Ring(1), Ring(4)));
   EXPECT_EQ(detail::corners_used(hit.wall), 1u);

@@ -67,7 +67,7 @@ void Moving_star<D>::add_wall(Half_facet facet, const Point<D>& from) {
     return v == vertex_ ? from : snapshot_.point(v);
   };
   std::vector<std::uint32_t> loop = snapshot_.loop(facet);
-  int outside;
+  int outside = 0;
   if constexpr (D == 2)
     outside = -Exact::orientation(counts_.predicates, before(loop[0]), before(loop[1]), to);
   else
@@ -101,15 +101,15 @@ Star_meeting Moving_star<D>::meet(std::span<const Point<D>> feature, bool locate
   Star_meeting result;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const Swept_simplex<D>& swept = walls_[w].swept;
-    const Meeting meeting = swept.meet(feature, counts_.predicates);
-    if (meeting == Meeting::apart) continue;
-    if (meeting == Meeting::touch) {
-      if (result.meeting == Meeting::hit) continue;
-      result.leaves = (result.meeting == Meeting::apart || result.leaves) && swept.leaves(feature);
-      result.meeting = Meeting::touch;
+    const Encounter meeting = swept.meet(feature, counts_.predicates);
+    if (meeting == Encounter::apart) continue;
+    if (meeting == Encounter::touch) {
+      if (result.meeting == Encounter::hit) continue;
+      result.leaves = (result.meeting == Encounter::apart || result.leaves) && swept.leaves(feature);
+      result.meeting = Encounter::touch;
       continue;
     }
-    result.meeting = Meeting::hit;
+    result.meeting = Encounter::hit;
     if (!locates) {
       result.wall = w;
       return result;

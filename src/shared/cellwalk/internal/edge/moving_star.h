@@ -26,9 +26,9 @@ struct Moving_wall {
 
 /// How the walls meet a set.
 struct Star_meeting {
-  Meeting meeting = Meeting::apart;  ///< hit if one wall hits it, else touch if one touches it
-  bool leaves = false;               ///< of a touch: all walls that touch it leave it at once
-  std::size_t wall = 0;              ///< the wall that hits it first
+  Encounter meeting = Encounter::apart;  ///< hit if one wall hits it, else touch if one touches it
+  bool leaves = false;                   ///< of a touch: all walls that touch it leave it at once
+  std::size_t wall = 0;                  ///< the wall that hits it first
   std::optional<Swept_hit> hit;
 };
 

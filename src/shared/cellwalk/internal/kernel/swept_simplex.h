@@ -17,7 +17,7 @@
 namespace cellwalk::detail {
 
 /// How a closed convex set meets a swept simplex.
-enum class Meeting : std::uint8_t {
+enum class Encounter : std::uint8_t {
   apart,  ///< it has no point in common with the closed simplex
   touch,  ///< only with its boundary
   hit     ///< with the open simplex
@@ -43,8 +43,8 @@ bool is_before(const Swept_hit& a, const Swept_hit& b);
 template <int D>
 class Swept_simplex {
  public:
-  static constexpr std::size_t D_ = static_cast<std::size_t>(D);
-  using Corners = std::array<Point<D>, D_ - 1>;
+  static constexpr std::size_t dimension = static_cast<std::size_t>(D);
+  using Corners = std::array<Point<D>, dimension - 1>;
 
   /// \param still the corners of the wall that stand still
   /// \pre from != to; the wall is not degenerate before it moves
@@ -54,22 +54,22 @@ class Swept_simplex {
   bool is_flat() const { return sense_ == 0; }
   const Box<D>& box() const { return box_; }
   /// The corners of K: where the moving corner starts, where it ends, then the others.
-  const std::array<Point<D>, D_ + 1>& corners() const { return corners_; }
+  const std::array<Point<D>, dimension + 1>& corners() const { return corners_; }
 
   /// Exact in every position. What meets a flat K touches it.
   /// \pre there is at least one point; polygons are convex, and only in 3D
   /// Cost: a comparison of boxes; up to some 20 signs near K; exact numbers, some 10 us, for touches and for
   /// polygons that no plane of theirs or of K parts from it.
-  Meeting meet(std::span<const Point<D>> feature, Predicate_counts& counts) const;
+  Encounter meet(std::span<const Point<D>> feature, Predicate_counts& counts) const;
 
   /// The infimum of the times at which the wall passes a point of the set in K, and the first such point in
   /// the order of hits.
-  /// \pre meet(feature) is Meeting::hit
+  /// \pre meet(feature) is Encounter::hit
   Swept_hit first_hit(std::span<const Point<D>> feature) const;
 
   /// True if the wall meets the set only where it starts, and off its still corners and what they span: it
   /// leaves it at once.
-  /// \pre meet(feature) is Meeting::touch
+  /// \pre meet(feature) is Encounter::touch
   /// Cost: exact numbers.
   bool leaves(std::span<const Point<D>> feature) const;
 
@@ -79,12 +79,12 @@ class Swept_simplex {
   bool reaches(std::span<const Point<D>> feature, Predicate_counts& counts) const;
 
  private:
-  Meeting by_signs(std::span<const Point<D>> feature, Predicate_counts& counts, bool& is_certain) const;
+  Encounter by_signs(std::span<const Point<D>> feature, Predicate_counts& counts, bool& is_certain) const;
   bool is_surely_left(std::span<const Point<D>> feature, Predicate_counts& counts) const;
   bool passes_beside(std::span<const Point<D>> feature, bool& is_strict, Predicate_counts& counts) const;
   int side(std::size_t corner, const Point<D>& x, Predicate_counts& counts) const;
 
-  std::array<Point<D>, D_ + 1> corners_;
+  std::array<Point<D>, dimension + 1> corners_;
   Box<D> box_;
   int sense_;  ///< orientation of the corners
 };
