@@ -65,6 +65,22 @@ Chain& Body_access<D>::chain(std::size_t edge) {
   return state_->chains[edge];
 }
 
+template <int D>
+const std::array<std::uint32_t, 3>& Body_access<D>::sides(std::uint32_t face) const {
+  return state_->topology.sides(face);
+}
+
+template <int D>
+const Supporting_walls& Body_access<D>::supporting_walls(std::uint32_t face) const {
+  return state_->supporting_walls[face];
+}
+
+template <int D>
+void Body_access<D>::rest(std::uint32_t face, const Supporting_walls& walls) {
+  state_->may_have_supporting_walls |= !walls.empty();
+  state_->supporting_walls[face] = walls;
+}
+
 template class Body_access<2>;
 template class Body_access<3>;
 

@@ -53,6 +53,11 @@ class Resident_groups {
   Particle<D>& particle(Member vertex) { return groups_[vertex.group].particles[vertex.number]; }
   Chain& chain(Member edge) { return groups_[edge.group].body->chain(edge.number); }
 
+  /// Sets the walls on which a face rests.
+  void rest(Member face, const Supporting_walls& walls) {
+    groups_[face.group].body->rest(face.number, walls);
+  }
+
   /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
   void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges) const;
 

@@ -77,8 +77,7 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   return true;
 }
 
-/// Faces need no registration: a wall that is apart from one is none of those that it rests on, and changes
-/// no side.
+/// A wall that is apart from a face is none of those that it rests on, and changes no side.
 template <int D>
 bool Vertex_trial<D>::try_faces(const Moving_star<D>& star) {
   const auto& groups = groups_.all();
@@ -95,10 +94,60 @@ bool Vertex_trial<D>::try_faces(const Moving_star<D>& star) {
       }
       if (!box.meets(star.box())) continue;
       ++counts_.faces;
-      if (!is_free(star, {g, f}, Body_feature::face, corners, [] { return false; }) && any_) return false;
+      if (!try_face(star, {g, f}, corners) && any_) return false;
     }
   }
   return true;
+}
+
+/// True if a face is free; then what it rests on is kept, or found.
+template <int D>
+bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points) {
+  Star_meeting met = star.meet(points, !any_);
+  if (met.meeting == Encounter::apart) {
+    ++counts_.apart;
+    return true;
+  }
+  if constexpr (D == 3) {
+    if (met.meeting == Encounter::touch) {
+      // Once something is in the way, all that matters is what else is hit.
+      if (obstruction_.meeting != Encounter::apart) return false;
+      Face_at_star result = after(star, face);
+      if (result.is_free) {
+        ++counts_.rested;
+        rests_.emplace_back(face, std::move(result.supporting_walls));
+        return true;
+      }
+      if (result.wall) {
+        met.meeting = Encounter::hit;
+        met.wall = *result.wall;
+        if (!any_) met.hit = star.walls()[met.wall].swept.first_hit(points);
+      }
+    }
+  }
+  block(std::move(met), face, Body_feature::face);
+  return false;
+}
+
+/// A face that walls touch, whose corners and edges are free.
+template <int D>
+Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) const
+requires(D == 3)
+{
+  const Resident_group<D>& group = groups_.all()[face.group];
+  const auto& at = group.faces[face.number];
+  const auto& sides = group.body->sides(face.number);
+  const auto corner = [&](std::size_t k) {
+    const Moved_vertex* moved = find({face.group, at[k]});
+    return moved ? moved->now : group.particles[at[k]];
+  };
+  const auto side = [&](std::size_t k) -> Side_chain {
+    const Member edge{face.group, sides[k]};
+    const auto relinked = std::ranges::find(chains_, edge, &std::pair<Member, Chain>::first);
+    return {relinked != chains_.end() ? &relinked->second : &groups_.chain(edge), at[k] > at[(k + 1) % 3]};
+  };
+  return face_at_star(star, {corner(0), corner(1), corner(2)}, {side(0), side(1), side(2)},
+                      group.body->supporting_walls(face.number));
 }
 
 /// True if no wall meets a member, or all that do leave it at once.
@@ -116,15 +165,20 @@ bool Vertex_trial<D>::is_free(const Moving_star<D>& star, Member member, Body_fe
     ++counts_.left;
     return true;
   }
+  block(std::move(met), member, feature);
+  return false;
+}
+
+/// Notes that something is in the way.
+template <int D>
+void Vertex_trial<D>::block(Star_meeting met, Member member, Body_feature feature) {
   ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
   obstruction_.meeting = std::max(obstruction_.meeting, met.meeting);
-  if (met.hit && (!obstruction_.hit || is_before(*met.hit, *obstruction_.hit))) {
-    obstruction_.hit = std::move(met.hit);
-    obstruction_.wall = met.wall;
-    obstruction_.member = member;
-    obstruction_.feature = feature;
-  }
-  return false;
+  if (!met.hit || (obstruction_.hit && !is_before(*met.hit, *obstruction_.hit))) return;
+  obstruction_.hit = std::move(met.hit);
+  obstruction_.wall = met.wall;
+  obstruction_.member = member;
+  obstruction_.feature = feature;
 }
 
 template <int D>
@@ -137,6 +191,7 @@ void Vertex_trial<D>::commit() {
     groups_.chain(edge) = std::move(chain);
     groups_.enter_edge(edge);
   }
+  for (const auto& [face, walls] : rests_) groups_.rest(face, walls);
 }
 
 template class Vertex_trial<2>;

@@ -4,6 +4,7 @@
 #ifndef CELLWALK_RESHAPE_VERTEX_TRIAL_H
 #define CELLWALK_RESHAPE_VERTEX_TRIAL_H
 
+#include <cellwalk/internal/edge/face_at_star.h>
 #include <cellwalk/internal/edge/moving_star.h>
 #include <cellwalk/reshape/reshaping.h>
 
@@ -44,6 +45,7 @@ class Vertex_trial {
   void clear() {
     moved_.clear();
     chains_.clear();
+    rests_.clear();
   }
 
  private:
@@ -51,6 +53,10 @@ class Vertex_trial {
   bool try_edges(const Moving_star<D>& star);
   bool try_faces(const Moving_star<D>& star);
   bool try_edge(const Moving_star<D>& star, Member edge);
+  bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
+  Face_at_star after(const Moving_star<D>& star, Member face) const
+  requires(D == 3);
+  void block(Star_meeting met, Member member, Body_feature feature);
   template <class Starts>
   bool is_free(const Moving_star<D>& star, Member member, Body_feature feature,
                std::span<const Point<D>> points, const Starts& keeps_at_start);
@@ -68,6 +74,7 @@ class Vertex_trial {
   std::vector<Member> vertices_, edges_;
   std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
   std::vector<std::pair<Member, Chain>> chains_;
+  std::vector<std::pair<Member, Supporting_walls>> rests_;
 };
 
 extern template class Vertex_trial<2>;

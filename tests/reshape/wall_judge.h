@@ -11,9 +11,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "kernel/rational_meeting.h"
+#include "reshape/face_sides.h"
 #include "reshape/reshape_world.h"
 
 namespace cellwalk::test {
@@ -32,6 +34,7 @@ class Wall_judge {
  public:
   struct Tally {
     int moves = 0, reached = 0, contacts = 0, touches = 0, cells = 0, boundaries = 0;
+    int landed = 0;         ///< moves of walls whose side of a face is known from then on
     int free_touching = 0;  ///< reached, although a wall touched something
     int missed = 0, false_blocks = 0, wrong_times = 0, wrong_sides = 0, wrong_ends = 0;
     int wrong() const { return missed + false_blocks + wrong_times + wrong_sides + wrong_ends; }
@@ -45,15 +48,23 @@ class Wall_judge {
     const Point<D> from = world_.snapshot.point(v);
     const std::vector<Particle<D>> before = world_.particles;
     const auto standing = standing_walls(v);
+    bool passes_face = false;
+    if constexpr (D == 3) passes_face = !expected.inverts_cell && faces_.is_passed(v, target);
     const Vertex_result<D> result = reshaping.move(v, target);
     ++tally_.moves;
+    if constexpr (D == 3)
+      if (result.end == Move_end::reached) {
+        const std::size_t before_move = faces_.size();
+        faces_.note(v, from);
+        tally_.landed += faces_.size() > before_move;
+      }
     tally_.wrong_ends += result.position != world_.snapshot.point(v);
     tally_.wrong_ends +=
         result.end != Move_end::boundary && expected.inverts_cell != (result.end == Move_end::cell);
     switch (result.end) {
       case Move_end::reached:
         ++tally_.reached;
-        tally_.missed += expected.first.has_value() || expected.is_passed_at_once;
+        tally_.missed += expected.first.has_value() || expected.is_passed_at_once || passes_face;
         tally_.free_touching += expected.is_met;
         tally_.wrong_ends += result.position != target;
         break;
@@ -197,8 +208,13 @@ class Wall_judge {
       tally_.wrong_sides += side_of_cell(s.wall, world_.particles[s.particle].cell) != s.side;
   }
 
+  struct No_faces {
+    explicit No_faces(const Reshape_world<D>&) {}
+  };
+
   Reshape_world<D>& world_;
   Tally& tally_;
+  std::conditional_t<D == 3, Face_sides, No_faces> faces_{world_};
 };
 
 }  // namespace cellwalk::test

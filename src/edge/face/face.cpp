@@ -159,29 +159,37 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
   return edge_on_other_side(snapshot, wall, corners[0]);
 }
 
-Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
-                                const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
-                                const Supporting_walls& known) {
+namespace detail {
+
+Face_registration stand_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
+                             const Particle<3>& r, const Face_chains& chains, const Supporting_walls& known,
+                             Known use, Face_counts& counts) {
   ++counts.faces;
   Candidate_walls candidates(p.cell);
-  detail::find_candidate_walls(snapshot, {p.position, p.position, q.position, r.position}, candidates,
+  find_candidate_walls(snapshot, {p.position, p.position, q.position, r.position}, candidates,
                                counts);
   if (candidates.walls.empty()) {
     ++counts.clear;
     return {};
   }
   counts.walls += candidates.walls.size();
-  Face_registration result =
-      standing(snapshot, p, q, r, chains, candidates, known, detail::Known::preferred, counts);
+  Face_registration result = standing(snapshot, p, q, r, chains, candidates, known, use, counts);
   if (result.piercing != Half_facet::none || are_collinear(p.position, q.position, r.position)) return result;
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
   for (const Half_facet wall : candidates.walls)
     if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
       result.piercing = wall;
   if (result.piercing == Half_facet::none)
-    result.piercing =
-        detail::wall_at_border(snapshot, detail::sides_of(chains, p, q, r), candidates, counts.walk);
+    result.piercing = wall_at_border(snapshot, sides_of(chains, p, q, r), candidates, counts.walk);
   return result;
+}
+
+}  // namespace detail
+
+Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
+                                const Particle<3>& r, const Face_chains& chains, Face_counts& counts,
+                                const Supporting_walls& known) {
+  return detail::stand_face(snapshot, p, q, r, chains, known, detail::Known::preferred, counts);
 }
 
 }  // namespace cellwalk

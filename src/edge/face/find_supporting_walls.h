@@ -36,6 +36,12 @@ Face_registration find_supporting_walls(const Snapshot<3>& snapshot, const Trian
                                         const Candidate_walls& candidates, const Supporting_walls& known,
                                         Known use);
 
+/// A face where it stands, as register_face(), with a role for the supporting walls that are known.
+/// Cost: that of register_face().
+Face_registration stand_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
+                             const Particle<3>& r, const Face_chains& chains, const Supporting_walls& known,
+                             Known use, Face_counts& counts);
+
 /// Sorts supporting walls.
 void sort(Supporting_walls& supporting_walls);
 

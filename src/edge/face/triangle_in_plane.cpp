@@ -53,6 +53,18 @@ bool Triangle_in_plane::overlaps(const Cell_view<3>& cell, std::size_t i) const 
   return true;
 }
 
+bool Triangle_in_plane::overlaps(const std::array<Point<3>, 3>& other) const {
+  const auto has_beyond = [&](const auto& of, int turn, const auto& points) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::none_of(points.begin(), points.end(),
+                       [&](const Point<3>& x) { return turn * sense(of[k], of[(k + 1) % 3], x) > 0; }))
+        return false;
+    return true;
+  };
+  return has_beyond(corners_, own_sense_, other) &&
+         has_beyond(other, sense(other[0], other[1], other[2]), corners_);
+}
+
 // The half-planes bounded by the sides of the facet, each by the values at the corners of an affine function
 // that is positive inside.
 void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,

@@ -35,6 +35,8 @@ class Triangle_in_plane {
 
   /// True if the interiors of a facet in the plane and of the triangle overlap.
   bool overlaps(const Cell_view<3>& cell, std::size_t i) const;
+  /// True if the interiors of a triangle in the plane, given by its corners, and of this one overlap.
+  bool overlaps(const std::array<Point<3>, 3>& other) const;
   /// True if two facets in the plane overlap inside the triangle.
   /// Cost: some ten us, in exact numbers.
   bool overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d, std::size_t j) const;

@@ -4,8 +4,10 @@
 #define CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/edge/face.h>
 #include <cellwalk/internal/kernel/box.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -34,6 +36,10 @@ class Body_access {
   /// \pre leave_regions() was called
   std::span<Particle<D>> particles();
   Chain& chain(std::size_t edge);
+  /// The sides of a face, by edge.
+  const std::array<std::uint32_t, 3>& sides(std::uint32_t face) const;
+  const Supporting_walls& supporting_walls(std::uint32_t face) const;
+  void rest(std::uint32_t face, const Supporting_walls& walls);
 
  private:
   Body_state<D>* state_;

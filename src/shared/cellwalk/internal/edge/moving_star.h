@@ -42,6 +42,12 @@ class Moving_star {
   Moving_star(const Snapshot<D>& snapshot, std::uint32_t vertex, const Point<D>& from,
               std::span<const Cell> cells, Walk_counts& counts);
 
+  const Snapshot<D>& snapshot() const { return snapshot_; }
+  Walk_counts& counts() const { return counts_; }
+  std::uint32_t vertex() const { return vertex_; }
+  const Point<D>& from() const { return from_; }
+  const Point<D>& to() const { return snapshot_.point(vertex_); }
+  const std::vector<Cell>& cells() const { return cells_; }
   const std::vector<Moving_wall<D>>& walls() const { return walls_; }
   /// The box of all that the walls sweep; empty if there are none.
   const Box<D>& box() const { return box_; }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A face that the walls at a moving vertex touch: whether they may, and on what it rests then. Theory:
+// docs/moving.md, faces.
+#ifndef CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
+#define CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
+
+#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/moving_star.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace cellwalk::detail {
+
+/// A face after the move of the vertex.
+struct Face_at_star {
+  bool is_free = false;
+  std::optional<std::size_t> wall;    ///< if it is not free: the wall of the star that starts to pass it
+  Supporting_walls supporting_walls;  ///< if it is free
+};
+
+/// Decides about a face that stands still while the vertex moves.
+/// \param corners registered as they are after the move
+/// \param chains of its edges, after the move
+/// \param before its supporting walls before the move
+/// \pre no wall of the star hits it, and its corners and edges are free
+/// Cost: some us; up to milliseconds if it lies in the plane of walls.
+Face_at_star face_at_star(const Moving_star<3>& star, const std::array<Particle<3>, 3>& corners,
+                          const Face_chains& chains, const Supporting_walls& before);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
