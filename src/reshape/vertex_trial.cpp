@@ -25,13 +25,49 @@ bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star) {
     const Particle<D>& p = groups_.particle(v);
     const bool keeps_cell = star.keeps_cell(p);
     counts_.same_cell += keeps_cell;
-    const bool is_free =
-        keeps_cell || this->is_free(star, v, Body_feature::vertex, std::span<const Point<D>>(&p.position, 1),
-                                    [&] { return star.keeps_cell_at_start(p); });
-    if (!is_free && any_) return false;
-    moved_.push_back({v, is_free ? star.registered(p) : p, keeps_cell, is_free});
+    Moved_vertex moved{v, p, {}, keeps_cell, true};
+    if (keeps_cell)
+      moved.now = star.registered(p);
+    else
+      moved.is_free = try_vertex(star, moved);
+    if (!moved.is_free && any_) return false;
+    moved_.push_back(std::move(moved));
   }
   return true;
+}
+
+/// True if a vertex that does not keep its cell is free; then it is registered.
+template <int D>
+bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& vertex) {
+  const Particle<D>& p = vertex.now;
+  const auto keeps_at_start = [&] { return star.keeps_cell_at_start(p); };
+  Star_meeting met;
+  if (!meets(star, std::span<const Point<D>>(&p.position, 1), keeps_at_start, met)) {
+    vertex.now = star.registered(p);
+    return true;
+  }
+  // Where something is touched as well, that may block it before it is hit.
+  if (met.meeting == Encounter::touch || (met.touches && !any_)) {
+    Followed_vertex followed = follow_vertex(star, p);
+    ++counts_.followed;
+    if (followed.is_free) {
+      vertex.now = star.registered_in(followed.cells.end, p);
+      vertex.cells = std::move(followed.cells);
+      return true;
+    }
+    take(followed.block, met);
+  }
+  block(std::move(met), vertex.member, Body_feature::vertex);
+  return false;
+}
+
+/// What blocks something that walls touch.
+template <int D>
+void Vertex_trial<D>::take(std::optional<Star_block>& block, Star_meeting& met) const {
+  if (!block) return;
+  met.meeting = Encounter::hit;
+  met.wall = block->wall;
+  if (!any_) met.hit = std::move(block->hit);
 }
 
 template <int D>
@@ -67,9 +103,13 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
     return star.keeps_cell_at_start(p) && star.keeps_cell_at_start(q) &&
            star.keeps_chain_at_start(chain, p.position, q.position);
   };
-  if (!is_free(star, edge, Body_feature::edge, std::array{p.position, q.position}, keeps_at_start))
-    return false;
   const auto is_blocked = [](const Moved_vertex* moved) { return moved && !moved->is_free; };
+  Star_meeting met;
+  if (meets(star, std::array{p.position, q.position}, keeps_at_start, met)) {
+    if (met.meeting != Encounter::touch || (!is_blocked(moved_p) && !is_blocked(moved_q)))
+      block(std::move(met), edge, Body_feature::edge);
+    return false;
+  }
   if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
   ++counts_.relinked;
   chains_.emplace_back(edge,
@@ -131,9 +171,7 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
 
 /// A face that walls touch, whose corners and edges are free.
 template <int D>
-Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) const
-requires(D == 3)
-{
+Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) const requires(D == 3) {
   const Resident_group<D>& group = groups_.all()[face.group];
   const auto& at = group.faces[face.number];
   const auto& sides = group.body->sides(face.number);
@@ -150,23 +188,22 @@ requires(D == 3)
                       group.body->supporting_walls(face.number));
 }
 
-/// True if no wall meets a member, or all that do leave it at once.
+/// False if no wall meets a set, or all that do leave it at once.
 /// \param keeps_at_start whether it keeps its registration just after the vertex began to move
 template <int D>
 template <class Starts>
-bool Vertex_trial<D>::is_free(const Moving_star<D>& star, Member member, Body_feature feature,
-                              std::span<const Point<D>> points, const Starts& keeps_at_start) {
-  Star_meeting met = star.meet(points, !any_);
+bool Vertex_trial<D>::meets(const Moving_star<D>& star, std::span<const Point<D>> points,
+                            const Starts& keeps_at_start, Star_meeting& met) const {
+  met = star.meet(points, !any_);
   if (met.meeting == Encounter::apart) {
     ++counts_.apart;
-    return true;
+    return false;
   }
   if (met.meeting == Encounter::touch && met.leaves && keeps_at_start()) {
     ++counts_.left;
-    return true;
+    return false;
   }
-  block(std::move(met), member, feature);
-  return false;
+  return true;
 }
 
 /// Notes that something is in the way.

@@ -5,6 +5,7 @@
 #define CELLWALK_RESHAPE_VERTEX_TRIAL_H
 
 #include <cellwalk/internal/edge/face_at_star.h>
+#include <cellwalk/internal/edge/followed_star.h>
 #include <cellwalk/internal/edge/moving_star.h>
 #include <cellwalk/reshape/reshaping.h>
 
@@ -49,22 +50,24 @@ class Vertex_trial {
   }
 
  private:
+  struct Moved_vertex {
+    Member member;
+    Particle<D> now;
+    Cells_of_vertex cells;  ///< if it was followed
+    bool keeps_cell, is_free;
+  };
   bool try_vertices(const Moving_star<D>& star);
+  bool try_vertex(const Moving_star<D>& star, Moved_vertex& vertex);
   bool try_edges(const Moving_star<D>& star);
   bool try_faces(const Moving_star<D>& star);
   bool try_edge(const Moving_star<D>& star, Member edge);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
-  Face_at_star after(const Moving_star<D>& star, Member face) const
-  requires(D == 3);
+  Face_at_star after(const Moving_star<D>& star, Member face) const requires(D == 3);
   void block(Star_meeting met, Member member, Body_feature feature);
   template <class Starts>
-  bool is_free(const Moving_star<D>& star, Member member, Body_feature feature,
-               std::span<const Point<D>> points, const Starts& keeps_at_start);
-  struct Moved_vertex {
-    Member member;
-    Particle<D> now;
-    bool keeps_cell, is_free;
-  };
+  bool meets(const Moving_star<D>& star, std::span<const Point<D>> points, const Starts& keeps_at_start,
+             Star_meeting& met) const;
+  void take(std::optional<Star_block>& block, Star_meeting& met) const;
   const Moved_vertex* find(Member vertex) const;
 
   Resident_groups<D>& groups_;

@@ -104,7 +104,9 @@ TEST(Reshaping, AParticleInAWallStaysOnItsSide) {
     EXPECT_EQ(reshaping.move(room.vertex, {2, 2, 2}).end, Move_end::reached) << "it comes back";
     EXPECT_EQ(particles[0].dimension, 2);
     const auto through = reshaping.move(room.vertex, {2, 2, 2 + 0.125 * side});
-    EXPECT_EQ(through.end, Move_end::touch) << "the particle lies in a facet of the swept tetrahedron";
+    ASSERT_EQ(through.end, Move_end::contact) << "the particle lies in a facet of the swept tetrahedron";
+    EXPECT_EQ(through.hit->time, Exact_time());
+    EXPECT_EQ(through.hit->kind, Contact_kind::facet);
     EXPECT_EQ(reshaping.move(room.vertex, {2.125, 2, 2}).end, Move_end::reached)
         << "in its own plane, while the particle stays in its cell";
     EXPECT_EQ(particles[0].position, x);
@@ -136,25 +138,29 @@ TEST(Reshaping, AWallLeavesAtOnceWhatLiesInIt) {
   Room other;
   std::vector<Particle<3>> below{other.particle_at({2.25, 2.125, 2}, -1)};
   Reshaping<3> blocked(other.environment, {{}, {below}}, hold);
-  EXPECT_EQ(blocked.move(other.vertex, {2, 2, 1.25}).end, Move_end::touch);
+  EXPECT_EQ(blocked.move(other.vertex, {2, 2, 1.25}).end, Move_end::contact);
 }
 
-TEST(Reshaping, WhatPassesAnEdgeOfWallsExactlyIsATouch) {
+TEST(Reshaping, AVertexMeetsAParticleExactly) {
   Room room;
   std::vector<Particle<3>> particles{room.particle_at({2, 2, 2.25}, 1)};
   Reshaping<3> reshaping(room.environment, {{}, {particles}}, hold);
   const auto result = reshaping.move(room.vertex, {2, 2, 2.5});
-  EXPECT_EQ(result.end, Move_end::touch) << "the vertex goes through the particle";
-  EXPECT_FALSE(result.hit.has_value());
-  EXPECT_GT(reshaping.counts().touches, 0u);
+  ASSERT_EQ(result.end, Move_end::contact) << "the vertex would go through the particle";
+  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(1), Ring(2)));
+  EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
+  EXPECT_EQ(result.hit->weights, (std::array{1.0, 0.0, 0.0}));
+  EXPECT_EQ(result.hit->point, (Point<3>{2, 2, 2.25}));
+  EXPECT_EQ(reshaping.counts().touches, 0u);
+  EXPECT_EQ(reshaping.counts().followed, 1u);
 }
 
-TEST(Reshaping, AfterATouchAShorterMoveIsTried) {
+TEST(Reshaping, AVertexStopsInThePlaceOfAParticle) {
   Room room;
   std::vector<Particle<3>> particles{room.particle_at({2, 2, 2.25}, 1)};
   Reshaping<3> reshaping(room.environment, {{}, {particles}});
   const auto result = reshaping.move(room.vertex, {2, 2, 2.5});
-  EXPECT_EQ(result.end, Move_end::touch);
+  EXPECT_EQ(result.end, Move_end::contact);
   EXPECT_EQ(result.position, (Point<3>{2, 2, 2.25}))
       << "in the place of the particle, which stays in its cell";
 }

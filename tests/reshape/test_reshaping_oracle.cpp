@@ -38,11 +38,19 @@ typename test::Wall_judge<D>::Tally run(bool generic, std::size_t worlds, Reshap
   }
   const auto& t = tally;
   std::printf(
-      "%dD %s: %d moves, %d reached (%d touching, %d landed on faces), %d contacts, %d touches, %d cells, %d boundaries; missed "
+      "%dD %s: %d moves, %d reached (%d touching, %d landed on faces), %d contacts, %d touches, %d cells, %d "
+      "boundaries; missed "
       "%d, "
       "false blocks %d, wrong times %d, sides %d, ends %d\n",
-      D, generic ? "generic" : "degenerate", t.moves, t.reached, t.free_touching, t.landed, t.contacts, t.touches,
-      t.cells, t.boundaries, t.missed, t.false_blocks, t.wrong_times, t.wrong_sides, t.wrong_ends);
+      D, generic ? "generic" : "degenerate", t.moves, t.reached, t.free_touching, t.landed, t.contacts,
+      t.touches, t.cells, t.boundaries, t.missed, t.false_blocks, t.wrong_times, t.wrong_sides, t.wrong_ends);
+  const test::Fate_tally& f = t.fates;
+  std::printf(
+      "  of %d fates %d may be free; missed %d, false blocks %d, wrong times %d, wrong registrations %d; %d "
+      "choices, "
+      "%d undecided\n",
+      f.fates, f.free_fates, f.missed, f.false_blocks, f.wrong_times, f.wrong_registrations, f.choices,
+      f.undecided);
   for (const auto& [name, count] : named_counts(counts))
     std::printf("  %s %llu", std::string(name).c_str(), static_cast<unsigned long long>(count));
   std::printf("\n");

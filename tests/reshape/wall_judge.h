@@ -4,6 +4,8 @@
 #ifndef CELLWALK_TESTS_RESHAPE_WALL_JUDGE_H
 #define CELLWALK_TESTS_RESHAPE_WALL_JUDGE_H
 
+#include <cellwalk/internal/kernel/box.h>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,6 +18,7 @@
 
 #include "kernel/rational_meeting.h"
 #include "reshape/face_sides.h"
+#include "reshape/fate_judge.h"
 #include "reshape/reshape_world.h"
 
 namespace cellwalk::test {
@@ -27,6 +30,8 @@ struct Expected {
   bool is_passed_at_once = false;  ///< a wall that starts in a vertex moves to its side
   bool is_met = false;             ///< by some wall, touched at least
   std::optional<Fraction> first;   ///< time of the first hit
+  std::optional<Fraction> first_of_faces;
+  std::vector<std::vector<Point<D>>> swept;  ///< by walls: start, end, then the corners that stand still
 };
 
 template <int D>
@@ -37,7 +42,10 @@ class Wall_judge {
     int landed = 0;         ///< moves of walls whose side of a face is known from then on
     int free_touching = 0;  ///< reached, although a wall touched something
     int missed = 0, false_blocks = 0, wrong_times = 0, wrong_sides = 0, wrong_ends = 0;
-    int wrong() const { return missed + false_blocks + wrong_times + wrong_sides + wrong_ends; }
+    Fate_tally fates;
+    int wrong() const {
+      return missed + false_blocks + wrong_times + wrong_sides + wrong_ends + fates.wrong();
+    }
   };
 
   Wall_judge(Reshape_world<D>& world, Tally& tally) : world_(world), tally_(tally) {}
@@ -50,8 +58,15 @@ class Wall_judge {
     const auto standing = standing_walls(v);
     bool passes_face = false;
     if constexpr (D == 3) passes_face = !expected.inverts_cell && faces_.is_passed(v, target);
+    fates_.remember([&](std::span<const Point<D>> set) {
+      return std::ranges::any_of(expected.swept, [&](const auto& simplex) {
+        return may_meet(simplex, set) && relation<D>(simplex, set) != Relation::apart;
+      });
+    });
     const Vertex_result<D> result = reshaping.move(v, target);
     ++tally_.moves;
+    if (!expected.inverts_cell && target != from && result.end != Move_end::boundary)
+      fates_.judge({world_.snapshot, v, from, target}, result, expected.first_of_faces, tally_.fates);
     if constexpr (D == 3)
       if (result.end == Move_end::reached) {
         const std::size_t before_move = faces_.size();
@@ -70,8 +85,8 @@ class Wall_judge {
         break;
       case Move_end::contact:
         ++tally_.contacts;
-        tally_.false_blocks += !expected.first;
-        tally_.wrong_times += expected.first && to_fraction(to_rational(result.hit->time)) != *expected.first;
+        tally_.false_blocks += !expected.is_met;
+        tally_.wrong_times += expected.first && to_fraction(to_rational(result.hit->time)) > *expected.first;
         break;
       case Move_end::touch:
         ++tally_.touches;
@@ -98,7 +113,7 @@ class Wall_judge {
     Expected<D> result;
     const Snapshot<D>& snapshot = world_.snapshot;
     const Point<D>& from = snapshot.point(v);
-    std::vector<std::vector<Point<D>>> swept;
+    std::vector<std::vector<Point<D>>>& swept = result.swept;
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
       const Cell c = snapshot.cell(i);
       const Cell_view<D> view = snapshot.view(c);
@@ -129,6 +144,8 @@ class Wall_judge {
         if (met != Relation::hit) continue;
         const auto time = first_time<D>(simplex, set);
         if (!result.first || *time < *result.first) result.first = time;
+        if (set.size() == 3 && (!result.first_of_faces || *time < *result.first_of_faces))
+          result.first_of_faces = time;
       }
     };
     // A wall that starts in a vertex, and moves to the side on which that is.
@@ -153,6 +170,13 @@ class Wall_judge {
       for (const auto& [p, q, r] : body->faces()) hold_against(std::array{x[p], x[q], x[r]});
     }
     return result;
+  }
+
+  static bool may_meet(std::span<const Point<D>> simplex, std::span<const Point<D>> set) {
+    detail::Box<D> a, b;
+    for (const Point<D>& x : simplex) a.extend(x);
+    for (const Point<D>& x : set) b.extend(x);
+    return a.meets(b);
   }
 
   /// Walls that do not have the vertex and hold a particle inside them, and the side on which that is: the
@@ -214,6 +238,7 @@ class Wall_judge {
 
   Reshape_world<D>& world_;
   Tally& tally_;
+  Fate_judge<D> fates_{world_};
   std::conditional_t<D == 3, Face_sides, No_faces> faces_{world_};
 };
 

@@ -102,12 +102,13 @@ struct Reshape_counts {
   std::uint64_t hits = 0;        ///< vertices, edges and faces that a wall would pass through
   std::uint64_t touches = 0;     ///< those that walls only touch, which is not decided and blocks
   std::uint64_t relinked = 0;    ///< edges that got a new chain
+  std::uint64_t followed = 0;    ///< vertices that walls touch, followed by definition
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
   Walk_counts walk;              ///< of all signs
 
-  static constexpr std::array<std::string_view, 16> names{
-      "moves",      "made",  "cells", "walls", "opened", "vertices", "same_cell", "edges",
-      "same_chain", "faces", "apart", "left",  "hits",   "touches",  "relinked", "rested"};
+  static constexpr std::array<std::string_view, 17> names{
+      "moves", "made",  "cells", "walls", "opened",  "vertices", "same_cell", "edges", "same_chain",
+      "faces", "apart", "left",  "hits",  "touches", "relinked", "followed",  "rested"};
 };
 static_assert(names_all_before<Reshape_counts>(offsetof(Reshape_counts, walk)));
 

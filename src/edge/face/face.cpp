@@ -166,8 +166,7 @@ Face_registration stand_face(const Snapshot<3>& snapshot, const Particle<3>& p, 
                              Known use, Face_counts& counts) {
   ++counts.faces;
   Candidate_walls candidates(p.cell);
-  find_candidate_walls(snapshot, {p.position, p.position, q.position, r.position}, candidates,
-                               counts);
+  find_candidate_walls(snapshot, {p.position, p.position, q.position, r.position}, candidates, counts);
   if (candidates.walls.empty()) {
     ++counts.clear;
     return {};

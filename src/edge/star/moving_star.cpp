@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "append_reduced.h"
 #include "edge/exact/rational_segment.h"
 
 namespace cellwalk::detail {
@@ -18,16 +19,6 @@ namespace {
       Error_code::other,
       "what stands in the environment has no way through the cells around a vertex that moved past it: "
       "the environment is not certified, or it was not listed");
-}
-
-/// Appends a facet to a word, or deletes the last one if it is the same in the other direction.
-template <int D>
-void append_reduced(const Snapshot<D>& snapshot, Chain& chain, Half_facet f) {
-  if (!chain.empty() && snapshot.neighbour(f) == snapshot.cell_of(chain.back()) &&
-      snapshot.opposite(f) == chain.back())
-    chain.pop_back();
-  else
-    chain.push_back(f);
 }
 
 /// The sign of an orientation just after the vertex began to move: that with the vertex where it was or, if
@@ -86,6 +77,15 @@ void Moving_star<D>::add_wall(Half_facet facet, const Point<D>& from) {
 }
 
 template <int D>
+std::size_t Moving_star<D>::wall_of(Half_facet facet) const {
+  const Half_facet other = snapshot_.opposite(facet);
+  const auto wall = std::ranges::find_if(walls_, [&](const Moving_wall<D>& w) {
+    return w.facet == facet || (other != Half_facet::none && w.facet == other);
+  });
+  return static_cast<std::size_t>(wall - walls_.begin());
+}
+
+template <int D>
 bool Moving_star<D>::has(Cell cell) const {
   return std::binary_search(cells_.begin(), cells_.end(), cell);
 }
@@ -104,6 +104,7 @@ Star_meeting Moving_star<D>::meet(std::span<const Point<D>> feature, bool locate
     const Encounter meeting = swept.meet(feature, counts_.predicates);
     if (meeting == Encounter::apart) continue;
     if (meeting == Encounter::touch) {
+      result.touches = true;
       if (result.meeting == Encounter::hit) continue;
       result.leaves = (result.meeting == Encounter::apart || result.leaves) && swept.leaves(feature);
       result.meeting = Encounter::touch;
@@ -188,15 +189,19 @@ bool Moving_star<D>::keeps_chain_at_start(const Chain& chain, const Point<D>& p,
 
 template <int D>
 Particle<D> Moving_star<D>::registered(const Particle<D>& p) const {
-  Particle<D> result = p;
   Link_search<D> links(snapshot_, p.cell);
-  result.cell = Cell::none;
-  while (result.cell == Cell::none && links.next()) {
-    if (in_closure(snapshot_, links.cell(), p.position)) result.cell = links.cell();
+  while (links.next()) {
+    if (in_closure(snapshot_, links.cell(), p.position)) return registered_in(links.cell(), p);
     links.expand([&](const Cell_view<D>& cell, std::size_t i) { return has_point(cell, i, vertex_); });
   }
-  if (result.cell == Cell::none) fail();
-  const Cell_view<D> cell = snapshot_.view(result.cell);
+  fail();
+}
+
+template <int D>
+Particle<D> Moving_star<D>::registered_in(Cell c, const Particle<D>& p) const {
+  Particle<D> result = p;
+  result.cell = c;
+  const Cell_view<D> cell = snapshot_.view(c);
   result.dimension = lowest_dimension(
       cell, p.position, [&](std::size_t i) { return side<Exact>(cell, i, p.position, counts_) == 0; });
   if (result.cell != p.cell) result.aimed = 0;

@@ -27,6 +27,7 @@ struct Moving_wall {
 /// How the walls meet a set.
 struct Star_meeting {
   Encounter meeting = Encounter::apart;  ///< hit if one wall hits it, else touch if one touches it
+  bool touches = false;                  ///< a wall touches it, whether another one hits it or not
   bool leaves = false;                   ///< of a touch: all walls that touch it leave it at once
   std::size_t wall = 0;                  ///< the wall that hits it first
   std::optional<Swept_hit> hit;
@@ -49,6 +50,8 @@ class Moving_star {
   const Point<D>& to() const { return snapshot_.point(vertex_); }
   const std::vector<Cell>& cells() const { return cells_; }
   const std::vector<Moving_wall<D>>& walls() const { return walls_; }
+  /// The number of a wall that has the vertex, seen from a side with free space.
+  std::size_t wall_of(Half_facet facet) const;
   /// The box of all that the walls sweep; empty if there are none.
   const Box<D>& box() const { return box_; }
   /// True for a cell that has the vertex.
@@ -72,6 +75,8 @@ class Moving_star {
   /// \pre its cell has the vertex; it keeps its cell, or no wall touches it after the vertex began to move,
   ///      and it keeps its cell at the start
   Particle<D> registered(const Particle<D>& p) const;
+  /// The particle in a cell that holds it now.
+  Particle<D> registered_in(Cell cell, const Particle<D>& p) const;
   /// The chain of an edge.
   /// \pre no wall touches it after the vertex began to move, and it keeps its chain at the start
   /// \param before the chain before, from the cell `first` of p
