@@ -9,12 +9,17 @@ namespace cellwalk::detail {
 template <int D>
 Obstruction Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
   any_ = any;
-  obstruction_ = {};
-  clear();
   groups_.find(cells, vertices_, edges_);
-  const bool goes_on = try_vertices(star) && try_edges(star);
-  if (D == 3 && goes_on && !star.walls().empty()) try_faces(star);
-  return std::move(obstruction_);
+  std::optional<Obstruction> first;
+  for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
+    obstruction_ = {};
+    clear();
+    const bool goes_on = try_vertices(star) && try_edges(star);
+    if (D == 3 && goes_on && !star.walls().empty()) try_faces(star);
+    if (obstruction_.meeting == Encounter::apart) return {};
+    if (!first) first = std::move(obstruction_);
+  }
+  return std::move(*first);
 }
 
 /// False if nothing else needs to be looked at.
@@ -48,7 +53,8 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex followed = follow_vertex(star, p);
+    Followed_vertex followed = follow_vertex(star, p, choice_);
+    choices_ = std::max(choices_, followed.choices);
     ++counts_.followed;
     if (followed.is_free) {
       vertex.now = star.registered_in(followed.cells.end, p);
@@ -106,8 +112,18 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   const auto is_blocked = [](const Moved_vertex* moved) { return moved && !moved->is_free; };
   Star_meeting met;
   if (meets(star, std::array{p.position, q.position}, keeps_at_start, met)) {
-    if (met.meeting != Encounter::touch || (!is_blocked(moved_p) && !is_blocked(moved_q)))
-      block(std::move(met), edge, Body_feature::edge);
+    const bool are_ends_free = !is_blocked(moved_p) && !is_blocked(moved_q);
+    if (are_ends_free && (met.meeting == Encounter::touch || (met.touches && !any_))) {
+      ++counts_.followed;
+      Followed_edge followed = follow(star, edge, moved_p, moved_q);
+      if (followed.is_free) {
+        chains_.emplace_back(edge, followed.chain);
+        return true;
+      }
+      take(followed.block, met);
+    }
+    // A blocked end says it all of what is only touched.
+    if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, Body_feature::edge);
     return false;
   }
   if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
@@ -115,6 +131,25 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   chains_.emplace_back(edge,
                        star.relinked(chain, p.cell, moved_p ? moved_p->now : p, moved_q ? moved_q->now : q));
   return true;
+}
+
+/// Follows an edge that walls touch, whose ends are free.
+template <int D>
+Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
+                                      const Moved_vertex* moved_q) {
+  const auto [u, v] = groups_.all()[edge.group].edges[edge.number];
+  const auto end = [&](std::uint32_t vertex, const Moved_vertex* moved) {
+    const Particle<D>& before = groups_.particle({edge.group, vertex});
+    Followed_end<D> result{before, moved ? moved->now : before, {}};
+    if (!moved || moved->keeps_cell)
+      result.cells = {{{before.cell, Fraction(1)}}, before.cell};
+    else if (!moved->cells.stays.empty())
+      result.cells = moved->cells;
+    else  // it was free for another reason: whatever cells are found, they are linked with its own
+      result.cells = follow_vertex(star, before).cells;
+    return result;
+  };
+  return follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge));
 }
 
 /// A wall that is apart from a face is none of those that it rests on, and changes no side.

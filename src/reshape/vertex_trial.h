@@ -61,6 +61,8 @@ class Vertex_trial {
   bool try_edges(const Moving_star<D>& star);
   bool try_faces(const Moving_star<D>& star);
   bool try_edge(const Moving_star<D>& star, Member edge);
+  Followed_edge follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
+                       const Moved_vertex* moved_q);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
   Face_at_star after(const Moving_star<D>& star, Member face) const requires(D == 3);
   void block(Star_meeting met, Member member, Body_feature feature);
@@ -72,6 +74,9 @@ class Vertex_trial {
 
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
+  /// Where vertices may end on several sides of walls, so many choices are tried, each for all of them.
+  static constexpr std::size_t most_choices = 4;
+  std::size_t choice_ = 0, choices_ = 1;
   bool any_ = false;
   Obstruction obstruction_;
   std::vector<Member> vertices_, edges_;

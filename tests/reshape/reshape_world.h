@@ -61,6 +61,11 @@ class Reshape_world {
       if (D == 3 && n > 2 && random.chance(0.5)) {
         soup.edges.push_back({0, 2});
         soup.faces.push_back({0, 1, 2});
+        // So that walls may land on it.
+        if (!generic_ && random.chance(0.6)) {
+          const auto axis = static_cast<std::size_t>(random.below(3));
+          for (Point<D>& x : soup.points) x[axis] = soup.points[0][axis];
+        }
       }
       try {
         bodies.push_back(std::make_unique<Body<D>>(snapshot, locator, soup));
@@ -111,6 +116,11 @@ class Reshape_world {
     for (std::size_t i = 0; i < terms; ++i) {
       const double share = static_cast<double>(random.below(9)) / 8 - 0.5;
       x = x + share * other();
+    }
+    if (!bodies.empty() && random.chance(0.15)) {  // to the level of a body
+      const auto& body = *bodies[random.below(bodies.size())];
+      const auto axis = static_cast<std::size_t>(random.below(D));
+      x[axis] = body.positions()[0][axis];
     }
     return rounded(x);
   }

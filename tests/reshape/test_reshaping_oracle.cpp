@@ -65,15 +65,18 @@ void expect_all_right(bool generic, std::size_t worlds) {
   EXPECT_GT(tally.reached, tally.moves / 8);
   EXPECT_GT(tally.contacts, tally.moves / 100);
   EXPECT_GT(counts.relinked, tally.moves / 50u);
+  EXPECT_LE(tally.fates.choices + tally.fates.undecided, tally.moves / 100);
   if (!generic) {
-    EXPECT_GT(tally.touches, tally.moves / 100);
+    EXPECT_GT(counts.followed, tally.moves / 5u);
+    EXPECT_GT(tally.fates.free_fates, tally.moves / 4);
+    EXPECT_LT(tally.fates.free_fates, tally.fates.fates * 9 / 10);
   }
 }
 
 TEST(ReshapingOracle, Generic2D) { expect_all_right<2>(true, 60); }
 TEST(ReshapingOracle, Degenerate2D) { expect_all_right<2>(false, 60); }
-TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 30); }
-TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 30); }
+TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 20); }
+TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 20); }
 
 }  // namespace
 }  // namespace cellwalk

@@ -102,7 +102,7 @@ struct Reshape_counts {
   std::uint64_t hits = 0;        ///< vertices, edges and faces that a wall would pass through
   std::uint64_t touches = 0;     ///< those that walls only touch, which is not decided and blocks
   std::uint64_t relinked = 0;    ///< edges that got a new chain
-  std::uint64_t followed = 0;    ///< vertices that walls touch, followed by definition
+  std::uint64_t followed = 0;    ///< vertices and edges that walls touch, followed by definition
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
   Walk_counts walk;              ///< of all signs
 

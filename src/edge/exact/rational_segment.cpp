@@ -40,9 +40,7 @@ Exact_point<D> Rational_segment<D>::at(const Fraction& t) const {
   return x;
 }
 
-/// Keeps the part of a span in a half-space. Returns false if nothing is left.
-template <int D>
-bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) const {
+bool clip(Span& span, const Ring& at_p, const Ring& at_q, int border) {
   const auto begin_at = [&](const Fraction& t) {
     if (t <= span.low) return;
     span.low = t;
@@ -53,7 +51,6 @@ bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) c
     span.high = t;
     span.high_border = border;
   };
-  const Ring at_p = h.at(p_), at_q = p_.denominator * h.at(q_);
   const int sign_p = CGAL::sign(at_p), sign_q = CGAL::sign(at_q);
   if (sign_p >= 0 && sign_q >= 0) return true;
   if (sign_p <= 0 && sign_q <= 0) {
@@ -72,6 +69,12 @@ bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) c
   else
     end_at(root);
   return span.low <= span.high;
+}
+
+/// Keeps the part of a span in a half-space. Returns false if nothing is left.
+template <int D>
+bool Rational_segment<D>::clip(Span& span, const Half_space<D>& h, int border) const {
+  return detail::clip(span, h.at(p_), p_.denominator * h.at(q_), border);
 }
 
 template <int D>

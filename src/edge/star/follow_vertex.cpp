@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/followed_star.h>
 #include <cellwalk/internal/environment/star_index.h>
-#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
 #include <utility>
@@ -20,7 +20,7 @@ class Vertex_search {
     complete_times(times_);
   }
 
-  Followed_vertex run() {
+  Followed_vertex run(std::size_t choice) {
     Followed_vertex result;
     std::vector<Reached> now{{p_.cell, 0}};
     for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
@@ -35,11 +35,12 @@ class Vertex_search {
       }
       layers_.push_back(now);
     }
-    const std::vector<Reached> ends = linked_at(now, Fraction(1));
-    const auto same = std::ranges::find(ends, p_.cell, &Reached::cell);
-    const Reached& end = same != ends.end() ? *same : ends.front();
+    const std::vector<std::vector<Reached>> ends = classes_of(linked_at(now, Fraction(1)));
+    const std::vector<Reached>& chosen = ends[choice % ends.size()];
+    const auto same = std::ranges::find(chosen, p_.cell, &Reached::cell);
     result.is_free = true;
-    result.cells = way_to(end);
+    result.choices = ends.size();
+    result.cells = way_to(same != chosen.end() ? *same : chosen.front());
     return result;
   }
 
@@ -66,6 +67,32 @@ class Vertex_search {
       }
     }
     return result;
+  }
+
+  /// Cells after the move by which of them are linked; first those that hold the displaced particle.
+  std::vector<std::vector<Reached>> classes_of(const std::vector<Reached>& ends) const {
+    std::vector<std::vector<Reached>> classes;
+    for (const Reached& end : ends) {
+      if (std::ranges::any_of(classes, [&](const auto& known) {
+            return std::ranges::find(known, end.cell, &Reached::cell) != known.end();
+          }))
+        continue;
+      std::vector<Reached> linked = linked_at({end}, Fraction(1));
+      for (Reached& there : linked) there.parent = end.parent;
+      const bool is_displaced =
+          std::ranges::any_of(linked, [&](const Reached& there) { return holds_displaced(there.cell); });
+      classes.insert(is_displaced ? classes.begin() : classes.end(), std::move(linked));
+    }
+    return classes;
+  }
+
+  bool holds_displaced(Cell c) const {
+    const Cell_view<D> cell = snapshot_.view(c);
+    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+      const int at = clock_.side(cell, i, p_.position, Fraction(1));
+      if (at > 0 || (at == 0 && displaced_side(cell, i) > 0)) return false;
+    }
+    return true;
   }
 
   Cells_of_vertex way_to(const Reached& end) const {
@@ -109,11 +136,11 @@ class Vertex_search {
 }  // namespace
 
 template <int D>
-Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p) {
-  return Vertex_search<D>(star, p).run();
+Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice) {
+  return Vertex_search<D>(star, p).run(choice);
 }
 
-template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&);
-template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&);
+template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t);
+template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t);
 
 }  // namespace cellwalk::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Particles that walls at a moving vertex touch, followed by definition. Theory: docs/moving.md,
+// Particles and edges that walls at a moving vertex touch, followed by definition. Theory: docs/moving.md,
 // touches.
 #ifndef CELLWALK_INTERNAL_EDGE_FOLLOWED_STAR_H
 #define CELLWALK_INTERNAL_EDGE_FOLLOWED_STAR_H
@@ -37,18 +37,45 @@ struct Cells_of_vertex {
 
 struct Followed_vertex {
   bool is_free = false;
+  std::size_t choices = 0;          ///< if it is free: sides on which it may be after the move
   Cells_of_vertex cells;            ///< if it is free
   std::optional<Star_block> block;  ///< else
 };
 
 /// Follows a particle through all times at which its side of a wall may change, and all cells in which it may
-/// be. Of several in which it may end, that in which it is now is taken, else the first one found.
+/// be. If it may end on several sides of walls, those at whose rims it passed, one of them is chosen.
+/// \param choice the number of that side, modulo theirs; the first is that of the particle displaced by (e,
+///        e^2, e^3), e small
 /// Cost: some ten us, in exact numbers.
 template <int D>
-Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p);
+Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice = 0);
 
-extern template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&);
-extern template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&);
+/// An end of an edge.
+template <int D>
+struct Followed_end {
+  Particle<D> before, now;
+  Cells_of_vertex cells;  ///< in between
+};
+
+struct Followed_edge {
+  bool is_free = false;
+  Chain chain;                      ///< if it is free
+  std::optional<Star_block> block;  ///< else; none if its ends are on sides that do not fit
+};
+
+/// Follows an edge pq, all classes of equal chains that it may have.
+/// \param before its chain
+/// Cost: up to some ms, in exact numbers.
+template <int D>
+Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
+                          const Chain& before);
+
+extern template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t);
+extern template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t);
+extern template Followed_edge follow_edge<2>(const Moving_star<2>&, const Followed_end<2>&,
+                                             const Followed_end<2>&, const Chain&);
+extern template Followed_edge follow_edge<3>(const Moving_star<3>&, const Followed_end<3>&,
+                                             const Followed_end<3>&, const Chain&);
 
 }  // namespace cellwalk::detail
 
