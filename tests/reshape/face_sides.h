@@ -3,6 +3,8 @@
 #ifndef CELLWALK_TESTS_RESHAPE_FACE_SIDES_H
 #define CELLWALK_TESTS_RESHAPE_FACE_SIDES_H
 
+#include <cellwalk/reshape/reshaping.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,13 +12,13 @@
 #include <tuple>
 
 #include "kernel/rational_meeting.h"
-#include "reshape/reshape_world.h"
 
 namespace cellwalk::test {
 
+template <class World>
 class Face_sides {
  public:
-  explicit Face_sides(const Reshape_world<3>& world) : world_(world) {}
+  explicit Face_sides(const World& world) : world_(world) {}
 
   /// True if a wall at a vertex lies in a face, and a move would take it to where the face is.
   /// \pre the vertex has not moved yet
@@ -103,7 +105,7 @@ class Face_sides {
     }
   }
 
-  const Reshape_world<3>& world_;
+  const World& world_;
   std::map<Key, int> sides_;
 };
 

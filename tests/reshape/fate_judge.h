@@ -3,12 +3,13 @@
 #ifndef CELLWALK_TESTS_RESHAPE_FATE_JUDGE_H
 #define CELLWALK_TESTS_RESHAPE_FATE_JUDGE_H
 
+#include <cellwalk/reshape/reshaping.h>
+
 #include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "reshape/definition_oracle.h"
-#include "reshape/reshape_world.h"
 
 namespace cellwalk::test {
 
@@ -20,10 +21,10 @@ struct Fate_tally {
   int wrong() const { return missed + false_blocks + wrong_times + wrong_registrations; }
 };
 
-template <int D>
+template <int D, class World>
 class Fate_judge {
  public:
-  explicit Fate_judge(const Reshape_world<D>& world) : world_(world) {}
+  explicit Fate_judge(const World& world) : world_(world) {}
 
   /// Notes the registrations of what walls meet, before the vertex moves.
   /// \param is_met whether a wall meets a set of points, closed
@@ -95,7 +96,7 @@ class Fate_judge {
             {body.chain(source.number).begin(), body.chain(source.number).end()}};
   }
 
-  const Reshape_world<D>& world_;
+  const World& world_;
   std::vector<std::pair<Source, Registered_edge<D>>> edges_;
 };
 

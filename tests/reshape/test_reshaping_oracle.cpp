@@ -5,21 +5,24 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <memory>
 
+#include "reshape/level_world.h"
 #include "reshape/wall_judge.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk {
 namespace {
 
-template <int D>
-typename test::Wall_judge<D>::Tally run(bool generic, std::size_t worlds, Reshape_counts& counts) {
-  typename test::Wall_judge<D>::Tally tally;
+template <int D, class World, class Make>
+typename test::Wall_judge<D, World>::Tally run(const char* kind, std::size_t worlds, const Make& make,
+                                               Reshape_counts& counts) {
+  typename test::Wall_judge<D, World>::Tally tally;
   constexpr int phases = 4, moves = 12;
   for (std::uint64_t number = 0; number < worlds; ++number) {
-    test::Reshape_world<D> world(number, generic);
-    world.populate(12, 8);
-    test::Wall_judge<D> judge(world, tally);
+    const std::unique_ptr<World> made = make(number);
+    World& world = *made;
+    test::Wall_judge<D, World> judge(world, tally);
     for (int phase = 0; phase < phases; ++phase) {
       {
         Reshaping<D> reshaping(world.environment, world.residents(), {.at_contact = At_contact::hold});
@@ -42,8 +45,8 @@ typename test::Wall_judge<D>::Tally run(bool generic, std::size_t worlds, Reshap
       "boundaries; missed "
       "%d, "
       "false blocks %d, wrong times %d, sides %d, ends %d\n",
-      D, generic ? "generic" : "degenerate", t.moves, t.reached, t.free_touching, t.landed, t.contacts,
-      t.touches, t.cells, t.boundaries, t.missed, t.false_blocks, t.wrong_times, t.wrong_sides, t.wrong_ends);
+      D, kind, t.moves, t.reached, t.free_touching, t.landed, t.contacts, t.touches, t.cells, t.boundaries,
+      t.missed, t.false_blocks, t.wrong_times, t.wrong_sides, t.wrong_ends);
   const test::Fate_tally& f = t.fates;
   std::printf(
       "  of %d fates %d may be free; missed %d, false blocks %d, wrong times %d, wrong registrations %d; %d "
@@ -60,7 +63,14 @@ typename test::Wall_judge<D>::Tally run(bool generic, std::size_t worlds, Reshap
 template <int D>
 void expect_all_right(bool generic, std::size_t worlds) {
   Reshape_counts counts;
-  const auto tally = run<D>(generic, oracle::scaled_count(worlds), counts);
+  using World = test::Reshape_world<D>;
+  const auto make = [&](std::uint64_t number) {
+    auto world = std::make_unique<World>(number, generic);
+    world->populate(12, 8);
+    return world;
+  };
+  const auto tally =
+      run<D, World>(generic ? "generic" : "degenerate", oracle::scaled_count(worlds), make, counts);
   EXPECT_EQ(tally.wrong(), 0);
   EXPECT_GT(tally.reached, tally.moves / 8);
   EXPECT_GT(tally.contacts, tally.moves / 100);
@@ -76,6 +86,18 @@ void expect_all_right(bool generic, std::size_t worlds) {
 TEST(ReshapingOracle, Generic2D) { expect_all_right<2>(true, 60); }
 TEST(ReshapingOracle, Degenerate2D) { expect_all_right<2>(false, 60); }
 TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 20); }
+TEST(ReshapingOracle, Level3D) {
+  Reshape_counts counts;
+  const auto make = [](std::uint64_t number) {
+    auto world = std::make_unique<test::Level_world>(number);
+    world->populate(3, 3);
+    return world;
+  };
+  const auto tally = run<3, test::Level_world>("level", oracle::scaled_count(12), make, counts);
+  EXPECT_EQ(tally.wrong(), 0);
+  EXPECT_GT(tally.landed, 10);
+  EXPECT_GT(counts.rested, 50u);
+}
 TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 20); }
 
 }  // namespace

@@ -61,7 +61,9 @@ struct Scene {
     return result;
   }
   Vertex_result<D> move(Body<D>& body, const Point<D>& target) { return move({{&body}, {}}, target); }
-  Vertex_result<D> move(std::vector<Particle<D>>& p, const Point<D>& target) { return move({{}, {p}}, target); }
+  Vertex_result<D> move(std::vector<Particle<D>>& p, const Point<D>& target) {
+    return move({{}, {p}}, target);
+  }
 
   Environment<D> environment;
   std::uint32_t vertex = 0;
@@ -222,10 +224,9 @@ TEST(Touches, EdgesOfNoLengthGoRoundTogether) {
 
 TEST(Touches, AVertexThatMovesArrivesAtAFace) {
   Scene<3> scene;
-  Body<3> body(scene.snapshot(), Locator<3>(scene.snapshot()),
-               {{{1.25, 1.125, 2.25}, {3.5, 1.25, 2.25}, {1.125, 3.5, 2.25}},
-                {{0, 1}, {1, 2}, {0, 2}},
-                {{0, 1, 2}}});
+  Body<3> body(
+      scene.snapshot(), Locator<3>(scene.snapshot()),
+      {{{1.25, 1.125, 2.25}, {3.5, 1.25, 2.25}, {1.125, 3.5, 2.25}}, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}});
   EXPECT_EQ(scene.move(body, {2, 2, 2.25}).end, Move_end::reached) << "it touches the face";
   expect_block(scene.move(body, {2, 2, 2.5}), 0, 1);
   EXPECT_EQ(scene.move(body, {2, 2, 2}).end, Move_end::reached);

@@ -34,7 +34,7 @@ struct Expected {
   std::vector<std::vector<Point<D>>> swept;  ///< by walls: start, end, then the corners that stand still
 };
 
-template <int D>
+template <int D, class World = Reshape_world<D>>
 class Wall_judge {
  public:
   struct Tally {
@@ -48,7 +48,7 @@ class Wall_judge {
     }
   };
 
-  Wall_judge(Reshape_world<D>& world, Tally& tally) : world_(world), tally_(tally) {}
+  Wall_judge(World& world, Tally& tally) : world_(world), tally_(tally) {}
 
   /// Makes a move, and judges it.
   void judge(Reshaping<D>& reshaping, std::uint32_t v, const Point<D>& target) {
@@ -233,13 +233,13 @@ class Wall_judge {
   }
 
   struct No_faces {
-    explicit No_faces(const Reshape_world<D>&) {}
+    explicit No_faces(const World&) {}
   };
 
-  Reshape_world<D>& world_;
+  World& world_;
   Tally& tally_;
-  Fate_judge<D> fates_{world_};
-  std::conditional_t<D == 3, Face_sides, No_faces> faces_{world_};
+  Fate_judge<D, World> fates_{world_};
+  std::conditional_t<D == 3, Face_sides<World>, No_faces> faces_{world_};
 };
 
 }  // namespace cellwalk::test

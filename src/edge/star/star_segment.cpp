@@ -55,7 +55,8 @@ Star_segment<D>::Star_segment(const Still_segment<D>& still, const Fraction& tim
 
 template <int D>
 Ring_vector<D> Star_segment<D>::corner(const Cell_view<D>& cell, std::uint16_t v) const {
-  return cell.point_index(v) == still_.star().vertex() ? vertex_ : times<D>(time_.denominator(), cell.point(v));
+  return cell.point_index(v) == still_.star().vertex() ? vertex_
+                                                       : times<D>(time_.denominator(), cell.point(v));
 }
 
 /// The plane of a facet, positive outside.
