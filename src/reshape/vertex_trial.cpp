@@ -149,7 +149,9 @@ Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, c
       result.cells = follow_vertex(star, before).cells;
     return result;
   };
-  return follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge));
+  Followed_edge followed = follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge), choice_);
+  choices_ = std::max(choices_, followed.choices);
+  return followed;
 }
 
 /// A wall that is apart from a face is none of those that it rests on, and changes no side.

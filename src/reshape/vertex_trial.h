@@ -74,7 +74,8 @@ class Vertex_trial {
 
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
-  /// Where vertices may end on several sides of walls, so many choices are tried, each for all of them.
+  /// Where vertices and edges may end on several sides of walls, so many choices are tried, each for all of
+  /// them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
   bool any_ = false;

@@ -120,6 +120,26 @@ TEST(RestingFaces, AFaceOnOneSideOfAWallThatIsAlsoTouchedFromTheOtherKeepsBoth) 
   EXPECT_NE(reshaping.move(tent.vertex, {3, 3, 2.75}).end, Move_end::reached);
 }
 
+TEST(RestingFaces, AnEdgeThatAWallReachesTakesTheSideOfItsFace) {
+  // The membrane grows in its plane beyond an edge of a face that it landed on.
+  for (const double side : {1.0, -1.0}) {
+    Tent tent(3 + 0.5 * side);
+    Body<3> body = tent.face({{1.5, 0.5, 3}, {1.5, 7.75, 3}, {7.75, 0.5, 3}});
+    EXPECT_EQ(tent.move(body, {3, 3, 3}).end, Move_end::reached);
+    const std::uint32_t corner = test::point_at<3>(tent.environment, {2, 3, 3});
+    {
+      Reshaping<3> reshaping(tent.environment, {{&body}, {}}, hold);
+      EXPECT_EQ(reshaping.move(corner, {1.25, 3, 3}).end, Move_end::reached);
+    }
+    EXPECT_NO_THROW(body.validate());
+    EXPECT_EQ(tent.move(body, {3, 3, 3 - 0.125 * side}).end, Move_end::contact);
+    EXPECT_EQ(tent.move(body, {3, 3, 3 + 0.125 * side}).end, Move_end::reached);
+    Reshaping<3> reshaping(tent.environment, {{&body}, {}}, hold);
+    EXPECT_EQ(reshaping.move(corner, {1.25, 3, 3 - 0.125 * side}).end, Move_end::contact);
+    EXPECT_EQ(reshaping.move(corner, {1.25, 3, 3 + 0.125 * side}).end, Move_end::reached);
+  }
+}
+
 /// A tetrahedron that stands on a membrane, across several walls.
 TEST(RestingFaces, ABodyAtRestDoesNotHoldAWallThatBeats) {
   Environment<3> environment = test::simplex_grid<3>(4);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/followed_star.h>
 #include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -65,7 +67,7 @@ class Edge_search {
     complete_times(times_);
   }
 
-  Followed_edge run(const Chain& before) {
+  Followed_edge run(const Chain& before, std::size_t choice) {
     Followed_edge result;
     std::optional<Cut_at<D>> here(std::in_place, still_, times_[0], p_.before.cell);
     std::set<Chain_class> states;
@@ -89,8 +91,14 @@ class Edge_search {
       states = std::move(next_states);
       here.emplace(still_, times_[k + 1], first);
     }
+    // On a side of walls first, and then on others, as for vertices.
+    std::vector<std::pair<std::vector<bool>, Chain>> ends;
     for (const Chain_class& state : states)
-      if (!result.is_free) result.is_free = find_word(here->cut, state, result.chain);
+      if (Chain word; find_word(here->cut, state, word)) ends.emplace_back(displaced(here->cut, state), word);
+    std::ranges::stable_sort(ends, std::greater<>(), &std::pair<std::vector<bool>, Chain>::first);
+    result.choices = ends.size();
+    result.is_free = !ends.empty();
+    if (result.is_free) result.chain = ends[choice % ends.size()].second;
     return result;
   }
 
@@ -223,6 +231,26 @@ class Edge_search {
     return true;
   }
 
+  /// For each piece whether the displaced edge passes it in one of the cells of its class.
+  std::vector<bool> displaced(const Star_cut<D>& cut, const Chain_class& state) const {
+    const auto holds = [&](Cell c) {
+      const Cell_view<D> cell = snapshot_.view(c);
+      for (std::size_t i = 0; i < cell.facet_count(); ++i)
+        if (side<Exact>(cell, i, still_.p(), star_.counts()) == 0 &&
+            side<Exact>(cell, i, still_.q(), star_.counts()) == 0 && displaced_side(cell, i) > 0)
+          return false;
+      return true;
+    };
+    std::vector<bool> result;
+    for (std::size_t piece = 0; piece < state.size(); ++piece) {
+      bool is_displaced = false;
+      for (std::size_t c = 0; c < cut.cell_count(); ++c)
+        is_displaced |= cut.along(piece)[c] == state[piece] && holds(cut.cell(c));
+      result.push_back(is_displaced);
+    }
+    return result;
+  }
+
   /// The wall at the vertex that meets the edge at a time with the lowest features.
   std::optional<Star_block> block(const Cut_at<D>& here, const Fraction& time) const {
     std::optional<Star_block> first;
@@ -250,13 +278,13 @@ class Edge_search {
 
 template <int D>
 Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
-                          const Chain& before) {
-  return Edge_search<D>(star, p, q).run(before);
+                          const Chain& before, std::size_t choice) {
+  return Edge_search<D>(star, p, q).run(before, choice);
 }
 
 template Followed_edge follow_edge<2>(const Moving_star<2>&, const Followed_end<2>&, const Followed_end<2>&,
-                                      const Chain&);
+                                      const Chain&, std::size_t);
 template Followed_edge follow_edge<3>(const Moving_star<3>&, const Followed_end<3>&, const Followed_end<3>&,
-                                      const Chain&);
+                                      const Chain&, std::size_t);
 
 }  // namespace cellwalk::detail

@@ -59,23 +59,25 @@ struct Followed_end {
 
 struct Followed_edge {
   bool is_free = false;
+  std::size_t choices = 0;          ///< if it is free: classes of chains that it may have after the move
   Chain chain;                      ///< if it is free
   std::optional<Star_block> block;  ///< else; none if its ends are on sides that do not fit
 };
 
 /// Follows an edge pq, all classes of equal chains that it may have.
 /// \param before its chain
+/// \param choice the number of the class that it is to have, modulo theirs
 /// Cost: up to some ms, in exact numbers.
 template <int D>
 Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
-                          const Chain& before);
+                          const Chain& before, std::size_t choice = 0);
 
 extern template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t);
 extern template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t);
 extern template Followed_edge follow_edge<2>(const Moving_star<2>&, const Followed_end<2>&,
-                                             const Followed_end<2>&, const Chain&);
+                                             const Followed_end<2>&, const Chain&, std::size_t);
 extern template Followed_edge follow_edge<3>(const Moving_star<3>&, const Followed_end<3>&,
-                                             const Followed_end<3>&, const Chain&);
+                                             const Followed_end<3>&, const Chain&, std::size_t);
 
 }  // namespace cellwalk::detail
 
