@@ -29,8 +29,8 @@ enum class At_contact : std::uint8_t {
 enum class Move_end : std::uint8_t {
   reached,  ///< the target
   contact,  ///< a wall would pass through a resident
-  /// A wall would touch a resident, and pass through none. Unless it leaves at once what it touches where it
-  /// starts, whether it may pass is not decided: it counts as blocked.
+  /// Walls pass through nothing, but touch a body, so that its vertices, edges and faces would end on
+  /// different sides of a wall.
   touch,
   cell,     ///< a cell around the vertex would be flat or inverted
   boundary  ///< the boundary of the environment would run into itself, or into another point
@@ -39,8 +39,8 @@ enum class Move_end : std::uint8_t {
 /// The first meeting of a moving wall and a resident that it would pass through.
 template <int D>
 struct Wall_hit {
-  Exact_time
-      time;  ///< the share of the move of the vertex that is free; exact unless something is touched before
+  /// The share of the move of the vertex that is free; exact, but for faces that another wall touches before.
+  Exact_time time;
   Point<D> point{};                         ///< where they meet, rounded
   Vector<D> normal{};                       ///< unit, from the wall to the resident, rounded
   Contact_kind kind = Contact_kind::facet;  ///< what of the wall meets it; `vertex` is the one that moves
@@ -100,7 +100,7 @@ struct Reshape_counts {
   std::uint64_t apart = 0;       ///< vertices, edges and faces that no wall touches on its way
   std::uint64_t left = 0;        ///< vertices and edges that walls touch where they start, and leave at once
   std::uint64_t hits = 0;        ///< vertices, edges and faces that a wall would pass through
-  std::uint64_t touches = 0;     ///< those that walls only touch, which is not decided and blocks
+  std::uint64_t touches = 0;     ///< those that walls only touch, but on sides that do not fit
   std::uint64_t relinked = 0;    ///< edges that got a new chain
   std::uint64_t followed = 0;    ///< vertices and edges that walls touch, followed by definition
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
@@ -137,11 +137,11 @@ class Reshaping {
   /// \throw Error(usage) if there is no such point, if a cell around it is not a simplex (see
   ///        Build_options::simplicial), for a particle that is not in its cell, and after close();
   ///        Error(input) for a target that is not finite
-  /// Degenerate cases: all are decided but touches, see Move_end::touch. A target equal to the position is
-  /// reached.
+  /// Degenerate cases: all are decided; where a rim passes a vertex or edge exactly, it may end on either
+  /// side, see docs/moving.md, touches. A target equal to the position is reached.
   /// Cost: about 3 us with nothing near, twice as much in 10^6 cells that are not in the cache; some 20 signs
-  /// more a wall that is near something; on the boundary of the environment some 50 us more. The first move
-  /// in an environment takes 1 us for each of its points.
+  /// more a wall that is near something; exact numbers for what is touched; on the boundary of the
+  /// environment some 50 us more. The first move in an environment takes 1 us for each of its points.
   Vertex_result<D> move(std::uint32_t point, const Point<D>& target);
 
   /// Moves many vertices, in order and backwards in turn, in rounds until all have arrived or none gets on.

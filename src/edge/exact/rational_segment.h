@@ -21,8 +21,8 @@ struct Span {
   int low_border = -1, high_border = -1;
 };
 
-/// Keeps the part of a span in which an affine function is not negative, given by its values at p and q, which
-/// may have a common positive factor. Returns false if nothing is left.
+/// Keeps the part of a span in which an affine function is not negative, given by its values at p and q,
+/// which may have a common positive factor. Returns false if nothing is left.
 bool clip(Span& span, const Ring& at_p, const Ring& at_q, int border);
 
 /// The segment from p (parameter 0) to q (parameter 1).
