@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/body/body_access.h>
 
+#include <vector>
+
 #include "body_state.h"
+#include "vertex_move.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -79,6 +82,15 @@ template <int D>
 void Body_access<D>::rest(std::uint32_t face, const Supporting_walls& walls) {
   state_->may_have_supporting_walls |= !walls.empty();
   state_->supporting_walls[face] = walls;
+}
+
+template <int D>
+void Body_access<D>::push(std::uint32_t vertex, const Point<D>& target, const Body_options& options,
+                          Body_counts& counts) {
+  Body_options pushed = options;
+  if (keeps_faces()) pushed.sweep.sweep = Sweep::faces;
+  std::vector<Contact<D>> contacts;
+  move_along_walls(*state_, vertex, target, pushed, contacts, counts);
 }
 
 template class Body_access<2>;

@@ -35,32 +35,40 @@ void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Bod
   if constexpr (D == 3)
     if (options.sweep.sweep == Sweep::faces) take_up_faces(body, counts);
   body.make_free_moves(targets, options.parallel, counts);
-  std::vector<Vector<D>> normals;
   for (std::uint32_t v = body.free_moves.next_left(0); v < targets.size();
-       v = body.free_moves.next_left(v + 1)) {
-    if (body.try_move_in_region(v, targets[v], counts)) continue;
-    Point<D> target = targets[v];
-    normals.clear();
-    for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
-      const auto contact = try_move(body, body.scratch, v, target, options.sweep, counts);
-      if (!contact) break;
-      ++counts.contacts;
-      contacts.push_back(*contact);
-      if (options.policy == Contact_policy::reject) {
-        ++counts.held;
-        break;
-      }
-      counts.held += !stop(body, v, target, *contact, options.sweep, counts);
-      normals.push_back(contact->normal);
-      const Point<D>& position = body.positions[v];
-      const Vector<D> left = slide<D>(targets[v] - position, normals);
-      if (!(length(left) > 0)) break;
-      target = position + left + lift<D>(position, left, normals.back());
-      if (!is_finite(target)) break;
+       v = body.free_moves.next_left(v + 1))
+    if (!body.try_move_in_region(v, targets[v], counts))
+      move_along_walls(body, v, targets[v], options, contacts, counts);
+}
+
+template <int D>
+void move_along_walls(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
+                      const Body_options& options, std::vector<Contact<D>>& contacts, Body_counts& counts) {
+  std::vector<Vector<D>> normals;
+  Point<D> next = target;
+  for (int met = 0; met < std::max(1, options.most_contacts); ++met) {
+    const auto contact = try_move(body, body.scratch, vertex, next, options.sweep, counts);
+    if (!contact) return;
+    ++counts.contacts;
+    contacts.push_back(*contact);
+    if (options.policy == Contact_policy::reject) {
+      ++counts.held;
+      return;
     }
+    counts.held += !stop(body, vertex, next, *contact, options.sweep, counts);
+    normals.push_back(contact->normal);
+    const Point<D>& position = body.positions[vertex];
+    const Vector<D> left = slide<D>(target - position, normals);
+    if (!(length(left) > 0)) return;
+    next = position + left + lift<D>(position, left, normals.back());
+    if (!is_finite(next)) return;
   }
 }
 
+template void move_along_walls(Body_state<2>&, std::uint32_t, const Point<2>&, const Body_options&,
+                               std::vector<Contact<2>>&, Body_counts&);
+template void move_along_walls(Body_state<3>&, std::uint32_t, const Point<3>&, const Body_options&,
+                               std::vector<Contact<3>>&, Body_counts&);
 template void move_each(Body_state<2>&, std::span<const Point<2>>, const Body_options&,
                         std::vector<Contact<2>>&, Body_counts&);
 template void move_each(Body_state<3>&, std::span<const Point<3>>, const Body_options&,

@@ -17,6 +17,8 @@ namespace {
 
 /// A vertex that touches something tries these shares of its way, halved so often.
 constexpr int touch_halvings = 6;
+/// How much further than needed something is pushed, so that rounding does not bring it back.
+constexpr double contact_offset_ulps = 16;
 
 }  // namespace
 
@@ -28,9 +30,14 @@ struct Reshaping<D>::State {
         mover(environment),
         trial(groups, counts) {}
 
-  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, bool any);
+  /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
+  /// nothing: it stays in any case.
+  enum class Attempt : std::uint8_t { move, whether, nothing };
+  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind);
   bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);
-  Vertex_result<D> move(std::uint32_t point, const Point<D>& target);
+  Vertex_result<D> move(std::uint32_t point, const Point<D>& target,
+                        std::vector<Wall_hit<D>>* hits = nullptr);
+  bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   detail::Box<D> box_of_star(const Point<D>& target) const;
   void close();
 
@@ -55,9 +62,10 @@ detail::Box<D> Reshaping<D>::State::box_of_star(const Point<D>& target) const {
 }
 
 /// Moves the point to the target or leaves it where it is.
-/// \param any if true, the result need not say what it meets
 template <int D>
-Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, bool any) {
+Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, Attempt kind) {
+  if (!is_open)
+    throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
   const detail::Star_check check = mover.begin(point, target);
   ++counts.moves;
   counts.cells += mover.star().size();
@@ -75,13 +83,14 @@ Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D
   mover.place();
   bool is_free = false;
   try {
-    is_free = decide(mover.from(), point, any, result);
+    is_free = decide(mover.from(), point, kind == Attempt::whether, result);
   } catch (...) {
     mover.take_back();
     throw;
   }
-  if (!is_free) {
+  if (!is_free || kind == Attempt::nothing) {
     mover.take_back();
+    if (is_free) result.position = target;
     return result;
   }
   trial.commit();
@@ -108,15 +117,25 @@ bool Reshaping<D>::State::decide(const Point<D>& from, std::uint32_t point, bool
   return false;
 }
 
+/// \param hits if not null, all that the point meets is added
 template <int D>
-Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& target) {
-  if (!is_open)
-    throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
-  Vertex_result<D> result = attempt(point, target, false);
+Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& target,
+                                           std::vector<Wall_hit<D>>* hits) {
+  const auto go = [&] {
+    Vertex_result<D> result = attempt(point, target, Attempt::move);
+    if (hits && result.hit) hits->push_back(*result.hit);
+    return result;
+  };
+  Vertex_result<D> result = go();
   if (options.at_contact == At_contact::hold) return result;
+  if (options.at_contact == At_contact::push)
+    for (int k = 0; k < options.most_pushes && result.hit; ++k) {
+      if (!push(*result.hit, target - result.position)) break;
+      result = go();
+    }
   const Point<D> from = result.position;
   const auto try_at = [&](const Point<D>& x) {
-    if (x == from || attempt(point, x, true).end != Move_end::reached) return false;
+    if (x == from || attempt(point, x, Attempt::whether).end != Move_end::reached) return false;
     result.position = x;
     return true;
   };
@@ -130,6 +149,26 @@ Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& 
       if (try_at(from + std::ldexp(1.0, -k) * (target - from))) break;
   }
   return result;
+}
+
+/// Moves what was met by what is left of the motion of the wall there, along the normal, as far as other
+/// walls allow; shared among the vertices of an edge or a face so that the point met moves so far. False if
+/// nothing moved.
+template <int D>
+bool Reshaping<D>::State::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
+  ++counts.pushes;
+  const double left = hit.weights[0] * (1 - hit.time.rounded());
+  double squares = 0;
+  for (const double w : hit.resident_weights) squares += w * w;
+  const double depth =
+      std::max(0.0, left * dot(motion, hit.normal)) +
+      contact_offset_ulps * std::max(detail::ulp<D>(hit.point), detail::ulp<D>(Point<D>{} + motion));
+  bool has_moved = false;
+  const auto vertices = groups.vertices_of(hit.resident);
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    has_moved |=
+        groups.push(vertices[k], (hit.resident_weights[k] / squares * depth) * hit.normal, options.body);
+  return has_moved;
 }
 
 template <int D>
@@ -180,8 +219,7 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
     for (const std::size_t i : left) {
       const auto& [point, target] = moves[i];
       Vertex_result<D>& result = last[i];
-      result = state_->move(point, target);
-      if (result.hit) report.hits.push_back(*result.hit);
+      result = state_->move(point, target, &report.hits);
       if (result.end == Move_end::reached) {
         gets_on = true;
         continue;
@@ -189,8 +227,8 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
       still_left.push_back(i);
       const Point<D> from = result.position;
       if (result.end != Move_end::cell || !(result.share > 0)) continue;
-      const Vertex_result<D> part = state_->move(point, from + 0.5 * result.share * (target - from));
-      if (part.hit) report.hits.push_back(*part.hit);
+      const Vertex_result<D> part =
+          state_->move(point, from + 0.5 * result.share * (target - from), &report.hits);
       gets_on |= part.position != from;
       result.position = part.position;
     }
@@ -200,6 +238,11 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
   std::sort(left.begin(), left.end());
   for (const std::size_t i : left) report.short_of_target.push_back(last[i]);
   return report;
+}
+
+template <int D>
+Vertex_result<D> Reshaping<D>::ask(std::uint32_t point, const Point<D>& target) {
+  return state_->attempt(point, target, State::Attempt::nothing);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "resident_groups.h"
 
+#include <cellwalk/body/verified_stop.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
@@ -71,9 +72,52 @@ void Resident_groups<D>::enter_all(std::uint32_t group) {
 }
 
 template <int D>
+std::size_t Resident_groups<D>::body_count() const {
+  return static_cast<std::size_t>(std::count_if(groups_.begin(), groups_.end(),
+                                                [](const auto& group) { return group.body.has_value(); }));
+}
+
+template <int D>
+std::vector<Member> Resident_groups<D>::vertices_of(const Resident& resident) const {
+  const auto bodies = static_cast<std::uint32_t>(body_count());
+  const std::uint32_t g = resident.is_particle ? bodies + resident.owner : resident.owner;
+  std::vector<Member> result;
+  if (resident.feature == Body_feature::vertex) return {{g, resident.number}};
+  if (resident.feature == Body_feature::edge)
+    for (const std::uint32_t v : groups_[g].edges[resident.number]) result.push_back({g, v});
+  else
+    for (const std::uint32_t v : groups_[g].faces[resident.number]) result.push_back({g, v});
+  return result;
+}
+
+template <int D>
+bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_options& options) {
+  Resident_group<D>& group = groups_[vertex.group];
+  Particle<D>& particle = group.particles[vertex.number];
+  const Point<D> from = particle.position, target = from + by;
+  if (target == from || !is_finite(target)) return false;
+  if (group.body) {
+    Body_counts uncounted;
+    group.body->push(vertex.number, target, options, uncounted);
+  } else {
+    Walk_counts uncounted;
+    std::vector<Contact<D>> met;
+    advance(snapshot_, particle, by, {.restitution = 0, .most_contacts = options.most_contacts}, met,
+            uncounted);
+  }
+  if (particle.position == from) return false;
+  group.reach.extend(particle.position);
+  enter_vertex(vertex);
+  if (group.body)
+    for (std::uint32_t e = 0; e < group.edges.size(); ++e)
+      if (group.edges[e][0] == vertex.number || group.edges[e][1] == vertex.number)
+        enter_edge({vertex.group, e});
+  return true;
+}
+
+template <int D>
 Resident Resident_groups<D>::at(Member member, Body_feature feature) const {
-  const auto bodies = static_cast<std::uint32_t>(std::count_if(
-      groups_.begin(), groups_.end(), [](const auto& group) { return group.body.has_value(); }));
+  const auto bodies = static_cast<std::uint32_t>(body_count());
   const bool is_particle = member.group >= bodies;
   return {is_particle, is_particle ? member.group - bodies : member.group, feature, member.number};
 }

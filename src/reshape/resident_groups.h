@@ -57,6 +57,12 @@ class Resident_groups {
   void rest(Member face, const Supporting_walls& walls) {
     groups_[face.group].body->rest(face.number, walls);
   }
+  /// The vertices of a feature of a resident.
+  std::vector<Member> vertices_of(const Resident& resident) const;
+  /// Moves a vertex as far as walls allow: one of a body as a step of that does, a particle until it meets
+  /// one. Returns whether it moved.
+  /// \pre its group is open
+  bool push(Member vertex, const Vector<D>& by, const Body_options& options);
 
   /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
   void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges) const;
@@ -77,6 +83,7 @@ class Resident_groups {
   };
   void enter(Cell cell, Member member, bool is_edge);
   void enter_all(std::uint32_t group);
+  std::size_t body_count() const;
 
   const Snapshot<D>& snapshot_;
   std::vector<Resident_group<D>> groups_;

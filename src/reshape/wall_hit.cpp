@@ -50,14 +50,22 @@ std::pair<Body_feature, std::uint32_t> lowest(const Resident_group<D>& group,
   return {obstruction.feature, obstruction.member.number};
 }
 
-/// Perpendicular to what meets, as far as that determines a direction; else to the wall.
-Vector<2> direction(std::span<const Point<2>> wall, std::size_t of_wall, std::span<const Point<2>> feature) {
+/// Perpendicular to what meets, and where that leaves a choice, along the motion; else to the wall.
+Vector<2> direction(std::span<const Point<2>> wall, std::size_t of_wall, std::span<const Point<2>> feature,
+                    const Vector<2>&) {
   return of_wall == 1 && feature.size() == 2 ? unit_normal(feature[0], feature[1])
                                              : unit_normal(wall[0], wall[1]);
 }
 
-Vector<3> direction(std::span<const Point<3>> wall, std::size_t of_wall, std::span<const Point<3>> feature) {
+Vector<3> direction(std::span<const Point<3>> wall, std::size_t of_wall, std::span<const Point<3>> feature,
+                    const Vector<3>& motion) {
   if (of_wall == 1 && feature.size() == 3) return unit_normal(feature[0], feature[1], feature[2]);
+  if (of_wall == 1 && feature.size() == 2) {
+    const Vector<3> along = feature[1] - feature[0];
+    const Vector<3> across = motion - (dot(motion, along) / dot(along, along)) * along;
+    // An edge along the motion has no side to which it can be passed.
+    if (const double size = length(across); size > 0x1p-30 * length(motion)) return (1 / size) * across;
+  }
   if (of_wall == 2 && feature.size() == 2) {
     const Vector<3> across = cross(wall[1] - wall[0], feature[1] - feature[0]);
     if (const double size = length(across); size > 0) return (1 / size) * across;
@@ -79,6 +87,7 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
   Wall_hit<D> hit;
   hit.time = to_time(met.time);
   hit.facet = wall.facet;
+  hit.vertex = star.vertex();
   hit.resident = groups.at({obstruction.member.group, number}, feature);
   const std::vector<std::size_t> of_wall = places_used(met.wall);
   hit.kind = of_wall.size() == 1             ? Contact_kind::vertex
@@ -92,6 +101,10 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
     hit.point = hit.point + shares[i] * x;
     if (shares[i] != 0 || obstruction.feature == Body_feature::face) lowest_points.push_back(x);
   }
+  const auto lowest_vertices = spanning(group, feature, number);
+  for (std::size_t k = 0; k < lowest_vertices.size(); ++k)
+    hit.resident_weights[k] =
+        shares[static_cast<std::size_t>(std::ranges::find(vertices, lowest_vertices[k]) - vertices.begin())];
   // The wall at that time, the corners that meet first.
   const auto& corners = wall.swept.corners();
   std::vector<Point<D>> now{point_on<D>(corners[0], corners[1], hit.time.rounded())};
@@ -101,8 +114,9 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
   for (const std::size_t k : of_wall) ordered.push_back(now[k]);
   for (std::size_t k = 0; k < now.size(); ++k)
     if (std::find(of_wall.begin(), of_wall.end(), k) == of_wall.end()) ordered.push_back(now[k]);
-  hit.normal = direction(ordered, of_wall.size(), lowest_points);
-  if (dot(hit.normal, corners[1] - corners[0]) < 0) hit.normal = -1.0 * hit.normal;
+  const Vector<D> motion = corners[1] - corners[0];
+  hit.normal = direction(ordered, of_wall.size(), lowest_points, motion);
+  if (dot(hit.normal, motion) < 0) hit.normal = -1.0 * hit.normal;
   return hit;
 }
 

@@ -22,6 +22,24 @@ void World<D>::step() {
 }
 
 template <int D>
+Move_report<D> World<D>::move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
+                                    Reshape_options options, Reshape_counts& counts) {
+  if (&environment.snapshot() != snapshot_)
+    throw Error(Error_code::usage, "this World lies in another environment");
+  check_epoch();
+  Residents<D> residents;
+  for (Moving_body<D>& moving : bodies_) residents.bodies.push_back(&moving.body());
+  if (!particles_.empty()) residents.particles.emplace_back(particles_);
+  options.body = conditions_.body;
+  Reshaping<D> reshaping(environment, residents, options);
+  Move_report<D> report = reshaping.move(moves);
+  reshaping.close();
+  epoch_ = snapshot_->epoch();
+  counts += reshaping.counts();
+  return report;
+}
+
+template <int D>
 void World<D>::record_contacts(std::size_t particle) {
   for (Contact<D>& met : timed_contacts_) {
     met.normal = met.normal + Vector<D>{};  // no negative zeros for readers of tables

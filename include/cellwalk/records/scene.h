@@ -93,6 +93,41 @@ struct Catheter {
   double twist = 0;       ///< degrees by which the base is turned in a step; the maximum with Steering::twist
 };
 
+template <int D>
+struct Scene_box {
+  Point<D> lower{}, upper{};
+};
+
+template <int D>
+struct Scene_ball {
+  Point<D> centre{};
+  double radius = 1;
+};
+
+/// A closed part of space.
+template <int D>
+using Scene_shape = std::variant<Scene_box<D>, Scene_ball<D>>;
+
+/// A periodic motion of all walls along their normals.
+template <int D>
+struct Pulsation {
+  double amplitude = 0;  ///< the furthest that a wall gets from where it stands at first
+  double period = 1;     ///< in units of time
+  /// The motion runs through the environment as a wave in this direction, of this length; none: all walls
+  /// move alike.
+  std::optional<Vector<D>> wave;
+};
+
+/// How the walls of an environment move.
+template <int D>
+struct Scene_walls {
+  bool push = true;                   ///< they push what they meet out of their way; otherwise they stop
+  std::vector<Scene_shape<D>> fixed;  ///< where nothing moves
+  std::optional<Pulsation<D>> pulsation;
+  /// A table of positions of points (relative to the scene's folder); empty: none.
+  std::string motion;
+};
+
 struct Picture_request {
   int width = 1600, height = 1000;  ///< pixels
   std::vector<double> toward, up;   ///< camera: empty or 3 numbers
@@ -113,6 +148,7 @@ struct Scene {
   std::vector<std::variant<Particle_start<D>, Particle_cloud>> particles;
   std::vector<Body_start<D>> bodies;
   std::optional<Catheter<D>> catheter;
+  std::optional<Scene_walls<D>> walls;  ///< none: they stand still
   Vector<D> gravity{};
   double restitution = 1;  ///< fraction of the normal speed that a free particle keeps when it bounces
   double friction = 0;     ///< fraction of the tangential speed that it loses

@@ -22,7 +22,10 @@ namespace cellwalk {
 /// What a vertex of the environment does whose walls meet a resident.
 enum class At_contact : std::uint8_t {
   stop,  ///< it stops at a verified position just before
-  hold   ///< it stays where it was
+  hold,  ///< it stays where it was
+  /// What it meets is moved out of its way, by moves that are tested and stopped like any others; then it
+  /// tries again, and stops if that did not help.
+  push
 };
 
 /// How the move of a vertex ended.
@@ -48,7 +51,11 @@ struct Wall_hit {
   /// Weights of the corners of the wall at the point, rounded, of sum 1: first the vertex that moves, then
   /// the others in the order of the loop of the facet.
   std::array<double, static_cast<std::size_t>(D)> weights{};
+  std::uint32_t vertex = 0;  ///< of the environment, which moves
   Resident resident;
+  /// Weights of the vertices of the resident's feature at the point, rounded, of sum 1, in their order there;
+  /// those that it does not have are 0.
+  std::array<double, 3> resident_weights{};
 };
 
 /// What came of the move of a vertex.
@@ -74,7 +81,7 @@ struct Vertex_move {
 template <int D>
 struct Move_report {
   std::vector<Vertex_result<D>> short_of_target;  ///< the last result of each vertex that did not arrive
-  std::vector<Wall_hit<D>> hits;                  ///< all, in the order met
+  std::vector<Wall_hit<D>> hits;                  ///< all, in the order met, those before pushes too
   std::uint32_t rounds = 0;                       ///< in which moves were tried
 };
 
@@ -83,6 +90,11 @@ struct Reshape_options {
   /// Moves of many vertices are tried in so many rounds: a vertex that would make a cell flat goes half of
   /// the way to that, and has its next turn when the others moved.
   int most_rounds = 8;
+  /// By At_contact::push, a vertex tries to push what it meets out of its way so many times a move.
+  int most_pushes = 4;
+  /// What is checked of bodies that are pushed, and what they do at other walls: by default they slide.
+  /// Faces are swept as well if the body was last moved so.
+  Body_options body{};
 };
 
 /// The counts of moves. They are machine-independent.
@@ -104,17 +116,18 @@ struct Reshape_counts {
   std::uint64_t relinked = 0;    ///< edges that got a new chain
   std::uint64_t followed = 0;    ///< vertices and edges that walls touch, followed by definition
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
+  std::uint64_t pushes = 0;      ///< residents' features pushed out of the way
   Walk_counts walk;              ///< of all signs
 
-  static constexpr std::array<std::string_view, 17> names{
-      "moves", "made",  "cells", "walls", "opened",  "vertices", "same_cell", "edges", "same_chain",
-      "faces", "apart", "left",  "hits",  "touches", "relinked", "followed",  "rested"};
+  static constexpr std::array<std::string_view, 18> names{
+      "moves", "made",  "cells", "walls", "opened",  "vertices", "same_cell", "edges",  "same_chain",
+      "faces", "apart", "left",  "hits",  "touches", "relinked", "followed",  "rested", "pushes"};
 };
 static_assert(names_all_before<Reshape_counts>(offsetof(Reshape_counts, walk)));
 
 /// An environment that is open for moves of its vertices, with all that lies in it. Vertices move one after
-/// the other along straight lines, and the bodies and particles listed stand still meanwhile; after each move
-/// they are registered as if the environment had always been so. Nothing else reads or changes the
+/// the other along straight lines, and the bodies and particles listed stand still meanwhile, or are pushed
+/// out of the way before; after each move they are registered as if the environment had always been so. Nothing else reads or changes the
 /// environment until close(), and bodies are not moved. A body that is not listed throws Error(usage) at its
 /// next use instead of missing a wall; particles that are not listed must be located again.
 ///
@@ -148,6 +161,12 @@ class Reshaping {
   /// Each may appear once.
   /// \throw Error as above; the moves before that are made
   Move_report<D> move(std::span<const Vertex_move<D>> moves);
+
+  /// Says what move() would do by At_contact::hold if the target were given to it now; nothing moves. For
+  /// solvers that shorten a step to the first contact themselves.
+  /// \throw Error as move()
+  /// Cost: that of move().
+  Vertex_result<D> ask(std::uint32_t point, const Point<D>& target);
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved after that.
   /// Cost: about 0.6 us a cell around vertices that moved.

@@ -9,6 +9,7 @@
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
+#include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/simulation/moving_body.h>
 #include <cellwalk/simulation/run_contact.h>
 #include <cellwalk/walk/locate.h>
@@ -26,7 +27,7 @@
 namespace cellwalk {
 
 /// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
-/// snapshot, which must outlive it and must not be edited.
+/// snapshot, which must outlive it and is edited by move_walls() only.
 template <int D>
 class World {
  public:
@@ -49,6 +50,14 @@ class World {
   /// Advances everything by one time step: free particles under gravity, in order, then the bodies in order.
   /// \throw Error(usage) if the environment was edited since the world was made
   void step();
+
+  /// Moves points of the environment with everything in it, one after the other; what they meet stays where it
+  /// is or is pushed out of the way, as the options say. Bodies that are pushed are checked as in steps.
+  /// \pre `environment` is that of the snapshot
+  /// \throw Error(usage) if it is not, or was edited since the world was made; and as Reshaping::move()
+  /// Cost: that of Reshaping::move().
+  Move_report<D> move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
+                            Reshape_options options, Reshape_counts& counts);
 
   std::uint32_t steps_done() const { return steps_done_; }
   /// Free particles in the order of the scene.

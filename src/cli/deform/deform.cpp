@@ -14,9 +14,9 @@
 
 #include "cli/common/command.h"
 #include "cli/common/environment_file.h"
+#include "cli/common/moves_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
-#include "moves_file.h"
 #include "results.h"
 
 namespace cellwalk::cli {
@@ -48,15 +48,6 @@ struct Deform_files {
     return names;
   }
 };
-
-/// Refuses an environment whose points have other numbers than in its file.
-void refuse_other_numbers(const std::string& path, const Build_report& built) {
-  if (built.unused_points != 0)
-    throw Error(Error_code::input,
-                fmt::format("{}: {} of its points belong to no cell, so the numbers of others may change: "
-                            "write it without them by `cellwalk import`",
-                            path, built.unused_points));
-}
 
 /// Reads the bodies and registers them where they stand.
 template <int D>

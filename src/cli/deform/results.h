@@ -14,10 +14,9 @@
 #include <string>
 #include <vector>
 
-namespace cellwalk::cli {
+#include "cli/common/move_end_names.h"
 
-/// By Move_end.
-inline constexpr std::array<const char*, 5> move_end_names{"reached", "contact", "touch", "cell", "boundary"};
+namespace cellwalk::cli {
 
 /// The bodies that stand in the environment.
 struct Standing_bodies {

@@ -21,16 +21,18 @@ std::string field(bool is_there, std::uint32_t value) { return is_there ? std::t
 }  // namespace
 
 template <int D>
-Run_files<D>::Run_files(std::filesystem::path folder, const Cell_soup<D>& soup, const World<D>& world,
-                        const Scene<D>& scene)
+Run_files<D>::Run_files(std::filesystem::path folder, const Environment<D>& environment,
+                        const World<D>& world, const Scene<D>& scene)
     : folder_(std::move(folder)),
+      environment_(environment),
       every_(scene.output.frame_every),
       time_step_(scene.time_step),
+      walls_move_(scene.walls.has_value()),
       table_(folder_ / "contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
                                         "cell", "body", "vertex", "feature", "number"}) {
   if (every_ == 0) return;
   std::filesystem::create_directory(folder_ / "frames");
-  io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(soup));
+  if (!walls_move_) io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(environment_.soup()));
   write_frame(world);
   before_ = body_positions(world);
 }
@@ -70,7 +72,10 @@ void Run_files<D>::write_frame(const World<D>& world) {
   if (!has_bodies || !world.particles().empty()) add("particles", particles_grid(world, since_frame_));
   if (has_bodies) add("bodies", bodies_grid(world, since_frame_, before_, time_step_));
   add("contacts", contacts_grid(since_frame_));
-  entries_.push_back({time, "walls", "walls.vtu"});
+  if (walls_move_)
+    add("walls", io::vtu_of_walls(environment_.soup()));
+  else
+    entries_.push_back({time, "walls", "walls.vtu"});
   since_frame_.clear();
   ++frames_;
 }

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_CLI_RUN_FILES_H
 #define CELLWALK_CLI_RUN_FILES_H
 
+#include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/io/frame_series.h>
-#include <cellwalk/records/cell_soup.h>
 #include <cellwalk/simulation/world.h>
 
 #include <array>
@@ -22,8 +22,9 @@ using Body_contacts = std::array<std::array<std::uint64_t, 3>, 3>;
 template <int D>
 class Run_files {
  public:
-  /// Writes walls.vtu and the frame of the start into `folder`, if there are to be frames at all.
-  Run_files(std::filesystem::path folder, const Cell_soup<D>& soup, const World<D>& world,
+  /// Writes walls.vtu, unless walls move, and the frame of the start into `folder`, if there are to be frames
+  /// at all.
+  Run_files(std::filesystem::path folder, const Environment<D>& environment, const World<D>& world,
             const Scene<D>& scene);
 
   /// To be called after each step.
@@ -42,8 +43,10 @@ class Run_files {
   void write_frame(const World<D>& world);
 
   std::filesystem::path folder_;
+  const Environment<D>& environment_;
   std::uint32_t every_;
   double time_step_;
+  bool walls_move_;
   io::Csv_writer table_;
   std::vector<io::Pvd_entry> entries_;
   std::vector<Run_contact<D>> since_frame_;

@@ -21,6 +21,7 @@
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/interruption.h"
+#include "cli/common/moves_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
 #include "files.h"
@@ -28,6 +29,7 @@
 #include "recording.h"
 #include "scene_source.h"
 #include "trace.h"
+#include "walls.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -64,19 +66,26 @@ struct Prepared_environment {
   Certificate certificate;
 };
 
-Prepared_environment prepare(const Environment_source& source, const std::string& scene) {
+/// \param walls how they move; null: they stand still
+template <int D>
+Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls,
+                             const std::string& scene) {
   if (const auto* file = std::get_if<std::string>(&source)) {
     Build_options options;
     options.keep_map = false;
+    options.simplicial = walls != nullptr;
     Loaded_environment loaded = load_with_progress(*file, options);
+    if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
     return {std::move(loaded.environment), loaded.built.certificate};
   }
   const auto& generator_call = std::get<Generator_call>(source);
   const Progress progress("generating and certifying the environment");
   Build_report report;
   const auto build = [&](auto soup) -> Any_environment {
-    constexpr int D = std::tuple_size_v<typename decltype(soup.points)::value_type>;
-    return Environment<D>::build(std::move(soup), build_of_generated, &report);
+    constexpr int dimension = std::tuple_size_v<typename decltype(soup.points)::value_type>;
+    Build_options options = build_of_generated;
+    options.simplicial = walls != nullptr;
+    return Environment<dimension>::build(std::move(soup), options, &report);
   };
   try {
     auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },
@@ -94,7 +103,7 @@ struct Run {
   const Scene<D>& scene;
   const Run_options& options;
   Run_outputs& outputs;
-  const Environment<D>& environment;
+  Environment<D>& environment;
   const Certificate& certificate;
   const Scene_bodies<D>& bodies;
 
@@ -105,8 +114,10 @@ struct Run {
   World<D> make_world() const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
-  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_recording<D>* motion) const;
-  std::string summary(const World<D>& world, const Run_files<D>& files, bool motion, bool picture) const;
+  ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
+                      const Run_recording<D>* motion) const;
+  std::string summary(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
+                      bool motion, bool picture) const;
 };
 
 template <int D>
@@ -124,10 +135,11 @@ template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
   const auto record = start_trace(outputs.record, options.scene, world);
-  const Cell_soup<D> soup = environment.soup();
   const std::filesystem::path& folder = outputs.folder.path();
   const Interruption interruption;
-  Run_files<D> files(folder, soup, world, scene);
+  Run_files<D> files(folder, environment, world, scene);
+  std::optional<Run_walls<D>> walls;
+  if (scene.walls) walls.emplace(folder, environment, scene);
   std::optional<Run_recording<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
@@ -136,6 +148,7 @@ void Run<D>::operator()() const {
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
+      if (walls) walls->step(world);
       world.step();
       if (record) record->record_step();
       files.record(world, i == steps());
@@ -147,6 +160,11 @@ void Run<D>::operator()() const {
   }
   world.validate();
   files.finish();
+  if (walls) {
+    const Progress progress("certifying the walls where they are now");
+    environment.certify();
+    walls->finish();
+  }
   if (motion) motion->commit();
   if (picture) {
     const Progress progress("drawing");
@@ -162,15 +180,16 @@ void Run<D>::operator()() const {
     how.camera.up = direction(request.up);
     if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
     const drawing::Image image =
-        drawing::render(picture->draw(soup, world, scene, caption(world, contacts)), how);
+        drawing::render(picture->draw(environment.soup(), world, scene, caption(world, contacts)), how);
     io::write_file(folder / "picture.png", drawing::encode_png(image));
   }
-  const ordered_json said = report(world, files, motion ? &*motion : nullptr);
+  const ordered_json said = report(world, files, walls ? &*walls : nullptr, motion ? &*motion : nullptr);
   io::write_json(folder / "run.json", said);
   if (record) io::write_body_trace(*outputs.record, record->trace());
   write_json(outputs.json, said);
   interruption.check();
-  outputs.all.commit(summary(world, files, motion.has_value(), picture.has_value()));
+  outputs.all.commit(
+      summary(world, files, walls ? &*walls : nullptr, motion.has_value(), picture.has_value()));
 }
 
 template <int D>
@@ -193,7 +212,7 @@ ordered_json Run<D>::scene_text() const {
 }
 
 template <int D>
-ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
+ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
                             const Run_recording<D>* motion) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
@@ -204,6 +223,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
   if (!world.bodies().empty())
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
+  if (walls) result["walls"] = walls->report();
   result["frames"] = files.frame_count();
   if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->frame_count()}};
   result["validated"] = true;  // World::validate has returned
@@ -217,8 +237,8 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files,
 }
 
 template <int D>
-std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, bool motion,
-                            bool picture) const {
+std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
+                            bool motion, bool picture) const {
   std::string text = fmt::format("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
@@ -241,11 +261,13 @@ std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, bo
   if (sizes.guided > 0)
     line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
   if (const Rod<D>* rod = world.catheter()) line("catheter", describe_catheter(*rod));
+  if (walls) line("walls", walls->describe());
   line("validated",
        sizes.bodies > 0
            ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
+  if (walls) written += ", walls.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (motion) written += ", motion.gz";
   if (picture) written += ", picture.png";
@@ -261,8 +283,10 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
     if (const auto* file = std::get_if<std::string>(&body.source)) outputs.all.also_reads(*file);
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, options.scene);
-  const Prepared_environment prepared = prepare(scene.environment, options.scene);
-  const auto* environment = std::get_if<Environment<D>>(&prepared.environment);
+  if (scene.walls && !scene.walls->motion.empty()) outputs.all.also_reads(scene.walls->motion);
+  Prepared_environment prepared =
+      prepare(scene.environment, scene.walls ? &*scene.walls : nullptr, options.scene);
+  auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
     throw Error(Error_code::input,
                 fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",

@@ -15,6 +15,7 @@ void check_recordable(const Scene<D>& scene, const std::string& scene_name) {
     throw Error(Error_code::input, fmt::format("{}: {}: {}", scene_name, key, what));
   };
   if (D == 2) refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
+  if (scene.walls) refuse("walls", "a trace has walls that stand still: leave them out");
   if (!scene.particles.empty()) refuse("particles", "a trace holds bodies only: leave them out");
 }
 

@@ -85,6 +85,60 @@ Catheter<D> catheter(const Json_node& node) {
   return result;
 }
 
+template <int D>
+Scene_shape<D> shape(const Json_node& node) {
+  node.expect_keys({"box", "ball"});
+  if (node.has("box") == node.has("ball")) node.fail("expected either \"box\" or \"ball\"");
+  if (const auto box = node.find("box")) {
+    const auto corners = box->elements();
+    if (corners.size() != 2) box->fail("expected the lower and the upper corner");
+    const Scene_box<D> result{corners[0].tuple<D>(), corners[1].tuple<D>()};
+    for (std::size_t k = 0; k < D; ++k)
+      if (result.lower[k] > result.upper[k])
+        box->fail("the first corner is the lower one in all coordinates");
+    return result;
+  }
+  const auto parts = node.at("ball").elements();
+  if (parts.size() != 2) node.at("ball").fail("expected the centre and the radius");
+  return Scene_ball<D>{parts[0].tuple<D>(), parts[1].positive()};
+}
+
+template <int D>
+Pulsation<D> pulsation(const Json_node& node) {
+  node.expect_keys({"amplitude", "period", "wave"});
+  Pulsation<D> result;
+  result.amplitude = node.at("amplitude").positive();
+  result.period = node.at("period").positive();
+  if (const auto wave = node.find("wave")) {
+    result.wave = wave->tuple<D>();
+    if (!(dot(*result.wave, *result.wave) > 0)) wave->fail("a direction cannot be zero");
+  }
+  return result;
+}
+
+template <int D>
+Scene_walls<D> walls(const Json_node& node) {
+  node.expect_keys({"at_contact", "fixed", "pulsation", "motion"});
+  Scene_walls<D> result;
+  if (const auto at_contact = node.find("at_contact")) {
+    const std::string word = at_contact->string();
+    if (word != "push" && word != "stop") at_contact->fail("expected \"push\" or \"stop\"");
+    result.push = word == "push";
+  }
+  if (const auto fixed = node.find("fixed"))
+    for (const Json_node& part : fixed->elements()) result.fixed.push_back(shape<D>(part));
+  if (const auto p = node.find("pulsation")) result.pulsation = pulsation<D>(*p);
+  if (const auto motion = node.find("motion")) {
+    result.motion = motion->string();
+    if (result.motion.empty()) motion->fail("expected the name of a table");
+  }
+  if (result.pulsation.has_value() == !result.motion.empty())
+    node.fail("walls move either by \"pulsation\" or by a table, \"motion\": give one of them");
+  if (!result.motion.empty() && !result.fixed.empty())
+    node.at("fixed").fail("only for \"pulsation\": a table says itself which points move");
+  return result;
+}
+
 Picture_request picture(const Json_node& node) {
   node.expect_keys({"width", "height", "toward", "up"});
   Picture_request request;
@@ -121,8 +175,8 @@ Scene_output output(const Json_node& node) {
 
 template <int D>
 Scene<D> scene(const Json_node& node) {
-  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "gravity",
-                    "restitution", "friction", "time_step", "steps", "output"});
+  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "walls",
+                    "gravity", "restitution", "friction", "time_step", "steps", "output"});
   Scene<D> result;
   result.environment = environment_source(node.at("environment"));
   if (const auto title = node.find("title")) result.title = title->string();
@@ -131,6 +185,7 @@ Scene<D> scene(const Json_node& node) {
   if (const auto bodies = node.find("bodies"))
     for (const Json_node& b : bodies->elements()) result.bodies.push_back(detail::body_start<D>(b));
   if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
+  if (const auto w = node.find("walls")) result.walls = walls<D>(*w);
   if (result.particles.empty() && result.bodies.empty() && !result.catheter)
     node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();
@@ -160,6 +215,7 @@ Any_scene parse_scene(const std::string& name, std::string_view text, const std:
         };
         resolve(s.environment);
         for (auto& body : s.bodies) resolve(body.source);
+        if (s.walls && !s.walls->motion.empty()) s.walls->motion = (folder / s.walls->motion).string();
       },
       result);
   return result;

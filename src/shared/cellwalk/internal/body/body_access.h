@@ -41,6 +41,10 @@ class Body_access {
   const Supporting_walls& supporting_walls(std::uint32_t face) const;
   void rest(std::uint32_t face, const Supporting_walls& walls);
 
+  /// Moves a vertex towards a target, as far as walls allow, as a step does; whatever the epoch.
+  /// \pre leave_regions() was called; the target is finite
+  void push(std::uint32_t vertex, const Point<D>& target, const Body_options& options, Body_counts& counts);
+
  private:
   Body_state<D>* state_;
 };

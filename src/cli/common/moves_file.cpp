@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
+#include <utility>
 
 namespace cellwalk::cli {
 namespace {
@@ -33,11 +36,9 @@ std::uint32_t point_to_move(const io::Parsed_number& number, Environment<D>& env
   return point;
 }
 
-}  // namespace
-
 template <int D>
-std::vector<Vertex_move<D>> read_moves(const std::string& path, Environment<D>& environment) {
-  const io::Csv_table table = io::Csv_table::read(path);
+std::vector<Vertex_move<D>> moves_of(const io::Csv_table& table, const std::string& path,
+                                     Environment<D>& environment) {
   const std::size_t column = table.column("point");
   const auto targets = io::query_rows<D, 1>(table, {""});
   std::vector<Vertex_move<D>> moves;
@@ -54,7 +55,50 @@ std::vector<Vertex_move<D>> read_moves(const std::string& path, Environment<D>& 
   return moves;
 }
 
+constexpr double most_steps = 100'000'000;
+
+}  // namespace
+
+void refuse_other_numbers(const std::string& path, const Build_report& built) {
+  if (built.unused_points != 0)
+    throw Error(Error_code::input,
+                fmt::format("{}: {} of its points belong to no cell, so the numbers of others may change: "
+                            "write it without them by `cellwalk import`",
+                            path, built.unused_points));
+}
+
+template <int D>
+std::vector<Vertex_move<D>> read_moves(const std::string& path, Environment<D>& environment) {
+  return moves_of(io::Csv_table::read(path), path, environment);
+}
+
+template <int D>
+std::vector<Timed_move<D>> read_timed_moves(const std::string& path, Environment<D>& environment) {
+  const io::Csv_table table = io::Csv_table::read(path);
+  const std::size_t column = table.column("step");
+  const std::vector<Vertex_move<D>> moves = moves_of(table, path, environment);
+  std::vector<Timed_move<D>> result;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  for (std::size_t row = 0; row < moves.size(); ++row) {
+    const auto refuse = [&](const std::string& what) {
+      throw Error(Error_code::input, fmt::format("{}:{}: {}", path, table.line(row), what));
+    };
+    const io::Parsed_number number = table.number(row, column);
+    if (!number) refuse(number.reason);
+    if (!(number.value >= 1 && number.value <= most_steps) || number.value != std::floor(number.value))
+      refuse(fmt::format("there is no step {}: steps are counted from 1", io::shortest(number.value)));
+    const auto step = static_cast<std::uint32_t>(number.value);
+    if (!seen.emplace(step, moves[row].point).second)
+      refuse(fmt::format("point {} has two places in step {}: give one", moves[row].point, step));
+    result.push_back({step, moves[row]});
+  }
+  std::ranges::stable_sort(result, {}, &Timed_move<D>::step);
+  return result;
+}
+
 template std::vector<Vertex_move<2>> read_moves(const std::string&, Environment<2>&);
 template std::vector<Vertex_move<3>> read_moves(const std::string&, Environment<3>&);
+template std::vector<Timed_move<2>> read_timed_moves(const std::string&, Environment<2>&);
+template std::vector<Timed_move<3>> read_timed_moves(const std::string&, Environment<3>&);
 
 }  // namespace cellwalk::cli

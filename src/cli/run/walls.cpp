@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "walls.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+#include "cli/common/contact_kind_names.h"
+#include "cli/common/counts_json.h"
+
+namespace cellwalk::cli {
+
+template <int D>
+Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& environment,
+                        const Scene<D>& scene)
+    : environment_(environment),
+      time_step_(scene.time_step),
+      table_(folder / "walls.csv", {"step", "vertex", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cell",
+                                    "body", "particle", "feature", "number"}) {
+  options_.at_contact = scene.walls->push ? At_contact::push : At_contact::stop;
+  if (scene.walls->pulsation)
+    pulsation_.emplace(environment.snapshot(), *scene.walls->pulsation, scene.walls->fixed);
+  else
+    motion_ = read_timed_moves(scene.walls->motion, environment);
+}
+
+/// Where points are to be after a step, as far as they are not there for sure.
+template <int D>
+std::vector<Vertex_move<D>> Run_walls<D>::targets(std::uint32_t step) {
+  if (pulsation_) return pulsation_->targets(step * time_step_);
+  for (; next_ < motion_.size() && motion_[next_].step <= step; ++next_)
+    pending_[motion_[next_].move.point] = motion_[next_].move.target;
+  std::vector<Vertex_move<D>> result;
+  for (const auto& [point, target] : pending_) result.push_back({point, target});
+  return result;
+}
+
+template <int D>
+void Run_walls<D>::step(World<D>& world) {
+  const std::uint32_t step = world.steps_done() + 1;
+  const std::vector<Vertex_move<D>> moves = targets(step);
+  if (moves.empty()) return;
+  const Move_report<D> report = world.move_walls(environment_, moves, options_, counts_);
+  moves_ += moves.size();
+  ends_[static_cast<std::size_t>(Move_end::reached)] += moves.size() - report.short_of_target.size();
+  std::map<std::uint32_t, Point<D>> left;
+  for (const Vertex_result<D>& result : report.short_of_target) {
+    ++ends_[static_cast<std::size_t>(result.end)];
+    if (const auto asked = pending_.find(result.point); asked != pending_.end()) left.insert(*asked);
+  }
+  pending_ = std::move(left);
+  record(step, report);
+}
+
+template <int D>
+void Run_walls<D>::record(std::uint32_t step, const Move_report<D>& report) {
+  // In the plane the third coordinates are left empty, as the writer does with what is not finite.
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const Snapshot<D>& snapshot = environment_.snapshot();
+  for (const Wall_hit<D>& hit : report.hits) {
+    const Point<D>& x = hit.point;
+    const Vector<D> n = hit.normal + Vector<D>{};  // no negative zeros
+    const Resident& resident = hit.resident;
+    const std::string body = resident.is_particle ? "" : std::to_string(resident.owner);
+    const std::string particle = resident.is_particle ? std::to_string(resident.number) : "";
+    const std::string number = resident.is_particle ? "" : std::to_string(resident.number);
+    const char* const feature =
+        resident.is_particle ? "" : feature_names[static_cast<std::size_t>(resident.feature)];
+    table_.row(step, hit.vertex, hit.time.rounded(), x[0], x[1], D == 3 ? x[D - 1] : nothing,
+               contact_kind_names[static_cast<std::size_t>(hit.kind)], n[0], n[1],
+               D == 3 ? n[D - 1] : nothing, snapshot.index(snapshot.cell_of(hit.facet)), body, particle,
+               feature, number);
+  }
+  hits_ += report.hits.size();
+}
+
+template <int D>
+nlohmann::ordered_json Run_walls<D>::report() const {
+  nlohmann::ordered_json json{{"moves", moves_}};
+  for (std::size_t e = 0; e < ends_.size(); ++e) json["status"][move_end_names[e]] = ends_[e];
+  json["contacts"] = hits_;
+  json["counts"] = to_json(counts_);
+  json["counts"]["walk"] = to_json(counts_.walk);
+  return json;
+}
+
+template <int D>
+std::string Run_walls<D>::describe() const {
+  std::string ends;
+  for (std::size_t e = 1; e < ends_.size(); ++e)
+    if (ends_[e] != 0) ends += fmt::format(", {} {}", ends_[e], move_end_names[e]);
+  return fmt::format("{} moves of points: {} {}{}; {} contacts, {} pushes", moves_, ends_[0],
+                     move_end_names[0], ends, hits_, counts_.pushes);
+}
+
+template class Run_walls<2>;
+template class Run_walls<3>;
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Walls that move in a run: by a pulsation, or as a table says.
+#ifndef CELLWALK_CLI_RUN_WALLS_H
+#define CELLWALK_CLI_RUN_WALLS_H
+
+#include <cellwalk/internal/io/csv.h>
+#include <cellwalk/simulation/wall_pulsation.h>
+#include <cellwalk/simulation/world.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/common/move_end_names.h"
+#include "cli/common/moves_file.h"
+
+namespace cellwalk::cli {
+
+/// Moves the walls before each step of a world, and writes what they meet to walls.csv.
+template <int D>
+class Run_walls {
+ public:
+  /// \param folder for walls.csv
+  /// \throw Error(input) for a table that is none, or an environment with cells at points that move that are
+  ///        no simplices
+  Run_walls(const std::filesystem::path& folder, Environment<D>& environment, const Scene<D>& scene);
+
+  /// Moves the walls to where they are to be after the step that is next. What a wall cannot do now it tries
+  /// again in the step after.
+  void step(World<D>& world);
+
+  /// Completes the table.
+  void finish() { table_.commit(); }
+
+  nlohmann::ordered_json report() const;
+  std::string describe() const;
+
+ private:
+  std::vector<Vertex_move<D>> targets(std::uint32_t step);
+  void record(std::uint32_t step, const Move_report<D>& report);
+
+  Environment<D>& environment_;
+  double time_step_;
+  Reshape_options options_;
+  io::Csv_writer table_;
+  std::optional<Wall_pulsation<D>> pulsation_;
+  std::vector<Timed_move<D>> motion_;
+  std::size_t next_ = 0;                       ///< of the motion
+  std::map<std::uint32_t, Point<D>> pending_;  ///< places of the motion that points did not reach yet
+  std::uint64_t moves_ = 0;                    ///< of points, asked for
+  std::array<std::uint64_t, move_end_names.size()> ends_{};
+  std::uint64_t hits_ = 0;
+  Reshape_counts counts_;
+};
+
+extern template class Run_walls<2>;
+extern template class Run_walls<3>;
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_WALLS_H

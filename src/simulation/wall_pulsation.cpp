@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/simulation/wall_pulsation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace cellwalk {
+namespace {
+
+/// Toward fixed parts, the motion fades over so many amplitudes.
+constexpr double fading_amplitudes = 10;
+/// Each sweep over the points between walls takes each to the mean of its neighbours. Points lie few cells
+/// from a wall, so that more sweeps change little.
+constexpr int smoothing_sweeps = 64;
+
+double distance(const Scene_box<2>& box, const Point<2>& x) {
+  const auto off = [&](std::size_t k) { return std::max({box.lower[k] - x[k], 0.0, x[k] - box.upper[k]}); };
+  return std::hypot(off(0), off(1));
+}
+
+double distance(const Scene_box<3>& box, const Point<3>& x) {
+  const auto off = [&](std::size_t k) { return std::max({box.lower[k] - x[k], 0.0, x[k] - box.upper[k]}); };
+  return std::hypot(off(0), off(1), off(2));
+}
+
+template <int D>
+double distance(const Scene_ball<D>& ball, const Point<D>& x) {
+  return std::max(0.0, length(x - ball.centre) - ball.radius);
+}
+
+/// Perpendicular to a facet, as long as it is large.
+Vector<2> across(std::span<const Point<2>> loop) {
+  const Vector<2> along = loop[1] - loop[0];
+  return {along[1], -along[0]};
+}
+
+Vector<3> across(std::span<const Point<3>> loop) {
+  Vector<3> sum{};
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    sum = sum + cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
+  return sum;
+}
+
+template <int D>
+Point<D> mean(std::span<const Point<D>> points) {
+  Point<D> sum{};
+  for (const Point<D>& x : points) sum = sum + x;
+  return (1.0 / static_cast<double>(points.size())) * sum;
+}
+
+/// What is known of each point of an environment: how walls around it face, and its neighbours along edges.
+template <int D>
+struct Point_surroundings {
+  std::vector<Vector<D>> normals;  ///< the sum of those of its walls, away from free space
+  std::vector<char> is_at_wall, is_held;
+  std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< a point and a neighbour of it, ascending
+};
+
+template <int D>
+Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
+  Point_surroundings<D> result;
+  const std::size_t count = snapshot.points().size();
+  result.normals.resize(count);
+  result.is_at_wall.resize(count, 0);
+  result.is_held.resize(count, 0);
+  std::vector<Point<D>> corners, places;
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+    const Cell cell = snapshot.cell(i);
+    const Cell_view<D> view = snapshot.view(cell);
+    corners.clear();
+    for (std::size_t v = 0; v < view.vertex_count(); ++v) corners.push_back(view.point(v));
+    const Point<D> middle = mean<D>(corners);
+    for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
+      const Half_facet facet = snapshot.half_facet(cell, f);
+      const std::vector<std::uint32_t> loop = snapshot.loop(facet);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::uint32_t u = loop[k], v = loop[(k + 1) % loop.size()];
+        result.neighbours.push_back({u, v});
+        result.neighbours.push_back({v, u});
+      }
+      if (snapshot.is_solid(cell)) {
+        if (snapshot.neighbour(facet) == Cell::none)
+          for (const std::uint32_t v : loop) result.is_held[v] = 1;
+        continue;
+      }
+      if (!snapshot.is_impassable(facet)) continue;
+      places.clear();
+      for (const std::uint32_t v : loop) places.push_back(snapshot.point(v));
+      Vector<D> normal = across(places);
+      if (dot(normal, mean<D>(places) - middle) < 0) normal = -1.0 * normal;
+      for (const std::uint32_t v : loop) {
+        result.normals[v] = result.normals[v] + normal;
+        result.is_at_wall[v] = 1;
+      }
+    }
+  }
+  std::sort(result.neighbours.begin(), result.neighbours.end());
+  result.neighbours.erase(std::unique(result.neighbours.begin(), result.neighbours.end()),
+                          result.neighbours.end());
+  return result;
+}
+
+/// Directions at walls given, each other point takes the mean of its neighbours, again and again.
+template <int D>
+void smooth(const Point_surroundings<D>& around, std::vector<Vector<D>>& directions) {
+  const auto& pairs = around.neighbours;
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep)
+    for (std::size_t i = 0; i < pairs.size();) {
+      const std::uint32_t point = pairs[i][0];
+      Vector<D> sum{};
+      std::size_t n = i;
+      for (; n < pairs.size() && pairs[n][0] == point; ++n) sum = sum + directions[pairs[n][1]];
+      if (!around.is_at_wall[point] && !around.is_held[point])
+        directions[point] = (1.0 / static_cast<double>(n - i)) * sum;
+      i = n;
+    }
+}
+
+}  // namespace
+
+template <int D>
+Wall_pulsation<D>::Wall_pulsation(const Snapshot<D>& snapshot, const Pulsation<D>& pulsation,
+                                  std::span<const Scene_shape<D>> fixed)
+    : pulsation_(pulsation) {
+  Point_surroundings<D> around = surroundings(snapshot);
+  const auto share = [&](const Point<D>& x) {
+    double result = 1;
+    for (const Scene_shape<D>& shape : fixed) {
+      const double away = std::visit([&](const auto& s) { return distance(s, x); }, shape);
+      result = std::min(result, away / (fading_amplitudes * pulsation.amplitude));
+    }
+    return result;
+  };
+  std::vector<Vector<D>> directions(around.normals.size());
+  for (std::uint32_t i = 0; i < directions.size(); ++i) {
+    const double moved = share(snapshot.point(i)), size = length(around.normals[i]);
+    if (moved == 0) around.is_held[i] = 1;
+    if (around.is_at_wall[i] && !around.is_held[i] && size > 0)
+      directions[i] = (moved / size) * around.normals[i];
+  }
+  smooth(around, directions);
+  for (std::uint32_t i = 0; i < directions.size(); ++i)
+    if (directions[i] != Vector<D>{}) movers_.push_back({i, snapshot.point(i), directions[i]});
+}
+
+template <int D>
+std::vector<Vertex_move<D>> Wall_pulsation<D>::targets(double time) const {
+  const double turns = time / pulsation_.period, size = pulsation_.amplitude * std::min(1.0, turns);
+  std::vector<Vertex_move<D>> result;
+  result.reserve(movers_.size());
+  for (const Mover& mover : movers_) {
+    double phase = turns;
+    if (pulsation_.wave) {
+      const Vector<D>& wave = *pulsation_.wave;
+      phase -= dot(mover.start - Point<D>{}, wave) / dot(wave, wave);
+    }
+    const double way = size * std::sin(2 * std::numbers::pi * phase);
+    result.push_back({mover.point, mover.start + way * mover.direction});
+  }
+  return result;
+}
+
+template class Wall_pulsation<2>;
+template class Wall_pulsation<3>;
+
+}  // namespace cellwalk
