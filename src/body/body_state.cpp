@@ -124,7 +124,7 @@ void Body_state<D>::spread_marks() {
 
 template <int D>
 void Body_state<D>::make_free_moves(std::span<const Point<D>> targets, bool parallel, Body_counts& counts) {
-  if (!pool.is_used()) {
+  if (!pool.is_used() || !free_moves.is_used()) {
     free_moves.make_none();
     return;
   }

@@ -11,8 +11,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Smaller bodies are moved by one thread, and by parts of no less: to wake another takes some microseconds.
-constexpr std::size_t least_vertices_in_parallel = 2048, least_vertices_of_thread = 1024;
+/// A thread moves no fewer: to wake another takes some microseconds.
+constexpr std::size_t least_vertices_of_thread = 1024;
 
 template <class Work>
 void for_each_word(std::size_t words, std::size_t words_at_once, bool parallel, const Work& work) {
@@ -29,7 +29,9 @@ void for_each_word(std::size_t words, std::size_t words_at_once, bool parallel, 
 
 template <int D>
 Free_moves<D>::Free_moves(std::size_t vertices, const Body_certificates& certificates) : vertices_(vertices) {
-  if (!certificates.star_regions || vertices < certificates.least_vertices_of_parts) return;
+  if (!certificates.star_regions ||
+      vertices < std::max(certificates.least_vertices_of_parts, certificates.least_vertices_at_once))
+    return;
   const std::size_t words = (vertices + bits - 1) / bits;
   left_.resize(words);
   is_reordered_.resize(words);
@@ -46,7 +48,6 @@ void Free_moves<D>::make_none() {
 template <int D>
 std::size_t Free_moves<D>::make(const Movable<D>& body, std::span<const Point<D>> targets,
                                 std::span<const std::uint64_t> is_supported, bool parallel) {
-  parallel = parallel && vertices_ >= least_vertices_in_parallel;
   for_each_word(word_count(), least_vertices_of_thread / bits, parallel, [&](std::size_t word) {
     find_plain(body, targets, is_supported, word);
     make(body, targets, word);

@@ -33,10 +33,12 @@ class Free_moves {
  public:
   Free_moves(std::size_t vertices, const Body_certificates& certificates);
 
+  /// True if the body is one that makes such moves.
+  bool is_used() const { return !left_.empty(); }
   /// Makes the moves of all plain vertices; the rest are left to be made one by one, in order. Which are left
   /// does not depend on the number of threads.
   /// \param is_supported bit by bit, the vertices of faces that rest on walls: they are left
-  /// \pre regions are used in this step
+  /// \pre is_used(); regions are used in this step
   /// Returns how many were made.
   std::size_t make(const Movable<D>& body, std::span<const Point<D>> targets,
                    std::span<const std::uint64_t> is_supported, bool parallel);

@@ -28,7 +28,7 @@ struct Certificate_set {
 };
 
 /// The first set is the empty one. Where regions for parts of a body are asked for, bodies of any size have
-/// them.
+/// them; in some of these sets they also make moves at once.
 inline std::vector<Certificate_set> certificate_sets() {
   constexpr std::size_t any = 1, never = ~std::size_t{0};
   constexpr detail::Body_certificates no_others{false, false, false, false, never};
@@ -43,10 +43,16 @@ inline std::vector<Certificate_set> certificate_sets() {
       {"none", false, no_others, none, in_region},
       {"all", true, {}, all, in_region},
       {"all, in bodies of any size", true, {true, true, true, true, any}, all, in_region},
+      {"all, moves at once", true, {true, true, true, true, any, any}, all, in_region},
       {"region of the body", true, {true, false, false, false, never}, none, in_region},
       {"region of the body by clusters", true, {true, false, true, false, any}, none, in_region},
       {"regions of stars", true, {false, true, false, false, any}, none, in_region},
       {"regions of stars by clusters", true, {false, true, true, false, any}, none, in_region},
+      {"regions of stars by clusters, moves at once",
+       true,
+       {false, true, true, false, any, any},
+       none,
+       in_region},
       // A vertex that planes alone prove inside its cell does not walk.
       {"planes", false, {false, false, false, true, never}, none, walks, true},
       {"planes, and the same chain",

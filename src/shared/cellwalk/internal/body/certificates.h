@@ -19,6 +19,8 @@ struct Body_certificates {
   bool planes = true;        ///< moves that planes alone prove free, by Edge_rule::at_target
   /// Bodies of so many vertices have regions about stars, and clusters.
   std::size_t least_vertices_of_parts = 33;
+  /// Of these, bodies of so many vertices make the moves that known regions prove free at once.
+  std::size_t least_vertices_at_once = 2048;
 };
 
 // use_certificates(body, chosen, counts), declared with Body, chooses the certificates of one body, which
