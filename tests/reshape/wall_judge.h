@@ -50,8 +50,8 @@ class Wall_judge {
 
   Wall_judge(World& world, Tally& tally) : world_(world), tally_(tally) {}
 
-  /// Makes a move, and judges it.
-  void judge(Reshaping<D>& reshaping, std::uint32_t v, const Point<D>& target) {
+  /// Makes a move by At_contact::hold, or asks about it, and judges the answer.
+  void judge(Reshaping<D>& reshaping, std::uint32_t v, const Point<D>& target, bool asks = false) {
     const Expected<D> expected = expect(v, target);
     const Point<D> from = world_.snapshot.point(v);
     const std::vector<Particle<D>> before = world_.particles;
@@ -63,17 +63,17 @@ class Wall_judge {
         return may_meet(simplex, set) && relation<D>(simplex, set) != Relation::apart;
       });
     });
-    const Vertex_result<D> result = reshaping.move(v, target);
+    const Vertex_result<D> result = asks ? reshaping.ask(v, target) : reshaping.move(v, target);
     ++tally_.moves;
-    if (!expected.inverts_cell && target != from && result.end != Move_end::boundary)
+    if (!asks && !expected.inverts_cell && target != from && result.end != Move_end::boundary)
       fates_.judge({world_.snapshot, v, from, target}, result, expected.first_of_faces, tally_.fates);
     if constexpr (D == 3)
-      if (result.end == Move_end::reached) {
+      if (!asks && result.end == Move_end::reached) {
         const std::size_t before_move = faces_.size();
         faces_.note(v, from);
         tally_.landed += faces_.size() > before_move;
       }
-    tally_.wrong_ends += result.position != world_.snapshot.point(v);
+    tally_.wrong_ends += world_.snapshot.point(v) != (asks ? from : result.position);
     tally_.wrong_ends +=
         result.end != Move_end::boundary && expected.inverts_cell != (result.end == Move_end::cell);
     switch (result.end) {

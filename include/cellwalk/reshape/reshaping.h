@@ -162,7 +162,7 @@ class Reshaping {
   /// \throw Error as above; the moves before that are made
   Move_report<D> move(std::span<const Vertex_move<D>> moves);
 
-  /// Says what move() would do by At_contact::hold if the target were given to it now; nothing moves. For
+  /// Says what move() would do by At_contact::hold, and where the vertex would be then; nothing moves. For
   /// solvers that shorten a step to the first contact themselves.
   /// \throw Error as move()
   /// Cost: that of move().

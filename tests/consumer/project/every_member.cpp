@@ -87,7 +87,7 @@ void keep_reshaping() {
       +[](Environment<D>& e, const Residents<D>& r) { return Reshaping<D>(e, r); }, &moved<Reshaping<D>>,
       static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
       static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
-      &Reshaping<D>::close, &Reshaping<D>::counts);
+      &Reshaping<D>::ask, &Reshaping<D>::close, &Reshaping<D>::counts);
 }
 
 template <int D>
