@@ -31,7 +31,7 @@ double distance(const Scene_ball<D>& ball, const Point<D>& x) {
   return std::max(0.0, length(x - ball.centre) - ball.radius);
 }
 
-/// Perpendicular to a facet, as long as it is large.
+/// Perpendicular to a facet, out of its cell, as long as it is large.
 Vector<2> across(std::span<const Point<2>> loop) {
   const Vector<2> along = loop[1] - loop[0];
   return {along[1], -along[0]};
@@ -42,13 +42,6 @@ Vector<3> across(std::span<const Point<3>> loop) {
   for (std::size_t i = 1; i + 1 < loop.size(); ++i)
     sum = sum + cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
   return sum;
-}
-
-template <int D>
-Point<D> mean(std::span<const Point<D>> points) {
-  Point<D> sum{};
-  for (const Point<D>& x : points) sum = sum + x;
-  return (1.0 / static_cast<double>(points.size())) * sum;
 }
 
 /// What is known of each point of an environment: how walls around it face, and its neighbours along edges.
@@ -66,13 +59,9 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
   result.normals.resize(count);
   result.is_at_wall.resize(count, 0);
   result.is_held.resize(count, 0);
-  std::vector<Point<D>> corners, places;
+  std::vector<Point<D>> corners;
   for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
     const Cell cell = snapshot.cell(i);
-    const Cell_view<D> view = snapshot.view(cell);
-    corners.clear();
-    for (std::size_t v = 0; v < view.vertex_count(); ++v) corners.push_back(view.point(v));
-    const Point<D> middle = mean<D>(corners);
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);
       const std::vector<std::uint32_t> loop = snapshot.loop(facet);
@@ -87,10 +76,9 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
         continue;
       }
       if (!snapshot.is_impassable(facet)) continue;
-      places.clear();
-      for (const std::uint32_t v : loop) places.push_back(snapshot.point(v));
-      Vector<D> normal = across(places);
-      if (dot(normal, mean<D>(places) - middle) < 0) normal = -1.0 * normal;
+      corners.clear();
+      for (const std::uint32_t v : loop) corners.push_back(snapshot.point(v));
+      const Vector<D> normal = across(corners);
       for (const std::uint32_t v : loop) {
         result.normals[v] = result.normals[v] + normal;
         result.is_at_wall[v] = 1;

@@ -111,7 +111,7 @@ const Refusal scene_refusals[] = {
      "s.json: particle: unknown key; known here: bodies, catheter, dimension, environment, friction, "
      "gravity, "
      "output, particles, "
-     "restitution, steps, time_step, title"},
+     "restitution, steps, time_step, title, walls"},
     {R"({"environment": "e", "title": 3})", "s.json: title: expected a text"},
     {R"({"environment": "e", "steps": 1})",
      "s.json: nothing moves: give \"particles\", \"bodies\" or \"catheter\""},

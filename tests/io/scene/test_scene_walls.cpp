@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Walls that move, in scene files.
+#include <cellwalk/io/scene.h>
+#include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <variant>
+
+namespace cellwalk::io {
+namespace {
+
+/// A scene of so many dimensions with these walls.
+std::string scene_with(const std::string& walls, int dimension = 3) {
+  return R"({"environment": "e", "particles": [{"count": 1}], "steps": 1, "dimension": )" +
+         std::to_string(dimension) + R"(, "walls": )" + walls + "}";
+}
+
+TEST(SceneWalls, Pulsate) {
+  const auto scene = std::get<Scene<3>>(parse_scene("s.json", scene_with(R"({"at_contact": "stop",
+    "fixed": [{"box": [[0, 0, 0], [1, 2, 3]]}, {"ball": [[4, 5, 6], 7]}],
+    "pulsation": {"amplitude": 0.25, "period": 0.5, "wave": [0, 0, 6]}})")));
+  ASSERT_TRUE(scene.walls);
+  EXPECT_FALSE(scene.walls->push);
+  ASSERT_EQ(scene.walls->fixed.size(), 2u);
+  EXPECT_EQ(std::get<Scene_box<3>>(scene.walls->fixed[0]).upper, (Point<3>{1, 2, 3}));
+  EXPECT_EQ(std::get<Scene_ball<3>>(scene.walls->fixed[1]).centre, (Point<3>{4, 5, 6}));
+  EXPECT_EQ(std::get<Scene_ball<3>>(scene.walls->fixed[1]).radius, 7);
+  ASSERT_TRUE(scene.walls->pulsation);
+  EXPECT_EQ(scene.walls->pulsation->amplitude, 0.25);
+  EXPECT_EQ(scene.walls->pulsation->period, 0.5);
+  EXPECT_EQ(scene.walls->pulsation->wave, (Vector<3>{0, 0, 6}));
+  EXPECT_TRUE(scene.walls->motion.empty());
+}
+
+TEST(SceneWalls, PushUnlessToldOtherwise) {
+  const auto scene = std::get<Scene<2>>(
+      parse_scene("s.json", scene_with(R"({"pulsation": {"amplitude": 1, "period": 2}})", 2)));
+  EXPECT_TRUE(scene.walls->push);
+  EXPECT_FALSE(scene.walls->pulsation->wave);
+  EXPECT_TRUE(scene.walls->fixed.empty());
+}
+
+TEST(SceneWalls, FollowATableBesideTheScene) {
+  const auto scene =
+      std::get<Scene<3>>(parse_scene("s.json", scene_with(R"({"motion": "moves.csv"})"), "folder"));
+  EXPECT_EQ(scene.walls->motion, "folder/moves.csv");
+  EXPECT_FALSE(scene.walls->pulsation);
+  EXPECT_FALSE(std::get<Scene<3>>(parse_scene("s.json", R"({"environment": "e", "particles": [{"count": 1}],
+                                                            "steps": 1})"))
+                   .walls);
+}
+
+TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
+  struct Refusal {
+    const char *walls, *message;
+  };
+  for (const Refusal& r : std::initializer_list<Refusal>{
+           {"3", "s.json: walls: expected an object {...}"},
+           {"{}",
+            "s.json: walls: walls move either by \"pulsation\" or by a table, \"motion\": give one of them"},
+           {R"({"motion": "m.csv", "pulsation": {"amplitude": 1, "period": 1}})",
+            "s.json: walls: walls move either by \"pulsation\" or by a table, \"motion\": give one of them"},
+           {R"({"motion": ""})", "s.json: walls.motion: expected the name of a table"},
+           {R"({"motion": "m.csv", "fixed": []})", ""},
+           {R"({"motion": "m.csv", "fixed": [{"ball": [[0, 0, 0], 1]}]})",
+            "s.json: walls.fixed: only for \"pulsation\": a table says itself which points move"},
+           {R"({"pulsation": {"period": 1}})", "s.json: walls.pulsation: key \"amplitude\" is missing"},
+           {R"({"pulsation": {"amplitude": 0, "period": 1}})",
+            "s.json: walls.pulsation.amplitude: expected a number greater than 0, not 0"},
+           {R"({"pulsation": {"amplitude": 1, "period": 1, "wave": [0, 0, 0]}})",
+            "s.json: walls.pulsation.wave: a direction cannot be zero"},
+           {R"({"at_contact": "hold"})", "s.json: walls.at_contact: expected \"push\" or \"stop\""},
+           {R"({"fixed": [{}]})", "s.json: walls.fixed[0]: expected either \"box\" or \"ball\""},
+           {R"({"fixed": [{"box": [[0, 0, 0]]}]})",
+            "s.json: walls.fixed[0].box: expected the lower and the upper corner"},
+           {R"({"fixed": [{"box": [[0, 0, 1], [1, 1, 0]]}]})",
+            "s.json: walls.fixed[0].box: the first corner is the lower one in all coordinates"},
+           {R"({"fixed": [{"ball": [[0, 0, 1], 0]}]})",
+            "s.json: walls.fixed[0].ball[1]: expected a number greater than 0, not 0"}}) {
+    try {
+      parse_scene("s.json", scene_with(r.walls));
+      EXPECT_STREQ("", r.message) << "accepted: " << r.walls;
+    } catch (const Error& e) {
+      EXPECT_STREQ(e.what(), r.message) << r.walls;
+      EXPECT_EQ(e.code(), Error_code::input);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellwalk::io
