@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "scene_shape.h"
+
 namespace cellwalk {
 namespace {
 
@@ -15,21 +17,6 @@ constexpr double fading_amplitudes = 10;
 /// Each sweep over the points between walls takes each to the mean of its neighbours. Points lie few cells
 /// from a wall, so that more sweeps change little.
 constexpr int smoothing_sweeps = 64;
-
-double distance(const Scene_box<2>& box, const Point<2>& x) {
-  const auto off = [&](std::size_t k) { return std::max({box.lower[k] - x[k], 0.0, x[k] - box.upper[k]}); };
-  return std::hypot(off(0), off(1));
-}
-
-double distance(const Scene_box<3>& box, const Point<3>& x) {
-  const auto off = [&](std::size_t k) { return std::max({box.lower[k] - x[k], 0.0, x[k] - box.upper[k]}); };
-  return std::hypot(off(0), off(1), off(2));
-}
-
-template <int D>
-double distance(const Scene_ball<D>& ball, const Point<D>& x) {
-  return std::max(0.0, length(x - ball.centre) - ball.radius);
-}
 
 /// Perpendicular to a facet, out of its cell, as long as it is large.
 Vector<2> across(std::span<const Point<2>> loop) {
@@ -115,12 +102,7 @@ Wall_pulsation<D>::Wall_pulsation(const Snapshot<D>& snapshot, const Pulsation<D
     : pulsation_(pulsation) {
   Point_surroundings<D> around = surroundings(snapshot);
   const auto share = [&](const Point<D>& x) {
-    double result = 1;
-    for (const Scene_shape<D>& shape : fixed) {
-      const double away = std::visit([&](const auto& s) { return distance(s, x); }, shape);
-      result = std::min(result, away / (fading_amplitudes * pulsation.amplitude));
-    }
-    return result;
+    return std::min(1.0, detail::distance<D>(fixed, x) / (fading_amplitudes * pulsation.amplitude));
   };
   std::vector<Vector<D>> directions(around.normals.size());
   for (std::uint32_t i = 0; i < directions.size(); ++i) {

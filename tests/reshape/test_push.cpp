@@ -126,7 +126,7 @@ TYPED_TEST(PushTest, WhatIsSqueezedStopsTheWall) {
   }
   const auto result = reshaping.move(room.vertex, room.at(2, 2.9765625));
   EXPECT_EQ(result.end, Move_end::contact);
-  EXPECT_EQ(reshaping.counts().pushes, 4u);
+  EXPECT_EQ(reshaping.counts().pushes, 16u);
   EXPECT_GT(result.position[D - 1], 2.74);
   EXPECT_LT(result.position[D - 1], 2.9765625);
   EXPECT_EQ(room.snapshot().point(room.vertex), result.position);

@@ -118,12 +118,20 @@ struct Pulsation {
   std::optional<Vector<D>> wave;
 };
 
+/// Walls that yield to bodies which press against them, and recover: an elastic (Winkler) foundation.
+struct Soft_walls {
+  double compliance = 1;     ///< yield of a vertex for a unit of force; that of bodies is 1
+  double recovery = 0.05;    ///< share of the yield that is recovered in a step, 0 to 1
+  std::uint32_t spread = 1;  ///< how many times the yield is shared with the neighbours along walls
+};
+
 /// How the walls of an environment move.
 template <int D>
 struct Scene_walls {
   bool push = true;                   ///< they push what they meet out of their way; otherwise they stop
   std::vector<Scene_shape<D>> fixed;  ///< where nothing moves
   std::optional<Pulsation<D>> pulsation;
+  std::optional<Soft_walls> soft;
   /// A table of positions of points (relative to the scene's folder); empty: none.
   std::string motion;
 };

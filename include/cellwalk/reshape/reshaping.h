@@ -91,7 +91,7 @@ struct Reshape_options {
   /// the way to that, and has its next turn when the others moved.
   int most_rounds = 8;
   /// By At_contact::push, a vertex tries to push what it meets out of its way so many times a move.
-  int most_pushes = 4;
+  int most_pushes = 16;
   /// What is checked of bodies that are pushed, and what they do at other walls: by default they slide.
   /// Faces are swept as well if the body was last moved so.
   Body_options body{};

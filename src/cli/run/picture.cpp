@@ -183,7 +183,8 @@ void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, do
 }  // namespace
 
 template <int D>
-Run_picture<D>::Run_picture(const World<D>& world) : trails_(world.particles().size()) {
+Run_picture<D>::Run_picture(const World<D>& world, bool walls_move)
+    : walls_move_(walls_move), trails_(world.particles().size()) {
   record(world);
 }
 
@@ -201,8 +202,10 @@ void Run_picture<D>::record(const World<D>& world) {
     (!c.body ? free_contacts_ : is_catheter ? catheter_contacts_ : body_contacts_).push_back(c);
   }
   const auto old = [&](const Run_contact<D>& c) { return c.step + trail_steps <= world.steps_done(); };
-  for (auto* latest : {&body_contacts_, &free_contacts_})
+  for (auto* latest : {&catheter_contacts_, &body_contacts_, &free_contacts_}) {
+    if (latest == &catheter_contacts_ && !walls_move_) continue;
     latest->erase(latest->begin(), std::find_if_not(latest->begin(), latest->end(), old));
+  }
 }
 
 template <int D>

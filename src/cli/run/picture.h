@@ -16,7 +16,8 @@ namespace cellwalk::cli {
 template <int D>
 class Run_picture {
  public:
-  explicit Run_picture(const World<D>& world);
+  /// \param walls_move where they did so, earlier contacts of the catheter lie off them, and are left out
+  Run_picture(const World<D>& world, bool walls_move);
 
   /// To be called after each step.
   void record(const World<D>& world);
@@ -25,6 +26,7 @@ class Run_picture {
                         const std::string& caption) const;
 
  private:
+  bool walls_move_;
   std::vector<std::vector<Point<D>>> trails_;  ///< of the particles, the latest steps only
   std::vector<Run_contact<D>> catheter_contacts_;
   std::vector<Run_contact<D>> body_contacts_, free_contacts_;  ///< of the latest steps

@@ -144,7 +144,7 @@ void Run<D>::operator()() const {
   if (const std::uint32_t every = motion_interval(scene, world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world, scene.time_step, steps(), every);
   std::optional<Run_picture<D>> picture;
-  if (scene.output.picture) picture.emplace(world);
+  if (scene.output.picture) picture.emplace(world, scene.walls.has_value());
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
@@ -267,7 +267,7 @@ std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, co
            ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
-  if (walls) written += ", walls.csv";
+  if (walls) written += scene.walls->soft ? ", walls.csv, forces.csv" : ", walls.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (motion) written += ", motion.gz";
   if (picture) written += ", picture.png";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include "cli/common/contact_kind_names.h"
@@ -19,16 +20,26 @@ Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& env
       table_(folder / "walls.csv", {"step", "vertex", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cell",
                                     "body", "particle", "feature", "number"}) {
   options_.at_contact = scene.walls->push ? At_contact::push : At_contact::stop;
-  if (scene.walls->pulsation)
-    pulsation_.emplace(environment.snapshot(), *scene.walls->pulsation, scene.walls->fixed);
-  else
-    motion_ = read_timed_moves(scene.walls->motion, environment);
+  const Scene_walls<D>& walls = *scene.walls;
+  if (walls.pulsation) pulsation_.emplace(environment.snapshot(), *walls.pulsation, walls.fixed);
+  if (walls.soft) {
+    foundation_.emplace(environment.snapshot(), *walls.soft, walls.fixed);
+    forces_.emplace(folder / "forces.csv",
+                    std::vector<std::string>{"step", "vertices", "largest_yield", "force"});
+  }
+  if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
 }
 
 /// Where points are to be after a step, as far as they are not there for sure.
 template <int D>
 std::vector<Vertex_move<D>> Run_walls<D>::targets(std::uint32_t step) {
-  if (pulsation_) return pulsation_->targets(step * time_step_);
+  if (pulsation_) {
+    auto result = pulsation_->targets(step * time_step_);
+    if (foundation_)
+      for (auto& [point, target] : result) target = foundation_->yielding(point, target);
+    return result;
+  }
+  if (foundation_) return foundation_->targets();
   for (; next_ < motion_.size() && motion_[next_].step <= step; ++next_)
     pending_[motion_[next_].move.point] = motion_[next_].move.target;
   std::vector<Vertex_move<D>> result;
@@ -39,8 +50,14 @@ std::vector<Vertex_move<D>> Run_walls<D>::targets(std::uint32_t step) {
 template <int D>
 void Run_walls<D>::step(World<D>& world) {
   const std::uint32_t step = world.steps_done() + 1;
+  if (foundation_) foundation_->press(world);
   const std::vector<Vertex_move<D>> moves = targets(step);
-  if (moves.empty()) return;
+  if (!moves.empty()) move(world, step, moves);
+  if (foundation_) record_forces(step);
+}
+
+template <int D>
+void Run_walls<D>::move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves) {
   const Move_report<D> report = world.move_walls(environment_, moves, options_, counts_);
   moves_ += moves.size();
   ends_[static_cast<std::size_t>(Move_end::reached)] += moves.size() - report.short_of_target.size();
@@ -50,7 +67,22 @@ void Run_walls<D>::step(World<D>& world) {
     if (const auto asked = pending_.find(result.point); asked != pending_.end()) left.insert(*asked);
   }
   pending_ = std::move(left);
+  if (foundation_) foundation_->follow(moves, report);
   record(step, report);
+}
+
+template <int D>
+void Run_walls<D>::record_forces(std::uint32_t step) {
+  const double yield = foundation_->largest_yield(), force = foundation_->force();
+  forces_->row(step, foundation_->yielding_count(), yield, force);
+  largest_yield_ = std::max(largest_yield_, yield);
+  largest_force_ = std::max(largest_force_, force);
+}
+
+template <int D>
+void Run_walls<D>::finish() {
+  table_.commit();
+  if (forces_) forces_->commit();
 }
 
 template <int D>
@@ -80,6 +112,7 @@ nlohmann::ordered_json Run_walls<D>::report() const {
   nlohmann::ordered_json json{{"moves", moves_}};
   for (std::size_t e = 0; e < ends_.size(); ++e) json["status"][move_end_names[e]] = ends_[e];
   json["contacts"] = hits_;
+  if (foundation_) json["soft"] = {{"largest_yield", largest_yield_}, {"largest_force", largest_force_}};
   json["counts"] = to_json(counts_);
   json["counts"]["walk"] = to_json(counts_.walk);
   return json;
@@ -90,8 +123,11 @@ std::string Run_walls<D>::describe() const {
   std::string ends;
   for (std::size_t e = 1; e < ends_.size(); ++e)
     if (ends_[e] != 0) ends += fmt::format(", {} {}", ends_[e], move_end_names[e]);
-  return fmt::format("{} moves of points: {} {}{}; {} contacts, {} pushes", moves_, ends_[0],
-                     move_end_names[0], ends, hits_, counts_.pushes);
+  std::string soft;
+  if (foundation_)
+    soft = fmt::format("; they yield by up to {:.3g} to forces up to {:.3g}", largest_yield_, largest_force_);
+  return fmt::format("{} moves of points: {} {}{}; {} contacts, {} pushes{}", moves_, ends_[0],
+                     move_end_names[0], ends, hits_, counts_.pushes, soft);
 }
 
 template class Run_walls<2>;

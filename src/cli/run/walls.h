@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_WALLS_H
 
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/simulation/elastic_foundation.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 #include <cellwalk/simulation/world.h>
 
@@ -22,11 +23,12 @@
 
 namespace cellwalk::cli {
 
-/// Moves the walls before each step of a world, and writes what they meet to walls.csv.
+/// Moves the walls before each step of a world. Writes what they meet to walls.csv and, if they are soft, the
+/// forces on them to forces.csv.
 template <int D>
 class Run_walls {
  public:
-  /// \param folder for walls.csv
+  /// \param folder for the tables
   /// \throw Error(input) for a table that is none, or an environment with cells at points that move that are
   ///        no simplices
   Run_walls(const std::filesystem::path& folder, Environment<D>& environment, const Scene<D>& scene);
@@ -35,21 +37,26 @@ class Run_walls {
   /// again in the step after.
   void step(World<D>& world);
 
-  /// Completes the table.
-  void finish() { table_.commit(); }
+  /// Completes the tables.
+  void finish();
 
   nlohmann::ordered_json report() const;
   std::string describe() const;
 
  private:
   std::vector<Vertex_move<D>> targets(std::uint32_t step);
+  void move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves);
   void record(std::uint32_t step, const Move_report<D>& report);
+  void record_forces(std::uint32_t step);
 
   Environment<D>& environment_;
   double time_step_;
   Reshape_options options_;
   io::Csv_writer table_;
   std::optional<Wall_pulsation<D>> pulsation_;
+  std::optional<Elastic_foundation<D>> foundation_;
+  std::optional<io::Csv_writer> forces_;
+  double largest_yield_ = 0, largest_force_ = 0;  ///< of any step
   std::vector<Timed_move<D>> motion_;
   std::size_t next_ = 0;                       ///< of the motion
   std::map<std::uint32_t, Point<D>> pending_;  ///< places of the motion that points did not reach yet

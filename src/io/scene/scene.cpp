@@ -14,6 +14,7 @@ using detail::Json_node;
 
 constexpr std::uint64_t most_steps = 100'000'000;
 constexpr double default_twist = 10;  // degrees a step
+constexpr std::uint64_t most_spread = 1000;
 
 Environment_source environment_source(const Json_node& node) {
   if (node.is_string()) {
@@ -116,9 +117,19 @@ Pulsation<D> pulsation(const Json_node& node) {
   return result;
 }
 
+Soft_walls soft(const Json_node& node) {
+  node.expect_keys({"compliance", "recovery", "spread"});
+  Soft_walls result;
+  if (const auto compliance = node.find("compliance")) result.compliance = compliance->positive();
+  if (const auto recovery = node.find("recovery")) result.recovery = recovery->number_in(0, 1);
+  if (const auto spread = node.find("spread"))
+    result.spread = static_cast<std::uint32_t>(spread->integer_in(0, most_spread));
+  return result;
+}
+
 template <int D>
 Scene_walls<D> walls(const Json_node& node) {
-  node.expect_keys({"at_contact", "fixed", "pulsation", "motion"});
+  node.expect_keys({"at_contact", "fixed", "pulsation", "soft", "motion"});
   Scene_walls<D> result;
   if (const auto at_contact = node.find("at_contact")) {
     const std::string word = at_contact->string();
@@ -132,10 +143,12 @@ Scene_walls<D> walls(const Json_node& node) {
     result.motion = motion->string();
     if (result.motion.empty()) motion->fail("expected the name of a table");
   }
-  if (result.pulsation.has_value() == !result.motion.empty())
-    node.fail("walls move either by \"pulsation\" or by a table, \"motion\": give one of them");
-  if (!result.motion.empty() && !result.fixed.empty())
-    node.at("fixed").fail("only for \"pulsation\": a table says itself which points move");
+  if (const auto s = node.find("soft")) result.soft = soft(*s);
+  if (!result.pulsation && !result.soft && result.motion.empty())
+    node.fail("nothing moves the walls: give \"pulsation\", \"soft\" or \"motion\"");
+  for (const char* key : {"pulsation", "soft", "fixed"})
+    if (!result.motion.empty() && node.has(key))
+      node.at(key).fail("a table, \"motion\", says alone which points move: leave one of them out");
   return result;
 }
 

@@ -2,6 +2,7 @@
 // Scenes with walls that move, as `cellwalk run` runs, reports and refuses them.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -30,7 +31,8 @@ class RunWalls : public Program {
   void write_table_scene(const std::string& moves, const std::string& particle) const {
     write("moves.csv", moves);
     write("scene.json", R"({"dimension": 2, "environment": {"generate": "squares", "cells": 3},
-      "particles": [{"position": )" + particle + R"(}], "walls": {"motion": "moves.csv", "at_contact": "stop"},
+      "particles": [{"position": )" +
+                            particle + R"(}], "walls": {"motion": "moves.csv", "at_contact": "stop"},
       "time_step": 1, "steps": 4})");
   }
 };
@@ -90,6 +92,28 @@ TEST_F(RunWalls, FollowATable) {
   }
 }
 
+TEST_F(RunWalls, YieldToWhatPressesThem) {
+  write("room.json", R"({
+    "environment": {"generate": "hexes", "cells": [4, 3, 3]},
+    "catheter": {"path": [[0.5, 1.5, 1.4], [9, 1.5, 1.6]], "spacing": 0.3, "particles": 20, "stiffness": 1},
+    "walls": {"soft": {"compliance": 4}, "at_contact": "stop"}, "time_step": 0.05, "steps": 40})");
+  const std::string said = succeed({"run", "room.json", "-o", "out"});
+  EXPECT_NE(said.find("they yield by up to"), std::string::npos) << said;
+  EXPECT_NE(said.find("forces.csv"), std::string::npos) << said;
+  const auto rows = read_table(path("out/forces.csv"));
+  ASSERT_EQ(rows.size(), 41u) << "one a step";
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"step", "vertices", "largest_yield", "force"}));
+  double most = 0, force = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    most = std::max(most, std::stod(rows[i][2]));
+    force = std::max(force, std::stod(rows[i][3]));
+  }
+  EXPECT_GT(most, 0.01);
+  const json soft = report("out")["walls"]["soft"];
+  EXPECT_EQ(soft["largest_yield"], most);
+  EXPECT_EQ(soft["largest_force"], force);
+}
+
 TEST_F(RunWalls, AreRefusedWithFileAndLine) {
   write_table_scene("step,point,x,y\n1,5,1,1\n1,99,1,1\n", "[0.5, 0.5]");
   expect_failure(3, {"run", "scene.json", "-o", "out"}, {"moves.csv:3: there is no point 99"});
@@ -102,8 +126,7 @@ TEST_F(RunWalls, AreRefusedWithFileAndLine) {
   write_table_scene("point,x,y\n5,1,1\n", "[0.5, 0.5]");
   expect_failure(3, {"run", "scene.json", "-o", "out"}, {"moves.csv: has no column 'step'"});
   write("room.json", beating_room);
-  expect_failure(3,
-                 {"run", "room.json", "-o", "out", "--record", "trace", "--set", "particles=[]"},
+  expect_failure(3, {"run", "room.json", "-o", "out", "--record", "trace", "--set", "particles=[]"},
                  {"room.json: walls: a trace has walls that stand still: leave them out"});
 }
 
