@@ -111,6 +111,12 @@ TYPED_TEST(PushTest, HitsBeforePushesAreReportedWithWeightsOfBothSides) {
   EXPECT_EQ(hit.resident_weights[2], 0);
   EXPECT_GT(hit.normal[D - 1], D == 2 ? 1 - 1e-15 : 0.8) << "across the edge, along the motion";
   EXPECT_EQ(report.hits.size(), reshaping.counts().pushes);
+  if constexpr (D == 2) {
+    // Where they met, the edge moved by the 0.375 that were left; each end by its weight over 0.625.
+    ASSERT_EQ(report.hits.size(), 1u);
+    EXPECT_NEAR(body.positions()[0][1], 2.125 + 0.75 / 0.625 * 0.375, 1e-12);
+    EXPECT_NEAR(body.positions()[1][1], 2.125 + 0.25 / 0.625 * 0.375, 1e-12);
+  }
 }
 
 TYPED_TEST(PushTest, WhatIsSqueezedStopsTheWall) {
@@ -188,6 +194,11 @@ TEST(PushFaces, AFaceIsPushedAndKeptFree) {
   body.step(targets, faces, report, counts);
   Reshaping<3> reshaping(room.environment, {{&body}, {}}, push);
   EXPECT_EQ(reshaping.move(room.vertex, {2, 2, 2.5}).end, Move_end::reached);
+  const auto through = reshaping.ask(room.vertex, {2, 2, 2.625});
+  EXPECT_EQ(through.end, Move_end::contact) << "it is still one whose faces nothing may pierce";
+  if (through.hit) {
+    EXPECT_EQ(through.hit->resident.feature, Body_feature::face);
+  }
   reshaping.close();
   EXPECT_NO_THROW(body.validate());
   double height = 0;
@@ -215,8 +226,26 @@ void push_about(bool generic, std::size_t worlds) {
           judge.judge(reshaping, v, world.target(v), true);
         }
       }
+      // What is known of where things are now is the same as if nothing had been pushed.
+      std::vector<std::pair<std::uint32_t, Point<D>>> asked;
+      std::vector<Vertex_result<D>> answers;
+      for (int i = 0; i < 60; ++i) {
+        const std::uint32_t v = world.vertex();
+        asked.emplace_back(v, world.target(v));
+        answers.push_back(reshaping.ask(v, asked.back().second));
+      }
       reshaping.close();
       counts += reshaping.counts();
+      Reshaping<D> again(world.environment, world.residents(), push);
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        const Vertex_result<D> answer = again.ask(asked[i].first, asked[i].second);
+        EXPECT_EQ(answer.end, answers[i].end) << world.name();
+        EXPECT_EQ(answer.hit.has_value(), answers[i].hit.has_value()) << world.name();
+        if (answer.hit && answers[i].hit) {
+          EXPECT_EQ(answer.hit->time, answers[i].hit->time) << world.name();
+        }
+      }
+      again.close();
       for (const auto& body : world.bodies) EXPECT_NO_THROW(body->validate()) << world.name();
       for (const Particle<D>& p : world.particles)
         EXPECT_TRUE(in_closure(world.snapshot, p.cell, p.position)) << world.name();

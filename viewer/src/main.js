@@ -25,6 +25,7 @@ async function start() {
   const show = record => {
     const step = motion.stepOf(record);
     walls.group.visible = panel.showsWalls;
+    walls.show(record);
     seen.normals.object.visible = panel.showsNormals;
     bodies.show(record, panel.mode);
     panel.update(record, seen.show(panel.window === 0 ? 0 : Math.max(0, step - panel.window), step));

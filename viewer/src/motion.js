@@ -38,7 +38,8 @@ export function parseMotion(buffer) {
     faces: take(Uint32Array, 3 * head.faces),
   };
   const vertices = head.bodies.reduce((sum, body) => sum + body.vertices, 0);
-  const moving = head.particles + vertices, axes = head.dimension, values = axes * moving;
+  const moving = head.particles + vertices, axes = head.dimension;
+  const placed = moving + (head.walls_move ? head.points : 0), values = axes * placed;
   const packed = new Uint8Array(buffer, at);
   const places = new Uint16Array(head.records * values);
   const cells = new Uint32Array(head.records * moving);
@@ -64,10 +65,11 @@ export function parseMotion(buffer) {
     ...head, ...scene, vertices, moving,
     bodyCount: head.bodies.length,
     stepOf: record => Math.min(record * head.every, head.steps),
-    /** Writes the places of points first..first+count-1 of a record as x, y, z after each other. */
+    /** Writes the places of points first..first+count-1 of a record as x, y, z after each other. If walls move, their points follow
+     * the moving ones. */
     copyPlaces(record, first, count, out) {
       for (let axis = 0; axis < 3; ++axis) {
-        const begin = record * values + axis * moving + first;
+        const begin = record * values + axis * placed + first;
         for (let i = 0; i < count; ++i)
           out[3 * i + axis] = axis < axes ? head.lower[axis] + unit[axis] * places[begin + i] : 0;
       }

@@ -22,7 +22,8 @@ function creases(points, loops) {
 
 /** Walls seen from free space are drawn; those seen through from outside only hinted at, so that one looks in. */
 function wallsInSpace(motion, points) {
-  const geometry = loopsToMesh(points, motion.walls).toNonIndexed();
+  const indexed = loopsToMesh(points, motion.walls);
+  const geometry = indexed.toNonIndexed();
   geometry.computeVertexNormals();
   const material = (side, opacity) => new THREE.MeshLambertMaterial(
     { color: '#8fa5c4', transparent: true, opacity, side, depthWrite: false });
@@ -32,21 +33,32 @@ function wallsInSpace(motion, points) {
   inside.renderOrder = 1;
   outside.renderOrder = 3;
   group.add(inside, outside);
-  const edges = creases(points, motion.walls);
+  const edges = motion.walls_move ? null : creases(points, motion.walls);
   if (edges) {
     const lines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial(
       { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
     lines.renderOrder = 2;
     group.add(lines);
   }
-  return group;
+  /** Takes the walls to where their points are now. */
+  const follow = () => {
+    const corners = indexed.getIndex().array, places = geometry.getAttribute('position');
+    for (let i = 0; i < corners.length; ++i)
+      places.array.set(points.subarray(3 * corners[i], 3 * corners[i] + 3), 3 * i);
+    places.needsUpdate = true;
+    geometry.computeVertexNormals();
+    geometry.computeBoundingSphere();
+  };
+  return { group, lines: [], follow };
 }
 
 function wallsInPlane(motion, points) {
   const group = new THREE.Group();
+  const geometries = [];
   const flat = (loops, colour) => {
     const mesh = new THREE.Mesh(loopsToMesh(points, loops), new THREE.MeshBasicMaterial(
       { color: colour, side: THREE.DoubleSide, depthWrite: false }));
+    geometries.push(mesh.geometry);
     group.add(mesh);
     return mesh;
   };
@@ -54,16 +66,33 @@ function wallsInPlane(motion, points) {
   const thin = new THREE.BufferGeometry();
   thin.setAttribute('position', new THREE.BufferAttribute(points, 3));
   thin.setIndex(Array.from(motion.lines));
+  geometries.push(thin);
   const grid = new THREE.LineSegments(thin, new THREE.LineBasicMaterial({ color: '#e3e8ef', depthWrite: false }));
   grid.renderOrder = -2;
   const walls = fatLines(motion.walls.length, { width: 2.5, colour: '#334155', depth: false });
-  walls.setEnds((i, end) => 3 * motion.walls[i][end], points);
+  const setEnds = () => walls.setEnds((i, end) => 3 * motion.walls[i][end], points);
+  setEnds();
   walls.object.renderOrder = -1;
   group.add(grid, walls.object);
-  return { group, lines: [walls] };
+  const follow = () => {
+    for (const geometry of geometries) {
+      geometry.getAttribute('position').needsUpdate = true;
+      geometry.computeBoundingSphere();
+    }
+    setEnds();
+  };
+  return { group, lines: [walls], follow };
 }
 
 export function makeWalls(motion) {
   const points = Float32Array.from(motion.points);
-  return motion.dimension === 2 ? wallsInPlane(motion, points) : { group: wallsInSpace(motion, points), lines: [] };
+  const walls = motion.dimension === 2 ? wallsInPlane(motion, points) : wallsInSpace(motion, points);
+  return {
+    ...walls,
+    show(record) {
+      if (!motion.walls_move) return;
+      motion.copyPlaces(record, motion.moving, points.length / 3, points);
+      walls.follow();
+    },
+  };
 }

@@ -15,6 +15,8 @@ using io::in_space;
 /// Points times records of which a page stays below 30 MB: packed, a point takes 2 to 4 bytes a record, and
 /// base64 adds a third.
 constexpr std::uint64_t most_recorded_points = 5'000'000;
+/// Where walls move, the box is wider by this share of its size on each side.
+constexpr double room_for_walls = 0.1;
 /// More passable edges of the plane than this are a grey area, not lines.
 constexpr std::size_t most_lines = 40'000;
 
@@ -67,13 +69,14 @@ void add_bodies(const World<D>& world, Recording_scene& scene) {
 }
 
 template <int D>
-Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, double time_step,
-                         std::uint32_t steps, std::uint32_t every) {
+Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, const Motion_times& times,
+                         bool walls_move, std::vector<std::uint32_t>& wall_points) {
   Recording_scene scene;
   scene.dimension = D;
-  scene.time_step = time_step;
-  scene.steps = steps;
-  scene.every = every;
+  scene.time_step = times.step;
+  scene.steps = times.steps;
+  scene.every = times.every;
+  scene.walls_move = walls_move;
   scene.cells = static_cast<std::uint32_t>(snapshot.cell_count());
   scene.particles = static_cast<std::uint32_t>(world.particles().size());
   scene.lower.fill(std::numeric_limits<double>::max());
@@ -85,6 +88,11 @@ Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, dou
       scene.upper[axis] = std::max(scene.upper[axis], point[axis]);
     }
   }
+  for (std::size_t axis = 0; walls_move && axis < D; ++axis) {
+    const double room = room_for_walls * (scene.upper[axis] - scene.lower[axis]);
+    scene.lower[axis] -= room;
+    scene.upper[axis] += room;
+  }
   add_walls(snapshot, scene);
   add_areas(snapshot, scene);
   add_bodies(world, scene);
@@ -94,6 +102,7 @@ Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, dou
   const auto rename = [&](std::uint32_t& index) {
     if (number[index] == 0) {
       named.push_back(scene.points[index]);
+      wall_points.push_back(index);
       number[index] = static_cast<std::uint32_t>(named.size());
     }
     index = number[index] - 1;
@@ -124,11 +133,11 @@ Decision decision(const Body_counts& before, const Body_counts& now) {
 
 template <int D>
 Run_recording<D>::Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot,
-                                const World<D>& world, double time_step, std::uint32_t steps,
-                                std::uint32_t every)
+                                const World<D>& world, const Motion_times& times, bool walls_move)
     : snapshot_(snapshot),
-      every_(every),
-      writer_(std::move(path), scene_of(snapshot, world, time_step, steps, every)),
+      every_(times.every),
+      walls_move_(walls_move),
+      writer_(std::move(path), scene_of(snapshot, world, times, walls_move, wall_points_)),
       before_(world.bodies().size()) {
   add(world);
 }
@@ -158,20 +167,23 @@ void Run_recording<D>::add(const World<D>& world) {
     decisions.push_back(decision(before_[b], now));
     before_[b] = now;
   }
+  if (walls_move_)
+    for (const std::uint32_t i : wall_points_) positions.push_back(in_space(snapshot_.point(i)));
   writer_.add({positions, cells, decisions});
 }
 
 template <int D>
-std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps) {
+std::uint32_t motion_interval(const Scene<D>& scene, const Snapshot<D>& snapshot, const World<D>& world,
+                              std::uint32_t steps) {
   if (scene.output.motion_every) return *scene.output.motion_every;
-  std::uint64_t points = world.particles().size();
+  std::uint64_t points = world.particles().size() + (scene.walls ? snapshot.points().size() : 0);
   for (const Moving_body<D>& moving : world.bodies()) points += moving.body().vertex_count();
   return static_cast<std::uint32_t>(1 + steps * points / most_recorded_points);
 }
 
 template class Run_recording<2>;
 template class Run_recording<3>;
-template std::uint32_t motion_interval(const Scene<2>&, const World<2>&, std::uint32_t);
-template std::uint32_t motion_interval(const Scene<3>&, const World<3>&, std::uint32_t);
+template std::uint32_t motion_interval(const Scene<2>&, const Snapshot<2>&, const World<2>&, std::uint32_t);
+template std::uint32_t motion_interval(const Scene<3>&, const Snapshot<3>&, const World<3>&, std::uint32_t);
 
 }  // namespace cellwalk::cli

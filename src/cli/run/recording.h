@@ -12,14 +12,21 @@
 
 namespace cellwalk::cli {
 
+/// The steps of a run, and how many of them lie between two frames.
+struct Motion_times {
+  double step = 0;  ///< duration
+  std::uint32_t steps = 0, every = 1;
+};
+
 /// Written along with the run, of which it only reads: nothing that the run counts depends on whether it is
 /// recorded.
 template <int D>
 class Run_recording {
  public:
-  /// Writes the walls and the start. `every` is more than 0. Refers to the snapshot, which must outlive it.
+  /// Writes the walls and the start. Refers to the snapshot, which must outlive it.
+  /// \pre times.every > 0
   Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot, const World<D>& world,
-                double time_step, std::uint32_t steps, std::uint32_t every);
+                const Motion_times& times, bool walls_move);
 
   /// To be called after each step.
   void record(const World<D>& world, bool is_last);
@@ -35,6 +42,8 @@ class Run_recording {
 
   const Snapshot<D>& snapshot_;
   std::uint32_t every_;
+  bool walls_move_;
+  std::vector<std::uint32_t> wall_points_;  ///< those that the recording has, by their index
   io::Recording_writer writer_;
   std::vector<Body_counts> before_;  ///< at the record before
 };
@@ -42,7 +51,8 @@ class Run_recording {
 /// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0:
 /// nothing is recorded.
 template <int D>
-std::uint32_t motion_interval(const Scene<D>& scene, const World<D>& world, std::uint32_t steps);
+std::uint32_t motion_interval(const Scene<D>& scene, const Snapshot<D>& snapshot, const World<D>& world,
+                              std::uint32_t steps);
 
 extern template class Run_recording<2>;
 extern template class Run_recording<3>;

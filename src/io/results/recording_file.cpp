@@ -36,25 +36,16 @@ ordered_json head_of(const Recording_scene& scene) {
                       {"vertices", body.vertices},
                       {"edges", body.edges},
                       {"faces", body.faces}});
-  return {{"dimension", scene.dimension},
-          {"time_step", scene.time_step},
-          {"steps", scene.steps},
-          {"every", scene.every},
-          {"records", scene.frame_count()},
-          {"cells", scene.cells},
-          {"lower", scene.lower},
-          {"upper", scene.upper},
-          {"points", scene.points.size()},
-          {"walls", scene.walls.size()},
-          {"wall_corners", corner_count(scene.walls)},
-          {"floor", scene.floor.size()},
-          {"floor_corners", corner_count(scene.floor)},
-          {"lines", scene.lines.size()},
-          {"particles", scene.particles},
-          {"edges", scene.edges.size()},
-          {"faces", scene.faces.size()},
-          {"decisions", decision_names},
-          {"bodies", bodies}};
+  return {{"dimension", scene.dimension},   {"time_step", scene.time_step},
+          {"steps", scene.steps},           {"every", scene.every},
+          {"records", scene.frame_count()}, {"cells", scene.cells},
+          {"lower", scene.lower},           {"upper", scene.upper},
+          {"walls_move", scene.walls_move}, {"points", scene.points.size()},
+          {"walls", scene.walls.size()},    {"wall_corners", corner_count(scene.walls)},
+          {"floor", scene.floor.size()},    {"floor_corners", corner_count(scene.floor)},
+          {"lines", scene.lines.size()},    {"particles", scene.particles},
+          {"edges", scene.edges.size()},    {"faces", scene.faces.size()},
+          {"decisions", decision_names},    {"bodies", bodies}};
 }
 
 void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>& loops) {
@@ -86,7 +77,7 @@ void append_planes(std::string& out, const std::vector<Unsigned>& values) {
 Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene scene)
     : file_(std::move(path)),
       scene_(std::move(scene)),
-      last_(scene_.moving_count() * static_cast<std::size_t>(scene_.dimension)),
+      last_(scene_.placed_count() * static_cast<std::size_t>(scene_.dimension)),
       before_last_(last_),
       last_cells_(scene_.moving_count()) {
   std::string head = head_of(scene_).dump();
@@ -105,8 +96,8 @@ Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene s
 }
 
 void Recording_writer::add(const Recording_frame& record) {
-  const std::size_t count = record.positions.size();
-  if (count != scene_.moving_count() || record.cells.size() != count ||
+  const std::size_t count = record.cells.size();
+  if (record.positions.size() != scene_.placed_count() || count != scene_.moving_count() ||
       record.decisions.size() != scene_.bodies.size())
     throw Error(Error_code::usage, "a record of motion has other numbers of points than its scene");
   std::vector<std::uint16_t> now, left;

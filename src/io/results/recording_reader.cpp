@@ -59,6 +59,7 @@ class Motion_parser {
     scene_.particles = counted(head.at("particles"));
     scene_.lower = head.at("lower");
     scene_.upper = head.at("upper");
+    scene_.walls_move = head.at("walls_move");
     for (const nlohmann::json& body : head.at("bodies"))
       scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
                                counted(body.at("edges")), counted(body.at("faces"))});
@@ -88,7 +89,7 @@ class Motion_parser {
         sizeof(Point<3>) * count("points") +
         sizeof(std::uint32_t) * (count("walls") + count("wall_corners") + count("floor") +
                                  count("floor_corners") + 2 * count("lines") + 2 * edges + 3 * faces);
-    const std::uint64_t record = recording_frame_size(scene_),
+    const std::uint64_t record = recording_frame_size(scene_, count("points")),
                         most = std::numeric_limits<std::uint64_t>::max();
     const bool is_countable = record == 0 || frame_count() <= (most - arrays) / record;
     const std::uint64_t expected = is_countable ? arrays + frame_count() * record : most;

@@ -15,9 +15,10 @@
 namespace cellwalk::io {
 namespace {
 
-/// A body of three vertices and a particle in a box of 2 x 1 x 4.
-Recording_scene sample_scene() {
+/// A body of three vertices and a particle in a box of 2 x 1 x 4. Its walls have three points.
+Recording_scene sample_scene(bool walls_move = false) {
   Recording_scene scene;
+  scene.walls_move = walls_move;
   scene.time_step = 0.5;
   scene.steps = 7;
   scene.every = 2;
@@ -37,15 +38,19 @@ struct Record {
   std::vector<Decision> decisions;
 };
 
-std::vector<Record> sample_records() {
+constexpr std::size_t moving = 4, wall_points = 3;
+
+std::vector<Record> sample_records(bool walls_move = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<Record> records(5);  // at steps 0, 2, 4, 6, 7
   for (Record& record : records) {
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < moving; ++i) {
       record.positions.push_back({2 * share(random), share(random), 4 * share(random)});
       record.cells.push_back(static_cast<std::uint32_t>(random() % 1000000));
     }
+    for (std::size_t i = 0; walls_move && i < wall_points; ++i)
+      record.positions.push_back({2 * share(random), share(random), 4 * share(random)});
     for (int i = 0; i < 2; ++i) record.decisions.push_back(static_cast<Decision>(random() % 8));
   }
   records[1].positions[0] = {2, 1, 4};
@@ -53,9 +58,9 @@ std::vector<Record> sample_records() {
   return records;
 }
 
-void write_sample(const std::filesystem::path& path) {
-  Recording_writer writer(path, sample_scene());
-  for (const Record& r : sample_records()) writer.add({r.positions, r.cells, r.decisions});
+void write_sample(const std::filesystem::path& path, bool walls_move = false) {
+  Recording_writer writer(path, sample_scene(walls_move));
+  for (const Record& r : sample_records(walls_move)) writer.add({r.positions, r.cells, r.decisions});
   writer.commit();
 }
 
@@ -78,29 +83,30 @@ int unfolded(std::uint32_t value) {
   return value % 2 == 0 ? static_cast<int>(value / 2) : -static_cast<int>(value / 2) - 1;
 }
 
-TEST(RecordingFile, HoldsEveryRecordToTheRoundingOfItsBox) {
+void expect_every_record(bool walls_move) {
   const Folder folder;
-  write_sample(folder / "m.gz");
+  const std::size_t placed = moving + (walls_move ? wall_points : 0), values = 3 * placed;
+  write_sample(folder / "m.gz", walls_move);
   const std::string bytes = unzipped(folder / "m.gz");
   ASSERT_TRUE(bytes.starts_with("CWMOTN01"));
   std::size_t at = 12 + value_at<std::uint32_t>(bytes, 8);
   EXPECT_EQ(at % 8, 0u);
   EXPECT_EQ(value_at<double>(bytes, at + 24), 2);
   at += 3 * 24 + 4 * (2 + 5) + 4 * 2;  // points; sizes and corners of walls; one edge
-  const auto records = sample_records();
+  const auto records = sample_records(walls_move);
   const double size[] = {2, 1, 4};
-  std::vector<int> last(12), before(12);
+  std::vector<int> last(values), before(values);
   std::vector<std::uint32_t> last_cells(4);
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes.at(i)); };
   for (std::size_t r = 0; r < records.size(); ++r) {
-    for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t i = 0; i < values; ++i) {
       const int expected = r > 1 ? 2 * last[i] - before[i] : last[i];
-      const int value = (expected + unfolded(byte(at + i) | byte(at + 12 + i) << 8)) & 0xffff;
+      const int value = (expected + unfolded(byte(at + i) | byte(at + values + i) << 8)) & 0xffff;
       before[i] = std::exchange(last[i], value);
-      EXPECT_LE(std::abs(value * size[i / 4] / 65535 - records[r].positions[i % 4][i / 4]),
-                0.50001 * size[i / 4] / 65535);
+      EXPECT_LE(std::abs(value * size[i / placed] / 65535 - records[r].positions[i % placed][i / placed]),
+                0.50001 * size[i / placed] / 65535);
     }
-    at += 24;
+    at += 2 * values;
     for (std::size_t i = 0; i < 4; ++i) {
       std::uint32_t change = 0;
       for (std::size_t k = 0; k < 4; ++k) change |= std::uint32_t{byte(at + 4 * k + i)} << 8 * k;
@@ -113,6 +119,9 @@ TEST(RecordingFile, HoldsEveryRecordToTheRoundingOfItsBox) {
   }
   EXPECT_EQ(at, bytes.size());
 }
+
+TEST(RecordingFile, HoldsEveryRecordToTheRoundingOfItsBox) { expect_every_record(false); }
+TEST(RecordingFile, HoldsWallsThatMoveAsWell) { expect_every_record(true); }
 
 TEST(RecordingFile, ReadsWhatItWrote) {
   const Folder folder;

@@ -19,7 +19,8 @@ namespace cellwalk::io {
 /// Writes a recording frame by frame; the file appears on commit() or not at all.
 class Recording_writer {
  public:
-  /// \pre indices of the scene are in range, and its box contains all moving points
+  /// \pre indices of the scene are in range, and its box contains all moving points; what lies outside is
+  ///      taken to its side
   /// \throw Error(other) if the file cannot be written
   Recording_writer(std::filesystem::path path, Recording_scene scene);
 

@@ -44,7 +44,8 @@ struct Recording_scene {
   std::uint32_t cells = 0;  ///< of the environment
   std::uint32_t particles = 0;
   std::vector<Recording_body> bodies;
-  Point<3> lower{}, upper{};  ///< the bounding box of the environment
+  Point<3> lower{}, upper{};  ///< the bounding box of the environment; wider if walls move
+  bool walls_move = false;    ///< then each frame has their points as well
   std::vector<Point<3>> points;
   /// Walls as loops of points, counterclockwise seen from their solid side; in 2D two points each. A wall
   /// with free space on both sides occurs twice.
@@ -63,12 +64,14 @@ struct Recording_scene {
     for (const Recording_body& body : bodies) count += body.vertices;
     return count;
   }
+  /// The number of positions in a frame.
+  std::size_t placed_count() const { return moving_count() + (walls_move ? points.size() : 0); }
 };
 
 /// One frame: views of the caller's arrays.
 struct Recording_frame {
-  std::span<const Point<3>> positions;  ///< of all moving points
-  /// For each point a cell in whose closure it lies, by its number in the input.
+  std::span<const Point<3>> positions;  ///< of all moving points; if walls move, then of the scene's points
+  /// For each moving point a cell in whose closure it lies, by its number in the input.
   std::span<const std::uint32_t> cells;
   std::span<const Decision> decisions;  ///< of each body
 };
