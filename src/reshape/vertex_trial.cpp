@@ -185,21 +185,19 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     ++counts_.apart;
     return true;
   }
-  if constexpr (D == 3) {
-    if (met.meeting == Encounter::touch) {
-      // Once something is in the way, all that matters is what else is hit.
-      if (obstruction_.meeting != Encounter::apart) return false;
-      Face_at_star result = after(star, face);
-      if (result.is_free) {
-        ++counts_.rested;
-        rests_.emplace_back(face, std::move(result.supporting_walls));
-        return true;
-      }
-      if (result.wall) {
-        met.meeting = Encounter::hit;
-        met.wall = *result.wall;
-        if (!any_) met.hit = star.walls()[met.wall].swept.first_hit(points);
-      }
+  if (met.meeting == Encounter::touch) {
+    // Once something is in the way, all that matters is what else is hit.
+    if (obstruction_.meeting != Encounter::apart) return false;
+    Face_at_star result = after(star, face);
+    if (result.is_free) {
+      ++counts_.rested;
+      rests_.emplace_back(face, std::move(result.supporting_walls));
+      return true;
+    }
+    if (result.wall) {
+      met.meeting = Encounter::hit;
+      met.wall = *result.wall;
+      if (!any_) met.hit = star.walls()[met.wall].swept.first_hit(points);
     }
   }
   block(std::move(met), face, Body_feature::face);
@@ -208,21 +206,25 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
 
 /// A face that walls touch, whose corners and edges are free.
 template <int D>
-Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) const requires(D == 3) {
-  const Resident_group<D>& group = groups_.all()[face.group];
-  const auto& at = group.faces[face.number];
-  const auto& sides = group.body->sides(face.number);
-  const auto corner = [&](std::size_t k) {
-    const Moved_vertex* moved = find({face.group, at[k]});
-    return moved ? moved->now : group.particles[at[k]];
-  };
-  const auto side = [&](std::size_t k) -> Side_chain {
-    const Member edge{face.group, sides[k]};
-    const auto relinked = std::ranges::find(chains_, edge, &std::pair<Member, Chain>::first);
-    return {relinked != chains_.end() ? &relinked->second : &groups_.chain(edge), at[k] > at[(k + 1) % 3]};
-  };
-  return face_at_star(star, {corner(0), corner(1), corner(2)}, {side(0), side(1), side(2)},
-                      group.body->supporting_walls(face.number));
+Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) {
+  if constexpr (D == 3) {
+    const Resident_group<3>& group = groups_.all()[face.group];
+    const auto& at = group.faces[face.number];
+    const auto& sides = group.body->sides(face.number);
+    const auto corner = [&](std::size_t k) {
+      const Moved_vertex* moved = find({face.group, at[k]});
+      return moved ? moved->now : group.particles[at[k]];
+    };
+    const auto side = [&](std::size_t k) -> Side_chain {
+      const Member edge{face.group, sides[k]};
+      const auto relinked = std::ranges::find(chains_, edge, &std::pair<Member, Chain>::first);
+      return {relinked != chains_.end() ? &relinked->second : &groups_.chain(edge), at[k] > at[(k + 1) % 3]};
+    };
+    return face_at_star(star, {corner(0), corner(1), corner(2)}, {side(0), side(1), side(2)},
+                        group.body->supporting_walls(face.number));
+  } else {
+    return {true, {}, {}};  // in the plane walls come in over edges only
+  }
 }
 
 /// False if no wall meets a set, or all that do leave it at once.

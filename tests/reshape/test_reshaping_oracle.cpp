@@ -85,7 +85,7 @@ void expect_all_right(bool generic, std::size_t worlds) {
 
 TEST(ReshapingOracle, Generic2D) { expect_all_right<2>(true, 60); }
 TEST(ReshapingOracle, Degenerate2D) { expect_all_right<2>(false, 60); }
-TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 20); }
+TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 14); }
 TEST(ReshapingOracle, Level3D) {
   Reshape_counts counts;
   const auto make = [](std::uint64_t number) {
@@ -93,12 +93,12 @@ TEST(ReshapingOracle, Level3D) {
     world->populate(3, 3);
     return world;
   };
-  const auto tally = run<3, test::Level_world>("level", oracle::scaled_count(12), make, counts);
+  const auto tally = run<3, test::Level_world>("level", oracle::scaled_count(8), make, counts);
   EXPECT_EQ(tally.wrong(), 0);
   EXPECT_GT(tally.landed, 10);
   EXPECT_GT(counts.rested, 50u);
 }
-TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 20); }
+TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 14); }
 
 }  // namespace
 }  // namespace cellwalk

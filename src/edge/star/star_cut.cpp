@@ -42,8 +42,9 @@ Star_cut<D>::Star_cut(const Star_segment<D>& segment, Cell start) {
     const auto order = x.at <=> y.at;
     return order != 0 ? order < 0 : (x.facet == Half_facet::none) > (y.facet == Half_facet::none);
   });
-  const auto coincident = std::ranges::unique(points_, {}, &Point_of_cut::at);
-  points_.erase(coincident.begin(), coincident.end());
+  points_.erase(std::unique(points_.begin(), points_.end(),
+                            [](const Point_of_cut& x, const Point_of_cut& y) { return x.at == y.at; }),
+                points_.end());
   const auto first_in = [&](const Span& span) {
     return static_cast<std::size_t>(std::ranges::lower_bound(points_, span.low, {}, &Point_of_cut::at) -
                                     points_.begin());

@@ -71,8 +71,8 @@ Half_space<D> Star_segment<D>::plane(const Cell_view<D>& cell, std::size_t i) co
 }
 
 template <int D>
-Half_space<D> Star_segment<D>::border(const Cell_view<D>& cell, std::size_t i, std::size_t k,
-                                      const Half_space<D>& plane) const {
+Half_space<D> Star_segment<D>::side_of(const Cell_view<D>& cell, std::size_t i, std::size_t k,
+                                       const Half_space<D>& plane) const {
   const auto loop = cell.loop(i);
   const auto u = corner(cell, loop[k]), v = corner(cell, loop[k + 1 == loop.size() ? 0 : k + 1]);
   if constexpr (D == 2)
@@ -101,7 +101,7 @@ std::optional<Span> Star_segment<D>::in_facet(Half_facet f) const {
   Span span{0, 1};
   if (!clip(span, at_p, at_q, 0) || !clip(span, -at_p, -at_q, 1)) return {};
   for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
-    const Half_space<D> inside = border(cell, i, k, outside);
+    const Half_space<D> inside = side_of(cell, i, k, outside);
     if (!clip(span, inside.at(p_), inside.at(q_), 2 + static_cast<int>(k))) return {};
   }
   return span;
@@ -120,12 +120,12 @@ std::optional<Span> Star_segment<D>::in_cell(Cell c) const {
 }
 
 template <int D>
-Fraction Star_segment<D>::at_border(Half_facet f, int number, const Fraction& otherwise) const {
+Fraction Star_segment<D>::at_border(Half_facet f, int border, const Fraction& otherwise) const {
   const Snapshot<D>& snapshot = still_.star().snapshot();
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(f));
   const std::size_t i = snapshot.facet_of(f);
   Half_space<D> h = plane(cell, i);
-  if (number >= 2) h = border(cell, i, static_cast<std::size_t>(number - 2), h);
+  if (border >= 2) h = side_of(cell, i, static_cast<std::size_t>(border - 2), h);
   const Ring at_p = h.at(p_), at_q = h.at(q_);
   if (CGAL::is_zero(at_p) && CGAL::is_zero(at_q)) return otherwise;
   return {at_p, at_p - at_q};

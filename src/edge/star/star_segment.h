@@ -54,8 +54,8 @@ class Star_segment {
  private:
   Ring_vector<D> corner(const Cell_view<D>& cell, std::uint16_t v) const;
   Half_space<D> plane(const Cell_view<D>& cell, std::size_t i) const;
-  Half_space<D> border(const Cell_view<D>& cell, std::size_t i, std::size_t k,
-                       const Half_space<D>& plane) const;
+  Half_space<D> side_of(const Cell_view<D>& cell, std::size_t i, std::size_t k,
+                        const Half_space<D>& plane) const;
   bool is_apart(const Cell_view<D>& cell, std::size_t i) const;
 
   const Still_segment<D>& still_;
