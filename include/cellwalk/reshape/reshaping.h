@@ -21,7 +21,7 @@ namespace cellwalk {
 
 /// What a vertex of the environment does whose walls meet a resident.
 enum class At_contact : std::uint8_t {
-  stop,  ///< it stops at a verified position just before
+  stop,  ///< it stops at a verified position, there or just before
   hold,  ///< it stays where it was
   /// What it meets is moved out of its way, by moves that are tested and stopped like any others; then it
   /// tries again, and stops if that did not help.
