@@ -3,6 +3,7 @@
 // snapshot.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
@@ -14,7 +15,6 @@
 #include <string>
 #include <utility>
 
-#include "environment/certify/boundary_index.h"
 #include "environment/certify/complex.h"
 #include "environment/map/edit_map.h"
 
@@ -43,12 +43,10 @@ bool is_strictly_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>&
 
 /// Updates the index of the boundary. If memory runs out, the index is dropped, and rebuilt when it is
 /// needed.
-template <int D>
-void follow(std::unique_ptr<detail::Boundary_index<D>>& index,
-            std::span<const typename detail::Boundary_index<D>::Entry> old,
-            std::span<const typename detail::Boundary_index<D>::Entry> now) {
+template <int D, class Update>
+void follow(std::unique_ptr<detail::Boundary_index<D>>& index, const Update& update) {
   std::unique_ptr<detail::Boundary_index<D>> kept = std::move(index);
-  kept->replace(old, now);
+  update(*kept);
   index = std::move(kept);
 }
 
@@ -97,7 +95,7 @@ void Environment<D>::set_impassable(Half_facet facet, bool wall) {
 
 template <int D>
 void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cell>& star,
-                                      bool on_boundary) const {
+                                      bool may_overlap) const {
   for (const Cell c : star) {
     const Cell_check check = check_cell(snapshot_.view(c));
     if (check.defect != Cell_defect::none)
@@ -107,12 +105,13 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
   }
   // Every sign is affine in the position of the point, so the cells stay sound on the whole path from the old
   // position, as do the angles around inner ridges. Only the boundary may enter other cells.
-  if (on_boundary) check_moved_boundary(point, star);
+  if (may_overlap) check_moved_boundary(point, star);
 }
 
 template <int D>
 void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const {
-  std::vector<Half_facet> near = boundary_->meeting(detail::box_of(snapshot_, star));
+  const std::vector<Half_facet> near =
+      boundary_->meeting(snapshot_.points(), detail::box_of<D>(snapshot_, star));
   detail::certify_boundary_of_star<D>(snapshot_, star, near);
   if (allow_duplicates_) return;
   // At the position of an inner vertex, the star would overlap the cells of that vertex.
@@ -144,7 +143,7 @@ const detail::Star_index<D>& Environment<D>::stars() {
 }
 
 template <int D>
-const detail::Boundary_index<D>& Environment<D>::boundary() {
+detail::Boundary_index<D>& Environment<D>::boundary() {
   if (!boundary_) boundary_ = std::make_unique<detail::Boundary_index<D>>(snapshot_);
   return *boundary_;
 }
@@ -171,18 +170,12 @@ bool Environment<D>::is_on_boundary(std::uint32_t point, const std::vector<Cell>
 
 /// What follows the move of a point in the snapshot: the map and the index of the boundary.
 template <int D>
-void Environment<D>::follow_move(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary,
-                                 const Point<D>& from) {
-  const Point<D> position = snapshot_.point(point);
+void Environment<D>::follow_move(std::uint32_t point, bool on_boundary) {
   if (storage_)
     for (const Map_vertex<D> vertex : storage_->vertices_of(point))
-      storage_->map.point_of_vertex_attribute(vertex) = to_map_point(position);
-  if (!on_boundary || !boundary_) return;
-  using Boundary = detail::Boundary_index<D>;
-  snapshot_.move_point(point, from);
-  const auto old_boundary = Boundary::entries(snapshot_, star);
-  snapshot_.move_point(point, position);
-  follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, star));
+      storage_->map.point_of_vertex_attribute(vertex) = to_map_point(snapshot_.point(point));
+  if (on_boundary && boundary_)
+    follow<D>(boundary_, [&](detail::Boundary_index<D>& index) { index.follow(snapshot_.points(), point); });
 }
 
 template <int D>
@@ -192,16 +185,16 @@ void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) 
   if (position == old_position) return;
   const std::vector<Cell> star = cells_around(point);
   const bool on_boundary = is_on_boundary(point, star);
-  if (on_boundary) boundary();
+  const bool is_way_free = on_boundary && boundary().is_way_free(snapshot_.points(), point, position);
   snapshot_.move_point(point, position);
   try {
-    check_moved_star(point, star, on_boundary);
+    check_moved_star(point, star, on_boundary && !is_way_free);
   } catch (...) {
     snapshot_.move_point(point, old_position);
     throw;
   }
   snapshot_.update_geometry(star);
-  follow_move(point, star, on_boundary, old_position);
+  follow_move(point, on_boundary);
 }
 
 template <int D>
@@ -227,9 +220,12 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
   std::vector<Half_facet> slots;
   const std::array<Cell, 1> removed{cell};
   using Boundary = detail::Boundary_index<D>;
-  const auto old_boundary = Boundary::entries(snapshot_, removed);
+  const std::vector<Half_facet> old_boundary = Boundary::facets(snapshot_, removed);
   std::vector<Cell> added = snapshot_.replace_cells(removed, flat.soup, flat.gluing, &slots);
-  if (boundary_) follow<D>(boundary_, old_boundary, Boundary::entries(snapshot_, added));
+  if (boundary_)
+    follow<D>(boundary_, [&](Boundary& index) {
+      index.replace(snapshot_, old_boundary, Boundary::facets(snapshot_, added));
+    });
   if (stars_) stars_->replace(snapshot_, cell, added);
 
   for (std::size_t i = 0; i < facets.size(); ++i)
@@ -248,21 +244,21 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
 }
 
 // The class as a whole is instantiated in environment.cpp.
-#define CELLWALK_INSTANTIATE(D)                                                                              \
-  template Map_storage<D>& Environment<D>::editable();                                                       \
-  template void Environment<D>::check_half_facet(Half_facet) const;                                          \
-  template void Environment<D>::check_cell_name(Cell) const;                                                 \
-  template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const;       \
-  template void Environment<D>::check_moved_boundary(std::uint32_t, const std::vector<Cell>&) const;         \
-  template void Environment<D>::check_point(std::uint32_t) const;                                            \
-  template void Environment<D>::check_move(std::uint32_t, const Point<D>&) const;                            \
-  template bool Environment<D>::is_on_boundary(std::uint32_t, const std::vector<Cell>&) const;               \
-  template const detail::Star_index<D>& Environment<D>::stars();                                             \
-  template const detail::Boundary_index<D>& Environment<D>::boundary();                                      \
-  template std::vector<Cell> Environment<D>::cells_around(std::uint32_t);                                    \
-  template void Environment<D>::follow_move(std::uint32_t, const std::vector<Cell>&, bool, const Point<D>&); \
-  template void Environment<D>::set_impassable(Half_facet, bool);                                            \
-  template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                                 \
+#define CELLWALK_INSTANTIATE(D)                                                                        \
+  template Map_storage<D>& Environment<D>::editable();                                                 \
+  template void Environment<D>::check_half_facet(Half_facet) const;                                    \
+  template void Environment<D>::check_cell_name(Cell) const;                                           \
+  template void Environment<D>::check_moved_star(std::uint32_t, const std::vector<Cell>&, bool) const; \
+  template void Environment<D>::check_moved_boundary(std::uint32_t, const std::vector<Cell>&) const;   \
+  template void Environment<D>::check_point(std::uint32_t) const;                                      \
+  template void Environment<D>::check_move(std::uint32_t, const Point<D>&) const;                      \
+  template bool Environment<D>::is_on_boundary(std::uint32_t, const std::vector<Cell>&) const;         \
+  template const detail::Star_index<D>& Environment<D>::stars();                                       \
+  template detail::Boundary_index<D>& Environment<D>::boundary();                                      \
+  template std::vector<Cell> Environment<D>::cells_around(std::uint32_t);                              \
+  template void Environment<D>::follow_move(std::uint32_t, bool);                                      \
+  template void Environment<D>::set_impassable(Half_facet, bool);                                      \
+  template void Environment<D>::move_vertex(std::uint32_t, const Point<D>&);                           \
   template std::vector<Cell> Environment<D>::insert_point(Cell, const Point<D>&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "environment/certify/boundary_index.h"
 #include "environment/map/map_matches_snapshot.h"
 #include "prepare_soup.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/environment/vertex_mover.h>
 #include <cellwalk/internal/kernel/swept_simplex.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <string>
 
-#include "environment/certify/boundary_index.h"
 #include "environment/snapshot/compiler.h"
 
 namespace cellwalk::detail {
@@ -90,9 +90,9 @@ bool Vertex_mover<D>::runs_into_boundary() {
   Snapshot<D>& snapshot = environment_.snapshot_;
   Predicate_counts counts;
   std::vector<Point<D>> polygon;
-  const Boundary_index<D>& boundary = environment_.boundary();
-  for (const auto& entry : Boundary_index<D>::entries(snapshot, star_)) {
-    const Half_facet w{entry.second};
+  Boundary_index<D>& boundary = environment_.boundary();
+  if (boundary.is_way_free(snapshot.points(), point_, target_)) return false;
+  for (const Half_facet w : Boundary_index<D>::facets(snapshot, star_)) {
     typename Swept_simplex<D>::Corners still;
     std::size_t corners = 0;
     const std::vector<std::uint32_t> loop = snapshot.loop(w);
@@ -100,13 +100,7 @@ bool Vertex_mover<D>::runs_into_boundary() {
     for (const std::uint32_t v : loop)
       if (v != point_) still[corners++] = snapshot.point(v);
     const Swept_simplex<D> swept(from_, target_, still, counts);
-    Tree_box<D> box;
-    const Point<D>&low = swept.box().low, &high = swept.box().high;
-    if constexpr (D == 2)
-      box = {{low[0], low[1]}, {high[0], high[1]}};
-    else
-      box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-    for (const Half_facet f : boundary.meeting(box)) {
+    for (const Half_facet f : boundary.meeting(snapshot.points(), swept.box())) {
       polygon.clear();
       bool is_at_point = false;
       for (const std::uint32_t v : snapshot.loop(f)) {
@@ -145,7 +139,7 @@ void Vertex_mover<D>::take_back() {
 
 template <int D>
 void Vertex_mover<D>::commit() {
-  environment_.follow_move(point_, star_, is_on_boundary_, from_);
+  environment_.follow_move(point_, is_on_boundary_);
 }
 
 template <int D>

@@ -129,15 +129,14 @@ class Environment {
   Map_storage<D>& editable();
   void check_half_facet(Half_facet facet) const;
   void check_cell_name(Cell cell) const;
-  void check_moved_star(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary) const;
+  void check_moved_star(std::uint32_t point, const std::vector<Cell>& star, bool may_overlap) const;
   void check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
   void check_point(std::uint32_t point) const;
   void check_move(std::uint32_t point, const Point<D>& position) const;
   bool is_on_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
   const detail::Star_index<D>& stars();
-  const detail::Boundary_index<D>& boundary();
-  void follow_move(std::uint32_t point, const std::vector<Cell>& star, bool on_boundary,
-                   const Point<D>& from);
+  detail::Boundary_index<D>& boundary();
+  void follow_move(std::uint32_t point, bool on_boundary);
 
   std::unique_ptr<Map_storage<D>> storage_;
   Snapshot<D> snapshot_;

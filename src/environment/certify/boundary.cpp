@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Boundary facets against the interiors of cells. Signs of input points suffice, because a plane that
 // separates two convex polytopes can be moved until it contains D of their vertices.
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <utility>
 #include <vector>
 
-#include "boundary_index.h"
 #include "complex.h"
 #include "polygon.h"
 
@@ -13,6 +17,26 @@ namespace cellwalk::detail {
 namespace {
 
 using Loop = std::vector<std::uint32_t>;
+
+template <int D>
+using Box_corner = boost::geometry::model::point<double, D, boost::geometry::cs::cartesian>;
+template <int D>
+using Tree_box = boost::geometry::model::box<Box_corner<D>>;
+
+/// The bounding box of points.
+template <int D>
+Tree_box<D> tree_box(std::span<const Point<D>> points, std::span<const std::uint32_t> vertices) {
+  Point<D> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const std::uint32_t v : vertices)
+    for (int i = 0; i < D; ++i) {
+      low[i] = std::min(low[i], points[v][i]);
+      high[i] = std::max(high[i], points[v][i]);
+    }
+  if constexpr (D == 2) return {{low[0], low[1]}, {high[0], high[1]}};
+  if constexpr (D == 3) return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
 
 template <int D>
 struct Boundary_facet {
@@ -163,7 +187,7 @@ void certify_boundary(const Complex<D>& complex) {
   using Entry = std::pair<Tree_box<D>, std::uint32_t>;
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < facets.size(); ++i)
-    entries.push_back({box_of<D>(snapshot.points(), facets[i].loop), i});
+    entries.push_back({tree_box<D>(snapshot.points(), facets[i].loop), i});
   const boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>> tree(entries);
 
   constexpr std::uint32_t none = 0xffffffffu;
@@ -171,7 +195,7 @@ void certify_boundary(const Complex<D>& complex) {
   const auto lowest_overlap = [&](Cell c, Overlap_test<D>& test, std::vector<Entry>& candidates) {
     const Cell_view<D> view = snapshot.view(c);
     candidates.clear();
-    tree.query(boost::geometry::index::intersects(box_of<D>(snapshot.points(), view.vertices)),
+    tree.query(boost::geometry::index::intersects(tree_box<D>(snapshot.points(), view.vertices)),
                std::back_inserter(candidates));
     std::uint32_t lowest = none;
     for (const Entry& entry : candidates) {
@@ -210,10 +234,10 @@ void certify_boundary_of_star(const Snapshot<D>& snapshot, std::span<const Cell>
   Overlap_test<D> test(snapshot.points());
   for (const Cell c : star) {
     const Cell_view<D> view = snapshot.view(c);
-    const Tree_box<D> box = box_of<D>(snapshot.points(), view.vertices);
+    const Tree_box<D> box = tree_box<D>(snapshot.points(), view.vertices);
     for (const Boundary_facet<D>& facet : facets)
       if (snapshot.cell_of(facet.facet) != c &&
-          boost::geometry::intersects(box, box_of<D>(snapshot.points(), facet.loop)) && test(facet, view))
+          boost::geometry::intersects(box, tree_box<D>(snapshot.points(), facet.loop)) && test(facet, view))
         refuse_overlap(snapshot, facet.facet, c);
   }
 }
