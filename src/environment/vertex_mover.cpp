@@ -13,26 +13,24 @@
 namespace cellwalk::detail {
 namespace {
 
-/// The orientation of a simplex with one of its points moved to x, positive if it keeps its sense: exact
-/// sign and rounded value.
-struct Moved_volume {
-  int sign;
-  double value;
-};
+/// If fewer cells than one for so many blocks are withdrawn, they are sorted; else all blocks are looked at.
+constexpr std::size_t blocks_a_cell = 64;
 
-template <int D>
-Moved_volume volume_with(const Cell_view<D>& cell, std::uint32_t point, const Point<D>& x) {
-  std::size_t facet = 0;
-  while (has_point(cell, facet, point)) ++facet;
-  const auto loop = cell.loop(facet);
-  Predicate_counts counts;
-  if constexpr (D == 2) {
-    const Point<2>&a = cell.point(loop[0]), &b = cell.point(loop[1]);
-    return {Exact::orientation(counts, a, b, x), determinant<double>(a, b, x).value};
-  } else {
-    const Point<3>&a = cell.point(loop[0]), &b = cell.point(loop[1]), &c = cell.point(loop[2]);
-    return {-Exact::orientation(counts, a, b, c, x), -determinant<double>(a, b, c, x).value};
-  }
+/// Calls use() with the points of a simplex, one of them moved to x, in an order in which their orientation
+/// is positive if it keeps its sense.
+template <int D, class Use>
+auto with_moved(const Cell_view<D>& cell, std::uint32_t point, const Point<D>& x, const Use& use) {
+  const auto loop = cell.loop(0);
+  // Facet 0 and the vertex off it.
+  std::size_t apex = D * (D + 1) / 2;
+  for (const std::uint16_t v : loop) apex -= v;
+  const auto at = [&](std::size_t v) -> const Point<D>& {
+    return cell.point_index(v) == point ? x : cell.point(v);
+  };
+  if constexpr (D == 2)
+    return use(at(loop[0]), at(loop[1]), at(apex));
+  else
+    return use(at(loop[1]), at(loop[0]), at(loop[2]), at(apex));
 }
 
 }  // namespace
@@ -72,12 +70,15 @@ Star_check Vertex_mover<D>::begin(std::uint32_t point, const Point<D>& target) {
 template <int D>
 Star_check Vertex_mover<D>::check_cells() const {
   Star_check check;
+  Predicate_counts counts;
+  const auto sign = [&](const auto&... x) { return Exact::orientation(counts, x...); };
+  const auto volume = [](const auto&... x) { return determinant<double>(x...).value; };
   for (const Cell c : star_) {
     const Cell_view<D> view = snapshot().view(c);
-    const Moved_volume at_target = volume_with(view, point_, target_);
-    if (at_target.sign > 0) continue;
-    const double before = volume_with(view, point_, from_).value;
-    const double share = std::clamp(before / (before - at_target.value), 0.0, 1.0);
+    if (with_moved<D>(view, point_, target_, sign) > 0) continue;
+    const double before = with_moved<D>(view, point_, from_, volume),
+                 after = with_moved<D>(view, point_, target_, volume);
+    const double share = std::clamp(before / (before - after), 0.0, 1.0);
     if (check.defect != Star_defect::none && !(share < check.share)) continue;
     check = {Star_defect::cell, c, share >= 0 ? share : 0};
   }
@@ -124,10 +125,17 @@ bool Vertex_mover<D>::runs_into_boundary() {
 template <int D>
 void Vertex_mover<D>::place() {
   Snapshot<D>& snapshot = environment_.snapshot_;
-  withdrawn_.insert(withdrawn_.end(), star_.begin(), star_.end());
-  if (withdrawn_.size() > next_tidy_) tidy();
+  is_withdrawn_.resize(snapshot.half_facet_slots() / 4);
   Snapshot_compiler<D> compiler(snapshot);
-  for (const Cell c : star_) compiler.withdraw(c);
+  for (const Cell c : star_) {
+    if (is_withdrawn_[to_index(c)]) {
+      compiler.forget_cluster(c);
+      continue;
+    }
+    withdrawn_.push_back(c);
+    is_withdrawn_[to_index(c)] = true;
+    compiler.withdraw(c);
+  }
   compiler.raise_epochs();
   snapshot.move_point(point_, target_);
 }
@@ -143,17 +151,17 @@ void Vertex_mover<D>::commit() {
 }
 
 template <int D>
-void Vertex_mover<D>::tidy() {
-  std::sort(withdrawn_.begin(), withdrawn_.end());
-  withdrawn_.erase(std::unique(withdrawn_.begin(), withdrawn_.end()), withdrawn_.end());
-  next_tidy_ = std::max<std::size_t>(next_tidy_, 2 * withdrawn_.size());
-}
-
-template <int D>
 void Vertex_mover<D>::restore() {
   if (withdrawn_.empty()) return;
-  tidy();
+  if (withdrawn_.size() < is_withdrawn_.size() / blocks_a_cell) {
+    std::sort(withdrawn_.begin(), withdrawn_.end());
+  } else {
+    withdrawn_.clear();
+    for (std::size_t i = 0; i < is_withdrawn_.size(); ++i)
+      if (is_withdrawn_[i]) withdrawn_.push_back(Cell{static_cast<std::uint32_t>(i)});
+  }
   environment_.snapshot_.update_geometry(withdrawn_);
+  for (const Cell c : withdrawn_) is_withdrawn_[to_index(c)] = false;
   withdrawn_.clear();
 }
 

@@ -5,6 +5,7 @@
 #include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "plane_compiler.h"
 
@@ -145,11 +146,12 @@ void Snapshot_compiler<D>::turn_loops(Cell c) {
 template <int D>
 std::size_t Snapshot_compiler<D>::count_uncertified(Cell c) const {
   std::size_t uncertified = 0;
-  for (std::size_t i = 0; i < s_.facet_count(c); ++i) {
-    const Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
-    bool certified = block.offset[i % 4] != 0;
-    for (int k = 0; k < D; ++k) certified |= block.normal[k][i % 4] != 0;
-    uncertified += !certified;
+  for (std::size_t i = 0; i < s_.block_count(c); ++i) {
+    // The offsets of unused lanes are not 0.
+    const Plane_block<D>& block = s_.planes_[to_index(c) + i];
+    Int4 all = block.offset == 0;
+    for (const Float4& n : block.normal) all &= n == 0;
+    uncertified += static_cast<std::size_t>(std::popcount(lane_mask(all)));
   }
   return uncertified;
 }
@@ -175,6 +177,27 @@ std::size_t Snapshot_compiler<D>::write_planes(Cell c) {
     uncertified += !certified;
   }
   return uncertified;
+}
+
+template <int D>
+int Snapshot_compiler<D>::is_convex_by_planes(Cell a, std::size_t facet, Cell b) const requires(D == 3) {
+  const std::uint32_t* links = s_.links(a);
+  if (s_.is_impassable(Snapshot<D>::half_facet(a, facet))) return 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (i != facet && (links[i] & Snapshot<D>::link_mask) == to_index(b)) return -1;
+  // The vertex of b that is not one of a: all others occur twice, but that of a that is not one of b.
+  const Cell_view<D> va = s_.view(a);
+  std::uint32_t apex =
+      va.vertices[static_cast<std::size_t>(6 - va.loop(facet)[0] - va.loop(facet)[1] - va.loop(facet)[2])];
+  for (const std::uint32_t v : va.vertices) apex ^= v;
+  for (const std::uint32_t v : s_.view(b).vertices) apex ^= v;
+  Float_point<D> y;
+  if (!s_.frame_.map(s_.points_[apex], y)) return -1;
+  Float4 outside = evaluate<D>(s_.planes_[to_index(a)], y);
+  outside[facet] = -1;
+  float highest = outside[0];
+  for (int i = 1; i < 4; ++i) highest = std::max(highest, outside[i]);
+  return highest > plane_error ? 0 : highest < -plane_error ? 1 : -1;
 }
 
 template <int D>

@@ -30,6 +30,8 @@ class Snapshot_compiler {
   /// Withdraws what planes and convex pairs certify of a cell, before its points move: all of it is decided
   /// exactly until Snapshot::update_geometry(). Also of the other sides of its facets.
   void withdraw(Cell c);
+  /// What the cluster of a cell knows was wrong if it was made since its points began to move.
+  void forget_cluster(Cell c) { s_.clusters_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
   /// Recomputes the planes of a cell. Returns the number of those that could not be certified.
@@ -39,6 +41,13 @@ class Snapshot_compiler {
   std::size_t count_uncertified(Cell c) const;
   /// Recomputes the convex-pair bit of a facet on both sides. One thread per facet.
   void write_convex_pair(Half_facet f);
+  /// True if all facets of a cell are triangles, and there are four.
+  bool is_tetrahedron(Cell c) const;
+  /// Recomputes the convex-pair bits of the facets of a tetrahedron on both sides, by planes where they tell.
+  /// \param is_done is_done(c): the facets to cell c are left out
+  /// \pre its planes are up to date
+  template <class Done>
+  void write_convex_pairs(Cell c, const Done& is_done) requires(D == 3);
   /// Links two half-facets; wall marks both.
   void link(Half_facet f, Half_facet g, bool wall);
   void link_boundary(Half_facet f);
@@ -46,6 +55,8 @@ class Snapshot_compiler {
   static constexpr std::size_t blocks_for(std::size_t facets) { return (facets + 3) / 4; }
 
  private:
+  /// Whether two tetrahedra that share one facet are a convex pair: 1 or 0, or -1 if planes do not tell.
+  int is_convex_by_planes(Cell a, std::size_t facet, Cell b) const requires(D == 3);
   /// The number of a shape, added if new. Thread-safe.
   std::uint32_t shape_number(const Cell_shape& shape);
   /// Removes all facets and neighbours.
@@ -54,6 +65,32 @@ class Snapshot_compiler {
   Snapshot<D>& s_;
   std::mutex shapes_mutex_;
 };
+
+template <int D>
+bool Snapshot_compiler<D>::is_tetrahedron(Cell c) const {
+  const Cell_shape& shape = s_.shapes_[s_.shape_[to_index(c)] & Snapshot<D>::shape_mask];
+  return D == 3 && shape.vertex_count == 4 && shape.facet_count() == 4 && shape.loops.size() == 12;
+}
+
+template <int D>
+template <class Done>
+void Snapshot_compiler<D>::write_convex_pairs(Cell c, const Done& is_done) requires(D == 3) {
+  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Half_facet f = Snapshot<D>::half_facet(c, i);
+    const Cell other = s_.neighbour(f);
+    if (other == Cell::none || is_done(other)) continue;
+    const int is_convex = is_tetrahedron(other) ? is_convex_by_planes(c, i, other) : -1;
+    if (is_convex < 0) {
+      write_convex_pair(f);
+      continue;
+    }
+    std::uint32_t* links = s_.links_.data() + 4 * std::size_t{to_index(other)};
+    while ((*links & Snapshot<D>::link_mask) != to_index(c)) ++links;
+    for (std::uint32_t* word : {&s_.links_[to_index(f)], links})
+      *word = is_convex == 1 ? *word | bit : *word & ~bit;
+  }
+}
 
 extern template class Snapshot_compiler<2>;
 extern template class Snapshot_compiler<3>;

@@ -2,24 +2,67 @@
 #include <cellwalk/internal/environment/star_index.h>
 
 #include <algorithm>
+#include <array>
 
 namespace cellwalk::detail {
 namespace {
+
+/// The first cells found, to be found again: a table with places for twice as many, on the stack.
+class Seen_cells {
+ public:
+  Seen_cells() { places_.fill(Cell::none); }
+  /// True if a cell was not there.
+  /// \pre fewer than `most` were entered
+  bool enter(Cell c) {
+    std::size_t at = (to_index(c) * 0x9e3779b1u) >> (32 - bits);
+    while (places_[at] != Cell::none && places_[at] != c) at = (at + 1) % places_.size();
+    const bool is_new = places_[at] == Cell::none;
+    places_[at] = c;
+    return is_new;
+  }
+  static constexpr unsigned bits = 7;
+  static constexpr std::size_t most = (std::size_t{1} << bits) / 2;
+
+ private:
+  std::array<Cell, 2 * most> places_;
+};
+
+/// Calls visit(facet) for the facets of a cell that have a point.
+template <int D, class Visit>
+void for_each_facet_at(const Cell_view<D>& view, std::uint32_t point, const Visit& visit) {
+  if (view.vertex_count() != D + 1) {
+    for (std::size_t i = 0; i < view.facet_count(); ++i)
+      if (has_point(view, i, point)) visit(i);
+    return;
+  }
+  // In a simplex all facets have it but the one whose local vertices are all others.
+  int sum = 0;
+  for (int k = 0; k <= D; ++k) sum += view.vertices[static_cast<std::size_t>(k)] == point ? 0 : k;
+  for (std::size_t i = 0; i < view.facet_count(); ++i) {
+    int own = 0;
+    for (const std::uint16_t v : view.loop(i)) own += v;
+    if (own != sum) visit(i);
+  }
+}
 
 /// Appends the cells joined with `first` through facets that have the point, walls included.
 template <int D>
 void append_part(const Snapshot<D>& snapshot, std::uint32_t point, Cell first, std::vector<Cell>& cells) {
   const std::size_t begin = cells.size();
+  Seen_cells seen;
+  seen.enter(first);
   cells.push_back(first);
   for (std::size_t visited = begin; visited < cells.size(); ++visited) {
     const Cell c = cells[visited];
-    const Cell_view<D> view = snapshot.view(c);
-    for (std::size_t i = 0; i < view.facet_count(); ++i) {
+    for_each_facet_at<D>(snapshot.view(c), point, [&](std::size_t i) {
       const Cell next = snapshot.neighbour(Snapshot<D>::half_facet(c, i));
-      if (next == Cell::none || !has_point(view, i, point)) continue;
-      if (std::find(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(), next) == cells.end())
-        cells.push_back(next);
-    }
+      if (next == Cell::none) return;
+      const bool is_new = cells.size() - begin < Seen_cells::most
+                              ? seen.enter(next)
+                              : std::find(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(),
+                                          next) == cells.end();
+      if (is_new) cells.push_back(next);
+    });
   }
 }
 

@@ -63,15 +63,14 @@ class Vertex_mover {
  private:
   Star_check check_cells() const;
   bool runs_into_boundary();
-  void tidy();
 
   Environment<D>& environment_;
   std::uint32_t point_ = 0;
   Point<D> from_{}, target_{};
   std::vector<Cell> star_;
   bool is_on_boundary_ = false;
-  std::vector<Cell> withdrawn_;  ///< cells, some of them more than once
-  std::size_t next_tidy_ = 1024;
+  std::vector<Cell> withdrawn_;     ///< cells, in any order
+  std::vector<bool> is_withdrawn_;  ///< by the name of a cell
 };
 
 extern template class Vertex_mover<2>;
