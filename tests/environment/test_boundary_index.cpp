@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "certify_samples.h"
@@ -131,6 +133,51 @@ TEST(BoundaryIndex, ProvesOnlyWhatIsFree3) {
   EXPECT_GT(all.made, 600u);
   EXPECT_GT(all.blocked, 80u);
   EXPECT_LT(all.left_open * 4, all.made) << "most of what is free is proved so";
+}
+
+/// Two triangles, of which the lower one points to the lowest side of the upper one.
+Cell_soup<2> two_triangles() {
+  Cell_soup<2> soup;
+  soup.points = {{0, 0}, {2, 0}, {1, 1}, {0, 2}, {2, 2}, {1, 4}};
+  add_polygon(soup, std::array<std::uint32_t, 3>{0, 1, 2});
+  add_polygon(soup, std::array<std::uint32_t, 3>{3, 4, 5});
+  return soup;
+}
+
+TEST(BoundaryIndex, IsNotClearOnceSomethingCameNear) {
+  const Cell_soup<2> soup = two_triangles();
+  const Snapshot<2> snapshot = Snapshot<2>::compile(soup, glue(soup));
+  std::vector<Point<2>> points = soup.points;
+  Boundary_index<2> index(snapshot);
+  const Point<2> below{0, 1.875};
+  ASSERT_TRUE(index.is_way_free(points, 3, points[3]));
+  index.follow(points, 3);
+  ASSERT_TRUE(index.is_way_free(points, 3, below)) << "in its zone";
+  points[2] = {1, 2};  // into the side of the other
+  index.follow(points, 2);
+  EXPECT_FALSE(index.is_way_free(points, 3, below)) << "through the tip";
+  EXPECT_FALSE(index.is_way_free(points, 4, {2, 1.875}));
+  EXPECT_FALSE(index.is_way_free(points, 0, {-0.125, 0})) << "its facet touches another one";
+  points[2] = {1, 1};
+  index.follow(points, 2);
+  EXPECT_TRUE(index.is_way_free(points, 3, below));
+}
+
+TEST(BoundaryIndex, FollowsAnEditThatReplacesFacets) {
+  Cell_soup<2> soup = two_triangles();
+  Environment<2> environment = Environment<2>::build(soup);
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Boundary_index<2> index(snapshot);
+  const Cell cell = snapshot.cell(1);
+  const std::vector<Half_facet> old = Boundary_index<2>::facets(snapshot, std::array{cell});
+  ASSERT_EQ(old.size(), 3u);
+  const std::vector<Cell> added = environment.insert_point(cell, {1, 3});
+  index.replace(snapshot, old, Boundary_index<2>::facets(snapshot, added));
+  EXPECT_FALSE(index.is_way_free(snapshot.points(), 2, {1, 3})) << "into the new facets";
+  EXPECT_TRUE(index.is_way_free(snapshot.points(), 2, {1, 1.5}));
+  std::vector<Half_facet> met = index.meeting(snapshot.points(), {{-1, 1.5}, {3, 2.5}});
+  EXPECT_EQ(met.size(), 3u);
+  for (const Half_facet f : met) EXPECT_EQ(snapshot.neighbour(f), Cell::none);
 }
 
 template <int D>

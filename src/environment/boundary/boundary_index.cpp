@@ -11,6 +11,9 @@ namespace {
 
 /// Rounds the bounds of a ball outwards, with a margin.
 constexpr double outwards = 0x1p-50;
+/// The zone of a vertex lies ahead of it by this share of the radius of the one before, but not farther than so
+/// many steps.
+constexpr double share_ahead = 0.6, most_steps_ahead = 4;
 /// All facets at a vertex are parted from another one at once if that leaves this share of the radius.
 constexpr double at_once_share = 0.5;
 
@@ -216,11 +219,15 @@ void Boundary_index<D>::find_way(std::span<const Point<D>> points, const Zoned_m
     way_.met.push_back({{f, g}});
     return stops;
   };
-  for (std::size_t i = 0; i < own.size(); ++i)
+  // Facets at the vertex are parted from each other if their neighbours without it are, unless they coincide.
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const Names& corners_of_first = facets_[own[i]].corners;
     for (std::size_t j = 0; j < i; ++j)
-      if (!(are_simplices && part(points, move, corners(own[i]), corners(own[j]), true)) &&
-          meets(own[i], own[j]))
-        return;
+      if (const Names& others = facets_[own[j]].corners;
+          !are_simplices ||
+          std::is_permutation(corners_of_first.begin(), corners_of_first.end(), others.begin(), others.end()))
+        if (meets(own[i], own[j])) return;
+  }
   for (const std::uint32_t g : near_) {
     if (std::find(own.begin(), own.end(), g) != own.end()) continue;
     const Names& of_g = facets_[g].corners;
@@ -252,15 +259,28 @@ template <int D>
 bool Boundary_index<D>::is_way_free(std::span<const Point<D>> points, std::uint32_t point,
                                     const Point<D>& target) {
   is_way_known_ = false;
-  if (const Vertex& v = vertex(point); v.is_clear && v.zone.contains(target)) return true;
-  find_way(points, {point, points[point], target}, true);
-  return is_way_known_ = way_.met.empty();
+  const Vertex& v = vertex(point);
+  if (v.is_clear && v.zone.contains(target)) return true;
+  // What goes on in its direction stays longer in a zone that lies ahead.
+  const Point<D>& from = points[point];
+  const Vector<D> step = target - from;
+  const double ahead = std::min(share_ahead * v.zone.radius, most_steps_ahead * length(step));
+  way_.target = target;
+  if (ahead > 0) {
+    find_way(points, {point, from, target + (ahead / length(step)) * step}, true);
+    is_way_known_ = way_.met.empty() && way_.zone.contains(target);
+  }
+  if (!is_way_known_) {
+    find_way(points, {point, from, target}, true);
+    is_way_known_ = way_.met.empty();
+  }
+  return is_way_known_;
 }
 
 template <int D>
 void Boundary_index<D>::follow(std::span<const Point<D>> points, std::uint32_t point) {
   const Point<D>& position = points[point];
-  const bool is_known = is_way_known_ && way_.point == point && way_.zone.centre == position;
+  const bool is_known = is_way_known_ && way_.point == point && way_.target == position;
   is_way_known_ = false;
   if (!is_known) {
     if (vertex(point).zone.contains(position)) return;

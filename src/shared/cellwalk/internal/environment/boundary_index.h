@@ -67,7 +67,8 @@ class Boundary_index {
   /// What a way of a vertex was found to need.
   struct Way {
     std::uint32_t point = 0;
-    Zone<D> zone;                       ///< around its end
+    Point<D> target{};                  ///< where it ends
+    Zone<D> zone;                       ///< that of the vertex from then on
     std::vector<std::uint32_t> shrunk;  ///< points that need to have no zone, but the place where they are
     std::vector<std::array<std::uint32_t, 2>> met;  ///< facets that are not parted
   };
