@@ -219,15 +219,11 @@ void Boundary_index<D>::find_way(std::span<const Point<D>> points, const Zoned_m
     way_.met.push_back({{f, g}});
     return stops;
   };
-  // Facets at the vertex are parted from each other if their neighbours without it are, unless they coincide.
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    const Names& corners_of_first = facets_[own[i]].corners;
+  for (std::size_t i = 0; i < own.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (const Names& others = facets_[own[j]].corners;
-          !are_simplices ||
-          std::is_permutation(corners_of_first.begin(), corners_of_first.end(), others.begin(), others.end()))
-        if (meets(own[i], own[j])) return;
-  }
+      if (!(are_simplices && part(points, move, corners(own[i]), corners(own[j]), true)) &&
+          meets(own[i], own[j]))
+        return;
   for (const std::uint32_t g : near_) {
     if (std::find(own.begin(), own.end(), g) != own.end()) continue;
     const Names& of_g = facets_[g].corners;
