@@ -152,9 +152,10 @@ class Reshaping {
   ///        Error(input) for a target that is not finite
   /// Degenerate cases: all are decided; where a rim passes a vertex or edge exactly, it may end on either
   /// side, see docs/moving.md, touches. A target equal to the position is reached.
-  /// Cost: about 3 us with nothing near, twice as much in 10^6 cells that are not in the cache; some 20 signs
-  /// more a wall that is near something; exact numbers for what is touched; on the boundary of the
-  /// environment some 50 us more. The first move in an environment takes 1 us for each of its points.
+  /// Cost: about 2 us with nothing near, 3 us in 10^6 cells that are not in the cache; some 20 signs more a
+  /// wall that is near something; exact numbers for what is touched; on the boundary of the environment up to
+  /// a few us more, and some 50 us near other parts of it. The first move in an environment takes 1 us for
+  /// each of its points.
   Vertex_result<D> move(std::uint32_t point, const Point<D>& target);
 
   /// Moves many vertices, in order and backwards in turn, in rounds until all have arrived or none gets on.
@@ -169,7 +170,7 @@ class Reshaping {
   Vertex_result<D> ask(std::uint32_t point, const Point<D>& target);
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved after that.
-  /// Cost: about 0.6 us a cell around vertices that moved.
+  /// Cost: about 0.3 us a cell around vertices that moved.
   void close();
 
   const Reshape_counts& counts() const;

@@ -54,7 +54,6 @@ class Moving_star {
   std::size_t wall_of(Half_facet facet) const;
   /// The box of all that the walls sweep; empty if there are none.
   const Box<D>& box() const { return box_; }
-  std::uint32_t vertex() const { return vertex_; }
   /// True for a cell that has the vertex.
   bool has(Cell cell) const;
   /// True for a facet that has it.

@@ -45,10 +45,10 @@ class Boundary_index {
   /// True proves that no boundary facet at a point meets another one, but in common corners and what they
   /// span, on the whole straight way of the point to a target. Remembers what follow() needs.
   /// \pre the point is on the boundary
-  /// Cost: a comparison while the point stays in its zone; else some 5 us.
+  /// Cost: a comparison while the point stays in its zone; else a few us.
   bool is_way_free(std::span<const Point<D>> points, std::uint32_t point, const Point<D>& target);
   /// A point of the boundary was moved.
-  /// Cost: nothing while it stays in its zone, or if is_way_free() was just asked; else some 10 us.
+  /// Cost: nothing while it stays in its zone, little if is_way_free() was just asked; else a few us.
   void follow(std::span<const Point<D>> points, std::uint32_t point);
 
  private:
