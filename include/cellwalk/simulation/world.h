@@ -51,8 +51,8 @@ class World {
   /// \throw Error(usage) if the environment was edited since the world was made
   void step();
 
-  /// Moves points of the environment with everything in it, one after the other; what they meet stays where it
-  /// is or is pushed out of the way, as the options say. Bodies that are pushed are checked as in steps.
+  /// Moves points of the environment with everything in it, one after the other; what they meet stays where
+  /// it is or is pushed out of the way, as the options say. Bodies that are pushed are checked as in steps.
   /// \pre `environment` is that of the snapshot
   /// \throw Error(usage) if it is not, or was edited since the world was made; and as Reshaping::move()
   /// Cost: that of Reshaping::move().

@@ -30,8 +30,8 @@ struct Timed_move {
   Vertex_move<D> move;
 };
 
-/// Reads moves as read_moves(), with the step of each in a column `step`: a whole number, at least 1. The result
-/// is in the order of steps; the moves of one in that of their rows.
+/// Reads moves as read_moves(), with the step of each in a column `step`: a whole number, at least 1. The
+/// result is in the order of steps; the moves of one in that of their rows.
 /// \throw Error(input) as read_moves(); also for a point that is given twice in a step
 template <int D>
 std::vector<Timed_move<D>> read_timed_moves(const std::string& path, Environment<D>& environment);
