@@ -75,8 +75,8 @@ class Boundary_index {
 
   Vertex& vertex(std::uint32_t point) { return vertices_[number_[point]]; }
   const Vertex& vertex(std::uint32_t point) const { return vertices_[number_[point]]; }
-  void add(const Snapshot<D>& snapshot, Half_facet facet);
-  void remove(Half_facet facet);
+  void add(const Snapshot<D>& snapshot, Half_facet name);
+  void remove(Half_facet name);
   Box<D> zone_box(const Facet& facet) const;
   bool is_simplex(std::uint32_t facet) const { return facets_[facet].corners.size() == std::size_t{D}; }
   Corners corners(std::uint32_t facet) const;
