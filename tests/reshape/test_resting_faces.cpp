@@ -140,6 +140,20 @@ TEST(RestingFaces, AnEdgeThatAWallReachesTakesTheSideOfItsFace) {
   }
 }
 
+TEST(RestingFaces, AnEdgeKeepsItsSideOfWallsThatMoveInTheirPlane) {
+  // Both ends are beyond the membrane, and could be joined on either side of it.
+  for (const double side : {1.0, -1.0}) {
+    Tent tent(3 + 0.5 * side);
+    Body<3> body(tent.environment.snapshot(), Locator<3>(tent.environment.snapshot()),
+                 {{{1.25, 2.75, 3}, {4.75, 3.375, 3}}, {{0, 1}}, {}});
+    EXPECT_EQ(tent.move(body, {3, 3, 3}).end, Move_end::reached);
+    for (const Point<3>& x : {Point<3>{3.125, 3.375, 3}, {2.875, 2.75, 3}, {3, 3, 3}})
+      EXPECT_EQ(tent.move(body, x).end, Move_end::reached);
+    EXPECT_EQ(tent.move(body, {3, 3, 3 - 0.125 * side}).end, Move_end::contact);
+    EXPECT_EQ(tent.move(body, {3, 3, 3 + 0.125 * side}).end, Move_end::reached);
+  }
+}
+
 /// A tetrahedron that stands on a membrane, across several walls.
 TEST(RestingFaces, ABodyAtRestDoesNotHoldAWallThatBeats) {
   Environment<3> environment = test::simplex_grid<3>(4);
