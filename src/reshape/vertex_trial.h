@@ -5,7 +5,7 @@
 #define CELLWALK_RESHAPE_VERTEX_TRIAL_H
 
 #include <cellwalk/internal/edge/face_at_star.h>
-#include <cellwalk/internal/edge/followed_star.h>
+#include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/moving_star.h>
 #include <cellwalk/reshape/reshaping.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/internal/edge/followed_star.h>
+#include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/star.h>
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "edge/face/find_supporting_walls.h"
-#include "edge/face/triangle_in_plane.h"
+#include "find_supporting_walls.h"
+#include "triangle_in_plane.h"
 
 namespace cellwalk::detail {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Particles and edges that walls at a moving vertex touch, followed by definition. Theory: docs/moving.md,
 // touches.
-#ifndef CELLWALK_INTERNAL_EDGE_FOLLOWED_STAR_H
-#define CELLWALK_INTERNAL_EDGE_FOLLOWED_STAR_H
+#ifndef CELLWALK_INTERNAL_EDGE_FOLLOW_EDGE_H
+#define CELLWALK_INTERNAL_EDGE_FOLLOW_EDGE_H
 
 #include <cellwalk/internal/edge/moving_star.h>
 
@@ -81,4 +81,4 @@ extern template Followed_edge follow_edge<3>(const Moving_star<3>&, const Follow
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_INTERNAL_EDGE_FOLLOWED_STAR_H
+#endif  // CELLWALK_INTERNAL_EDGE_FOLLOW_EDGE_H
