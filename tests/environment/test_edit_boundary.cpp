@@ -103,6 +103,36 @@ TEST(EditBoundary, AgreesWithCertificationFromScratch3) {
   expect_all(all);
 }
 
+/// Two simplices, the tip of the second closer to a facet of the first than doubles can tell. That they are
+/// apart is not certified then, so a corner of the first may not go on unseen, however far other facets are.
+template <int D>
+void expect_doubt_of_what_is_almost_touched(const Cell_soup<D>& soup, const Point<D>& aside,
+                                            const Point<D>& into) {
+  Environment<D> environment = Environment<D>::build(soup);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NO_THROW(environment.move_vertex(0, aside));
+    EXPECT_THROW(environment.move_vertex(0, into), Error);
+    EXPECT_EQ(environment.snapshot().point(0), aside);
+    EXPECT_NO_THROW(environment.move_vertex(0, soup.points[0]));
+    EXPECT_THROW(environment.move_vertex(0, into), Error);
+  }
+  EXPECT_NO_THROW(environment.certify());
+}
+
+TEST(EditBoundary, GoesOnAskingWhereNothingIsCertified) {
+  Cell_soup<2> flat;
+  flat.points = {{0, 0}, {1, 0}, {0, 1}, {0.5, -0x1p-60}, {0, -1}, {1, -1}};
+  add_polygon(flat, std::array<std::uint32_t, 3>{0, 1, 2});
+  add_polygon(flat, std::array<std::uint32_t, 3>{3, 4, 5});
+  expect_doubt_of_what_is_almost_touched<2>(flat, {-0.125, 0}, {0, -0.25});
+  Cell_soup<3> solid;
+  solid.points = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0}, {0, 0, 1}, {0.25, 0.25, -0x1p-60},
+                  {0, 0, -1}, {0, 1, -1}, {1, 0, -1}};
+  add_tetrahedron(solid, 0, 1, 2, 3);
+  add_tetrahedron(solid, 4, 5, 6, 7);
+  expect_doubt_of_what_is_almost_touched<3>(solid, {-0.125, -0.125, 0}, {0, 0, -0.25});
+}
+
 TEST(EditBoundary, AsksForTheEndOfAMoveOnly) {
   // A triangle, whose tip swings round to the other side, and a thin one that hangs down into its way.
   Cell_soup<2> soup;
