@@ -46,7 +46,7 @@ struct Followed_vertex {
 /// be. If it may end on several sides of walls, those at whose rims it passed, one of them is chosen.
 /// \param choice the number of that side, modulo theirs; the first is that of the particle displaced by (e,
 ///        e^2, e^3), e small
-/// Cost: some ten us, in exact numbers.
+/// Cost: exact numbers for each facet at the vertex of the environment.
 template <int D>
 Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice = 0);
 
@@ -67,7 +67,7 @@ struct Followed_edge {
 /// Follows an edge pq, all classes of equal chains that it may have.
 /// \param before its chain
 /// \param choice the number of the class that it is to have, modulo theirs
-/// Cost: up to some ms, in exact numbers.
+/// Cost: exact numbers for each time and class.
 template <int D>
 Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
                           const Chain& before, std::size_t choice = 0);
