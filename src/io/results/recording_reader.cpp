@@ -59,7 +59,7 @@ class Motion_parser {
     scene_.particles = counted(head.at("particles"));
     scene_.lower = head.at("lower");
     scene_.upper = head.at("upper");
-    scene_.walls_move = head.at("walls_move");
+    scene_.walls_move = head.value("walls_move", false);  // older files do not say
     for (const nlohmann::json& body : head.at("bodies"))
       scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
                                counted(body.at("edges")), counted(body.at("faces"))});

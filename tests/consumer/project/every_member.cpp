@@ -7,6 +7,8 @@
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/vtu.h>
 #include <cellwalk/records/make_body.h>
+#include <cellwalk/simulation/elastic_foundation.h>
+#include <cellwalk/simulation/wall_pulsation.h>
 #include <cellwalk/simulation/world.h>
 
 #include <cstdio>
@@ -122,7 +124,15 @@ void keep_simulation() {
       &World<D>::step, &World<D>::steps_done, &World<D>::particles, &World<D>::velocities, &World<D>::bodies,
       &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
       static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
-      static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate);
+      static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate,
+      &World<D>::move_walls);
+  keep(
+      +[](const Snapshot<D>& s, const Pulsation<D>& p) { return Wall_pulsation<D>(s, p, {}); },
+      &Wall_pulsation<D>::targets,
+      +[](const Snapshot<D>& s, const Soft_walls& w) { return Elastic_foundation<D>(s, w, {}); },
+      &Elastic_foundation<D>::press, &Elastic_foundation<D>::yielding, &Elastic_foundation<D>::targets,
+      &Elastic_foundation<D>::follow, &Elastic_foundation<D>::yield, &Elastic_foundation<D>::yielding_count,
+      &Elastic_foundation<D>::largest_yield, &Elastic_foundation<D>::force);
 }
 
 template <int D>
