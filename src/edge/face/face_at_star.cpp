@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/face_at_star.h>
+#include <cellwalk/internal/kernel/predicates.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "star_clock.h"
 
+#include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <algorithm>
