@@ -17,10 +17,10 @@ namespace {
 using nlohmann::json;
 using Row = std::vector<std::string>;
 
-const Row header_in_space{"row",  "status",  "time",   "x",  "y",  "z",  "kind",
-                          "body", "feature", "number", "nx", "ny", "nz", "cell"};
-const Row header_in_plane{"row",  "status",  "time",   "x",  "y",  "kind",
-                          "body", "feature", "number", "nx", "ny", "cell"};
+const Row header_in_space{"row",    "status", "time", "x",  "y",  "z",  "kind", "body", "feature",
+                          "number", "cx",     "cy",   "cz", "nx", "ny", "nz",   "cell"};
+const Row header_in_plane{"row",     "status", "time", "x",  "y",  "kind", "body",
+                          "feature", "number", "cx",   "cy", "nx", "ny",   "cell"};
 
 /// Two triangles, the second beside the first.
 constexpr const char* islands_ovm =
@@ -101,9 +101,9 @@ TEST_F(Deform, MovesPointsInTheOrderOfTheRows) {
   // The second is possible after the first only. Other columns are ignored.
   const auto rows = deform("y,point,x,note\n1,7,2.5,a\n 0x1p0,6,9/4,b\n2,12,2,\"stays, so\"\n");
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0], (Row{"0", "reached", "1", "2.5", "1", "", "", "", "", "", "", ""}));
-  EXPECT_EQ(rows[1], (Row{"1", "reached", "1", "2.25", "1", "", "", "", "", "", "", ""}));
-  EXPECT_EQ(rows[2], (Row{"2", "reached", "1", "2", "2", "", "", "", "", "", "", ""}));
+  EXPECT_EQ(rows[0], (Row{"0", "reached", "1", "2.5", "1", "", "", "", "", "", "", "", "", ""}));
+  EXPECT_EQ(rows[1], (Row{"1", "reached", "1", "2.25", "1", "", "", "", "", "", "", "", "", ""}));
+  EXPECT_EQ(rows[2], (Row{"2", "reached", "1", "2", "2", "", "", "", "", "", "", "", "", ""}));
   auto expected = before;
   expected[7] = {2.5, 1, 0};
   expected[6] = {2.25, 1, 0};
@@ -129,13 +129,13 @@ TEST_F(Deform, AMembraneStopsAtARod) {
   EXPECT_EQ(row[2], "0.6666666666666666") << "of the way from 1 to 1.75, rounded down";
   EXPECT_EQ(std::stod(row[3]), 1.5) << "where it touches the rod, which it may";
   EXPECT_EQ(row[4], "1");
-  EXPECT_EQ(Row(row.begin() + 5, row.begin() + 11), (Row{"vertex", "0", "edge", "0", "1", "0"}));
+  EXPECT_EQ(Row(row.begin() + 5, row.begin() + 13), (Row{"vertex", "0", "edge", "0", "1.5", "1", "1", "0"}));
   // The cell is one of the two behind the membrane.
   write("points.csv", "ax,ay,bx,by\n1.126,0.5,1.126,0.5\n1.126,1.5,1.126,1.5\n");
   succeed({"query", "out.ovm", "points.csv", "-o", "cells.csv"});
   const auto behind = read_table(path("cells.csv"));
-  EXPECT_TRUE(row[11] == behind.at(1).at(11) || row[11] == behind.at(2).at(11)) << row[11];
-  EXPECT_EQ(rows[1], (Row{"1", "reached", "1", "1.25", "1", "", "", "", "", "", "", ""}))
+  EXPECT_TRUE(row[13] == behind.at(1).at(11) || row[13] == behind.at(2).at(11)) << row[13];
+  EXPECT_EQ(rows[1], (Row{"1", "reached", "1", "1.25", "1", "", "", "", "", "", "", "", "", ""}))
       << "away from the rod again";
   EXPECT_EQ(points("out.ovm")[6], (std::vector<double>{1.25, 1, 0}));
   EXPECT_NE(said_.find("  moves       2: 1 reached, 1 contact\n"), std::string::npos) << said_;
@@ -152,8 +152,9 @@ TEST_F(Deform, TheMiddleOfAWallMeetsAVertex) {
   const Row row = deform("point,x,y\n6,1.75,1\n", {"--body", "bow.csv"}).at(0);
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 3), (Row{"contact", "0.6666666666666666"}));
   EXPECT_EQ(Row(row.begin() + 5, row.begin() + 9), (Row{"facet", "0", "vertex", "1"}));
-  EXPECT_NEAR(std::stod(row[9]), 2 / std::sqrt(5), 1e-15);
-  EXPECT_NEAR(std::stod(row[10]), -1 / std::sqrt(5), 1e-15);
+  EXPECT_EQ(Row(row.begin() + 9, row.begin() + 11), (Row{"1.25", "0.5"}));
+  EXPECT_NEAR(std::stod(row[11]), 2 / std::sqrt(5), 1e-15);
+  EXPECT_NEAR(std::stod(row[12]), -1 / std::sqrt(5), 1e-15);
 }
 
 TEST_F(Deform, HoldLeavesItWhereItWas) {
@@ -178,16 +179,76 @@ TEST_F(Deform, EveryEndHasItsStatus) {
   // The wall at the left arrives exactly at the rod, which it may; then a cell would be flat.
   const auto rows = deform("point,x,y\n5,0.25,1\n6,1,-1\n", {"--body", "rod.csv"});
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0], (Row{"0", "reached", "1", "0.25", "1", "", "", "", "", "", "", ""}));
+  EXPECT_EQ(rows[0], (Row{"0", "reached", "1", "0.25", "1", "", "", "", "", "", "", "", "", ""}));
   EXPECT_EQ(rows[1][1], "cell");
   EXPECT_EQ(rows[1][2], "0.5") << "of the way from y = 1 to -1";
-  EXPECT_EQ(Row(rows[1].begin() + 3, rows[1].begin() + 11), (Row{"1", "1", "", "", "", "", "", ""}));
-  EXPECT_FALSE(rows[1][11].empty());
+  EXPECT_EQ(Row(rows[1].begin() + 3, rows[1].begin() + 13), (Row{"1", "1", "", "", "", "", "", "", "", ""}));
+  EXPECT_FALSE(rows[1][13].empty());
   EXPECT_NE(said_.find("  moves       2: 1 reached, 1 cell\n"), std::string::npos) << said_;
 
   write("env.ovm", islands_ovm);
   const auto apart = deform("point,x,y\n1,2.5,0.25\n");
-  EXPECT_EQ(apart.at(0), (Row{"0", "boundary", "", "1", "0", "", "", "", "", "", "", ""}));
+  EXPECT_EQ(apart.at(0), (Row{"0", "boundary", "", "1", "0", "", "", "", "", "", "", "", "", ""}));
+}
+
+TEST_F(Deform, PushMovesTheRodOutOfTheWay) {
+  make_plane({{0, 1}, {4, 5}});
+  write("rod.csv", "x,y\n1.5,0.75\n1.5,1.25\n");
+  const auto rows = deform("point,x,y\n6,1.75,1\n",
+                           {"--body", "rod.csv", "--at-contact", "push", "--positions", "rods.csv"});
+  EXPECT_EQ(rows.at(0), (Row{"0", "reached", "1", "1.75", "1", "", "", "", "", "", "", "", "", ""}));
+  EXPECT_GT(report_["counts"]["pushes"].get<int>(), 0);
+  EXPECT_NE(said_.find("\n  pushes      "), std::string::npos) << said_;
+  const auto rods = read_table(path("rods.csv"));
+  ASSERT_EQ(rods.size(), 3u);
+  EXPECT_EQ(rods[0], (Row{"body", "vertex", "x", "y"}));
+  // The membrane now leads from (1,0) over (1.75,1) to (1,2): the rod lies beyond, not far from it.
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_EQ(Row(rods[v + 1].begin(), rods[v + 1].begin() + 2), (Row{"0", std::to_string(v)}));
+    const double x = std::stod(rods[v + 1][2]), y = std::stod(rods[v + 1][3]);
+    EXPECT_GE(x, 1 + 0.75 * (1 - std::abs(y - 1))) << v;
+    EXPECT_LT(x, 2) << v;
+  }
+  // It can stand there: what is written is the start of the next command.
+  std::filesystem::rename(path("out.ovm"), path("env.ovm"));
+  std::filesystem::rename(path("rods.csv"), path("rod.csv"));
+  EXPECT_EQ(deform("point,x,y\n6,1.25,1\n", {"--body", "rod.csv"}).at(0)[1], "reached");
+}
+
+TEST_F(Deform, PushedBodiesStayBeforeOtherWalls) {
+  make_plane({{0, 1}, {4, 5}, {1, 2}, {5, 6}});
+  write("rod.csv", "x,y\n1.75,0.75\n1.75,1.25\n");
+  const auto rows = deform("point,x,y\n6,1.9375,1\n",
+                           {"--body", "rod.csv", "--at-contact", "push", "--positions", "rods.csv"});
+  EXPECT_GT(report_["counts"]["pushes"].get<int>(), 0);
+  EXPECT_GT(std::stod(rows.at(0)[3]), 1.75);
+  const auto rods = read_table(path("rods.csv"));
+  for (const std::size_t v : {1, 2}) EXPECT_LE(std::stod(rods.at(v)[2]), 2) << "behind the other membrane";
+}
+
+TEST_F(Deform, AskMovesNothing) {
+  make_plane({{0, 1}, {4, 5}});
+  write("rod.csv", "x,y\n1.5,0.75\n1.5,1.25\n");
+  // The second does not see the first; nor is the last done.
+  write("moves.csv", "point,x,y\n6,1.25,1\n6,1.75,1\n7,1.75,1\n");
+  const std::vector<std::string> ask{"deform",       "env.ovm",     "moves.csv", "--body",  "rod.csv",
+                                     "--at-contact", "ask",         "--report",  "ask.csv", "--json",
+                                     "ask.json",     "--positions", "rods.csv"};
+  const std::string said = succeed(ask);
+  EXPECT_TRUE(said.starts_with("env.ovm: certified, 2D\n")) << said;
+  const auto rows = read_table(path("ask.csv"));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(Row(rows[1].begin() + 1, rows[1].begin() + 3), (Row{"reached", "1"}));
+  EXPECT_EQ(Row(rows[2].begin() + 1, rows[2].begin() + 5), (Row{"contact", "0.6666666666666666", "1", "1"}));
+  EXPECT_EQ(Row(rows[3].begin() + 1, rows[3].begin() + 3), (Row{"reached", "1"}));
+  EXPECT_EQ(json::parse(text("ask.json"))["counts"]["made"], 0);
+  EXPECT_EQ(text("rods.csv"), "body,vertex,x,y\n0,0,1.5,0.75\n0,1,1.5,1.25\n");
+  std::vector<std::string> both = ask;
+  both.insert(both.end(), {"-o", "out.ovm"});
+  std::filesystem::remove(path("ask.csv"));
+  std::filesystem::remove(path("ask.json"));
+  std::filesystem::remove(path("rods.csv"));
+  expect_failure(2, both, {"--at-contact ask moves nothing, so that there is no environment to write"});
 }
 
 TEST_F(Deform, FacesAreInTheWay) {
@@ -198,7 +259,8 @@ TEST_F(Deform, FacesAreInTheWay) {
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(Row(rows[0].begin() + 1, rows[0].begin() + 3), (Row{"contact", "0.5"}));
   EXPECT_EQ(std::stod(rows[0][3]), 0.25);
-  EXPECT_EQ(Row(rows[0].begin() + 6, rows[0].begin() + 13), (Row{"vertex", "1", "face", "0", "1", "0", "0"}));
+  EXPECT_EQ(Row(rows[0].begin() + 6, rows[0].begin() + 16),
+            (Row{"vertex", "1", "face", "0", "0.25", "1", "1", "1", "0", "0"}));
   EXPECT_EQ(report_["bodies"], (json{{"count", 2}, {"vertices", 6}, {"edges", 6}, {"faces", 2}}));
   // A quadrilateral is two triangles, and says so.
   write("quad.off", "OFF\n4 1 0\n0.25 0 0.5\n0.25 2 0.5\n0.25 2 1.5\n0.25 0 1.5\n4 0 1 2 3\n");
@@ -256,7 +318,7 @@ TEST_F(Deform, NoBodyEndsUpInAWall) {
     for (std::size_t k = 0; k < 3; ++k) expected[std::stoul(line)][k] = std::stod(row[3 + k]);
     EXPECT_EQ(row[1] == "contact", !row[6].empty());
     if (row[1] != "contact") continue;
-    EXPECT_NEAR(std::hypot(std::stod(row[10]), std::stod(row[11]), std::stod(row[12])), 1, 1e-14);
+    EXPECT_NEAR(std::hypot(std::stod(row[13]), std::stod(row[14]), std::stod(row[15])), 1, 1e-14);
   }
   EXPECT_EQ(points("out.ovm"), expected);
   // All bodies can be registered where the walls are now.
@@ -338,8 +400,7 @@ TEST_F(Deform, KeepsSlits) {
 
 TEST_F(Deform, RefusesWhatIsNotThere) {
   make_plane();
-  refuse(2, "point,x,y\n", {"--at-contact: takes stop|hold, not push"}, {"--at-contact", "push"});
-  refuse(2, "point,x,y\n", {"--at-contact: takes stop|hold, not ask"}, {"--at-contact", "ask"});
+  refuse(2, "point,x,y\n", {"--at-contact: takes stop|hold|push|ask, not pull"}, {"--at-contact", "pull"});
   expect_failure(2, {"deform", "env.ovm", "-o", "out.ovm"}, {"moves is required"});
   expect_failure(2, {"deform", "env.ovm", "moves.csv"}, {"--output is required"});
 }

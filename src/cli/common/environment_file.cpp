@@ -24,8 +24,8 @@ void add_duplicates(CLI::App& command, Duplicate_vertices& value) {
              "Vertices in the same place: refuse the file, merge them, or keep them apart (a slit)");
 }
 
-void add_environment_output(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "The environment to write (OpenVolumeMesh ASCII, *.ovm)")
+CLI::Option* add_environment_output(CLI::App& command, std::string& path) {
+  return command.add_option("-o,--output", path, "The environment to write (OpenVolumeMesh ASCII, *.ovm)")
       ->required()
       ->type_name("ENV.ovm")
       ->check([](const std::string& text) {

@@ -25,7 +25,7 @@ Loaded_environment load_with_progress(const std::string& path, const Build_optio
 void add_duplicates(CLI::App& command, Duplicate_vertices& value);
 
 /// Adds the output option -o for an environment, whose name must be *.ovm (or that of a device).
-void add_environment_output(CLI::App& command, std::string& path);
+CLI::Option* add_environment_output(CLI::App& command, std::string& path);
 
 /// Adds --json OUT.
 void add_json(CLI::App& command, std::string& path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk deform ENV MOVES.csv -o OUT.ovm: moves points of an environment one after the other, as far as the
 // bodies in it allow.
+#include <cellwalk/internal/io/csv.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -22,12 +23,25 @@
 namespace cellwalk::cli {
 namespace {
 
+/// What a point does whose walls meet a body.
+enum class Contact_rule : std::uint8_t { stop, hold, push, ask };
+
 struct Deform_options {
-  std::string environment, moves, output, report, json;
+  std::string environment, moves, output, report, positions, json;
   std::vector<std::string> bodies;
-  At_contact at_contact = At_contact::stop;
+  Contact_rule at_contact = Contact_rule::stop;
   Build_options build{.keep_map = false};
 };
+
+/// \throw Error(usage) if there is no place for what is moved, or nothing to write
+void check_outputs(const Deform_options& options) {
+  const bool asks = options.at_contact == Contact_rule::ask;
+  if (!asks && options.output.empty())
+    throw Error(Error_code::usage, "--output is required: name the environment to write");
+  if (asks && !options.output.empty())
+    throw Error(Error_code::usage,
+                "--at-contact ask moves nothing, so that there is no environment to write: leave out -o");
+}
 
 /// The output files; null for those not requested.
 struct Deform_files {
@@ -35,10 +49,11 @@ struct Deform_files {
       : all(inputs(options)),
         environment(all.file(options.output)),
         report(all.file(options.report)),
+        positions(all.file(options.positions)),
         json(all.file(options.json)) {}
 
   Outputs all;
-  io::Atomic_file *environment, *report, *json;
+  io::Atomic_file *environment, *report, *positions, *json;
 
  private:
   static std::vector<std::string> inputs(const Deform_options& options) {
@@ -69,6 +84,46 @@ std::vector<Body<D>> place_bodies(const std::vector<std::string>& files, const S
   return bodies;
 }
 
+/// Writes where the vertices of all bodies are.
+template <int D>
+void write_positions(io::Atomic_file* file, const std::vector<Body<D>>& bodies) {
+  if (file == nullptr) return;
+  std::vector<std::string> columns{"body", "vertex", "x", "y", "z"};
+  columns.resize(2 + D);
+  io::Csv_writer table(*file, columns);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto all = bodies[b].positions();
+    for (std::size_t v = 0; v < all.size(); ++v)
+      if constexpr (D == 2)
+        table.row(b, v, all[v][0], all[v][1]);
+      else
+        table.row(b, v, all[v][0], all[v][1], all[v][2]);
+  }
+}
+
+/// Moves the points, or asks where they would go.
+template <int D>
+void move_points(const std::vector<Vertex_move<D>>& moves, bool ask, Reshaping<D>& reshaping,
+                 Move_results<D>& results) {
+  Progress progress("moving points", moves.size());
+  for (const auto& [point, target] : moves) {
+    results.add(ask ? reshaping.ask(point, target) : reshaping.move(point, target));
+    progress.update(results.count());
+  }
+  reshaping.close();
+}
+
+At_contact reshape_rule(Contact_rule rule) {
+  switch (rule) {
+    case Contact_rule::stop:
+      return At_contact::stop;
+    case Contact_rule::push:
+      return At_contact::push;
+    default:
+      return At_contact::hold;
+  }
+}
+
 template <int D>
 void deform_environment(const Deform_options& options, Deform_files& files, Environment<D>& environment) {
   const std::vector<Vertex_move<D>> moves = read_moves(options.moves, environment);
@@ -77,30 +132,28 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
   Residents<D> residents;
   for (Body<D>& body : bodies) residents.bodies.push_back(&body);
 
-  Reshaping<D> reshaping(environment, residents, {.at_contact = options.at_contact});
+  const bool asks = options.at_contact == Contact_rule::ask;
+  Reshaping<D> reshaping(environment, residents, {.at_contact = reshape_rule(options.at_contact)});
   Move_results<D> results(files.report, environment.snapshot());
-  {
-    Progress progress("moving points", moves.size());
-    for (const auto& [point, target] : moves) {
-      results.add(reshaping.move(point, target));
-      progress.update(results.count());
-    }
-  }
-  reshaping.close();
-  const Certificate certificate = [&] {
-    const Progress progress("certifying " + options.output);
-    return naming(options.output, [&] { return environment.certify(); });
-  }();
+  move_points(moves, asks, reshaping, results);
+  write_positions(files.positions, bodies);
 
-  io::write_ovm(*files.environment, environment.soup());
-  nlohmann::ordered_json json{{"environment", options.output}, {"certificate", to_json(certificate, D)}};
+  // What nobody moved is certified as it was read.
+  const std::string& name = asks ? options.environment : options.output;
+  const Certificate certificate = [&] {
+    const Progress progress("certifying " + name);
+    return naming(name, [&] { return environment.certify(); });
+  }();
+  if (!asks) io::write_ovm(*files.environment, environment.soup());
+  nlohmann::ordered_json json{{"environment", name}, {"certificate", to_json(certificate, D)}};
   json.update(moves_json(results, standing, reshaping.counts()));
   write_json(files.json, json);
-  files.all.commit(fmt::format("{}: certified, {}D\n{}{}", options.output, D, describe(certificate, D),
+  files.all.commit(fmt::format("{}: certified, {}D\n{}{}", name, D, describe(certificate, D),
                                describe_moves(results, standing, reshaping.counts())));
 }
 
 void deform(const Deform_options& options) {
+  check_outputs(options);
   Deform_files files(options);
   Loaded_environment loaded = load_with_progress(options.environment, options.build);
   refuse_other_numbers(options.environment, loaded.built);
@@ -124,25 +177,35 @@ void add_deform(CLI::App& app, Action& chosen) {
                    "Points are numbered as in ENV, from 0")
       ->required()
       ->type_name("MOVES.csv");
-  add_environment_output(*command, options->output);
+  add_environment_output(*command, options->output)->required(false);
   command
       ->add_option("--body", options->bodies,
                    "A body that stands in the environment where its file has it; may be given several times")
       ->type_name("FILE");
-  add_choice(*command, "--at-contact", options->at_contact,
-             {{"stop", At_contact::stop}, {"hold", At_contact::hold}},
-             "What a point does whose walls would meet a body. stop: it goes as far as they may. hold: it "
-             "stays where it is");
+  add_choice(
+      *command, "--at-contact", options->at_contact,
+      {{"stop", Contact_rule::stop},
+       {"hold", Contact_rule::hold},
+       {"push", Contact_rule::push},
+       {"ask", Contact_rule::ask}},
+      "What a point does whose walls would meet a body. stop: it goes as far as they may. hold: it "
+      "stays where it is. push: what is in the way is moved, as far as other walls allow. ask: nothing "
+      "moves; the report says where each point could go by itself");
   command->add_option("--report", options->report, "What came of each move, a row each")
+      ->type_name("OUT.csv");
+  command
+      ->add_option("--positions", options->positions,
+                   "Where the vertices of the bodies are in the end, a row each: body,vertex,x,y,z")
       ->type_name("OUT.csv");
   add_choice(*command, "--duplicates", options->build.duplicates,
              {{"refuse", Duplicate_vertices::refuse}, {"keep", Duplicate_vertices::keep}},
              "Vertices in the same place: refuse the file, or keep them apart (a slit)");
   add_json(*command, options->json);
-  add_examples(
-      *command,
-      {"cellwalk deform vessel.ovm moves.csv -o narrow.ovm --body catheter.obj --report report.csv",
-       "cellwalk deform rooms.ovm moves.csv -o moved.ovm --body box.off --body ball.off --at-contact hold"});
+  add_examples(*command,
+               {"cellwalk deform vessel.ovm moves.csv -o narrow.ovm --body catheter.obj --report report.csv",
+                "cellwalk deform rooms.ovm moves.csv -o moved.ovm --body box.off --at-contact push "
+                "--positions box.csv",
+                "cellwalk deform rooms.ovm moves.csv --body box.off --at-contact ask --report report.csv"});
   command->callback([options, &chosen] { chosen = [options] { deform(*options); }; });
 }
 

@@ -18,10 +18,11 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 template <int D>
 std::vector<std::string> columns_of_moves() {
   if constexpr (D == 2)
-    return {"row", "status", "time", "x", "y", "kind", "body", "feature", "number", "nx", "ny", "cell"};
+    return {"row",     "status", "time", "x",  "y",  "kind", "body",
+            "feature", "number", "cx",   "cy", "nx", "ny",   "cell"};
   else
-    return {"row",  "status",  "time",   "x",  "y",  "z",  "kind",
-            "body", "feature", "number", "nx", "ny", "nz", "cell"};
+    return {"row",    "status", "time", "x",  "y",  "z",  "kind", "body", "feature",
+            "number", "cx",     "cy",   "cz", "nx", "ny", "nz",   "cell"};
 }
 
 /// The share of its way that a point can go; no_value where it is not known.
@@ -53,6 +54,8 @@ void Move_results<D>::add(const Vertex_result<D>& result) {
   std::string body, number;
   Vector<D> normal;
   normal.fill(no_value);
+  Point<D> place;
+  place.fill(no_value);
   Cell cell = result.cell;
   if (const auto& hit = result.hit) {
     kind = contact_kind_names[static_cast<std::size_t>(hit->kind)];
@@ -60,17 +63,20 @@ void Move_results<D>::add(const Vertex_result<D>& result) {
     feature = feature_names[static_cast<std::size_t>(hit->resident.feature)];
     number = std::to_string(hit->resident.number);
     for (std::size_t k = 0; k < D; ++k) normal[k] = hit->normal[k] + 0.0;  // without negative zeros
+    place = hit->point;
     cell = snapshot_.cell_of(hit->facet);
   }
   const std::string in_cell = cell == Cell::none ? std::string{} : std::to_string(snapshot_.index(cell));
   const Point<D>& x = result.position;
+  const Point<D>& c = place;
   const Vector<D>& n = normal;
   const char* const status = move_end_names[end];
   if constexpr (D == 2)
-    table_->row(row, status, time_of(result), x[0], x[1], kind, body, feature, number, n[0], n[1], in_cell);
-  else
-    table_->row(row, status, time_of(result), x[0], x[1], x[2], kind, body, feature, number, n[0], n[1], n[2],
+    table_->row(row, status, time_of(result), x[0], x[1], kind, body, feature, number, c[0], c[1], n[0], n[1],
                 in_cell);
+  else
+    table_->row(row, status, time_of(result), x[0], x[1], x[2], kind, body, feature, number, c[0], c[1], c[2],
+                n[0], n[1], n[2], in_cell);
 }
 
 template <int D>
@@ -94,6 +100,7 @@ std::string describe_moves(const Move_results<D>& results, const Standing_bodies
                    "{} apart from the walls, {} let go by them, {} hit, {} touched",
                    counts.walls, counts.vertices, counts.edges, counts.faces, counts.same_cell,
                    counts.same_chain, counts.apart, counts.left, counts.hits, counts.touches));
+  if (counts.pushes != 0) line("pushes", std::to_string(counts.pushes));
   for (const std::string& note : bodies.notes) line("note", note);
   return text;
 }
