@@ -1,99 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Moves of walls among bodies, as `cellwalk deform` makes, reports and refuses them.
-#include <nlohmann/json.hpp>
-
 #include <cmath>
-#include <map>
 #include <random>
 #include <sstream>
 
-#include "cli/meshes.h"
-#include "cli/ovm_text.h"
-#include "cli/program.h"
+#include "cli/deform_program.h"
 
 namespace cellwalk::test {
 namespace {
 
 using nlohmann::json;
-using Row = std::vector<std::string>;
-
-const Row header_in_space{"row",    "status", "time", "x",  "y",  "z",  "kind", "body", "feature",
-                          "number", "cx",     "cy",   "cz", "nx", "ny", "nz",   "cell"};
-const Row header_in_plane{"row",     "status", "time", "x",  "y",  "kind", "body",
-                          "feature", "number", "cx",   "cy", "nx", "ny",   "cell"};
 
 /// Two triangles, the second beside the first.
 constexpr const char* islands_ovm =
     "OVM ASCII\nVertices\n6\n0 0 0\n1 0 0\n0 1 0\n2 0 0\n3 0 0\n2 1 0\nEdges\n6\n0 1\n1 2\n2 0\n3 4\n4 5\n"
     "5 3\nFaces\n2\n3 0 2 4\n3 6 8 10\nPolyhedra\n0\nMProp int \"dimension\"\n2\n";
-
-class Deform : public Program {
- protected:
-  /// Squares of side 1 in the plane, 4 in a row and 2 high, as triangles. Point x + 5 y lies in (x,y).
-  void make_plane(const std::vector<std::pair<std::size_t, std::size_t>>& membranes = {}) const {
-    succeed({"generate", "squares", "--cells", "4", "2", "-o", "squares.ovm"});
-    Ovm_text squares(text("squares.ovm"));
-    for (const auto& [a, b] : membranes) squares.separate(a, b);
-    write("squares.ovm", squares.text());
-    succeed({"import", "squares.ovm", "--simplicial", "-o", "env.ovm"});
-  }
-
-  /// Cubes of side 1 as tetrahedra, 2 along each axis. Point x + 3 y + 9 z lies in (x,y,z).
-  void make_space() const {
-    succeed({"generate", "hexes", "--cells", "2", "-o", "hexes.ovm"});
-    succeed({"import", "hexes.ovm", "--simplicial", "-o", "env.ovm"});
-  }
-
-  static std::vector<std::string> arguments(const std::vector<std::string>& options) {
-    std::vector<std::string> all{"deform", "env.ovm", "moves.csv", "-o", "out.ovm"};
-    all.insert(all.end(), options.begin(), options.end());
-    return all;
-  }
-
-  /// Makes the moves, expects that what is written is certified as reported, and returns the rows.
-  std::vector<Row> deform(const std::string& moves, const std::vector<std::string>& options = {}) const {
-    write("moves.csv", moves);
-    std::vector<std::string> all = arguments(options);
-    all.insert(all.end(), {"--report", "report.csv", "--json", "report.json"});
-    said_ = succeed(all);
-    report_ = json::parse(text("report.json"));
-    succeed({"check", "out.ovm", "--duplicates", "keep", "--json", "check.json"});
-    expect_same_certificate(path("report.json"), path("check.json"));
-    std::vector<Row> rows = read_table(path("report.csv"));
-    EXPECT_EQ(rows.at(0), report_["certificate"]["dimension"] == 3 ? header_in_space : header_in_plane);
-    rows.erase(rows.begin());
-    EXPECT_EQ(report_["moves"], rows.size());
-    std::map<std::string, std::size_t> ends;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_EQ(rows[i].at(0), std::to_string(i));
-      ++ends[rows[i].at(1)];
-    }
-    for (const auto& [end, count] : report_["status"].items()) EXPECT_EQ(count, ends[end]) << end;
-    return rows;
-  }
-
-  void refuse(int exit_code, const std::string& moves, const std::vector<std::string>& texts,
-              const std::vector<std::string>& options = {"--report", "report.csv"}) const {
-    write("moves.csv", moves);
-    expect_failure(exit_code, arguments(options), texts);
-  }
-
-  /// The points of an environment file.
-  std::vector<std::vector<double>> points(const std::string& name) const {
-    std::istringstream stream(text(name));
-    std::string word;
-    while (word != "Vertices") stream >> word;
-    std::size_t count = 0;
-    stream >> count;
-    std::vector<std::vector<double>> points(count, std::vector<double>(3));
-    for (auto& point : points)
-      for (double& x : point) stream >> x;
-    return points;
-  }
-
-  mutable std::string said_;  // by the last command
-  mutable json report_;
-};
 
 TEST_F(Deform, MovesPointsInTheOrderOfTheRows) {
   make_plane();
@@ -189,66 +110,6 @@ TEST_F(Deform, EveryEndHasItsStatus) {
   write("env.ovm", islands_ovm);
   const auto apart = deform("point,x,y\n1,2.5,0.25\n");
   EXPECT_EQ(apart.at(0), (Row{"0", "boundary", "", "1", "0", "", "", "", "", "", "", "", "", ""}));
-}
-
-TEST_F(Deform, PushMovesTheRodOutOfTheWay) {
-  make_plane({{0, 1}, {4, 5}});
-  write("rod.csv", "x,y\n1.5,0.75\n1.5,1.25\n");
-  const auto rows = deform("point,x,y\n6,1.75,1\n",
-                           {"--body", "rod.csv", "--at-contact", "push", "--positions", "rods.csv"});
-  EXPECT_EQ(rows.at(0), (Row{"0", "reached", "1", "1.75", "1", "", "", "", "", "", "", "", "", ""}));
-  EXPECT_GT(report_["counts"]["pushes"].get<int>(), 0);
-  EXPECT_NE(said_.find("\n  pushes      "), std::string::npos) << said_;
-  const auto rods = read_table(path("rods.csv"));
-  ASSERT_EQ(rods.size(), 3u);
-  EXPECT_EQ(rods[0], (Row{"body", "vertex", "x", "y"}));
-  // The membrane now leads from (1,0) over (1.75,1) to (1,2): the rod lies beyond, not far from it.
-  for (std::size_t v = 0; v < 2; ++v) {
-    EXPECT_EQ(Row(rods[v + 1].begin(), rods[v + 1].begin() + 2), (Row{"0", std::to_string(v)}));
-    const double x = std::stod(rods[v + 1][2]), y = std::stod(rods[v + 1][3]);
-    EXPECT_GE(x, 1 + 0.75 * (1 - std::abs(y - 1))) << v;
-    EXPECT_LT(x, 2) << v;
-  }
-  // It can stand there: what is written is the start of the next command.
-  std::filesystem::rename(path("out.ovm"), path("env.ovm"));
-  std::filesystem::rename(path("rods.csv"), path("rod.csv"));
-  EXPECT_EQ(deform("point,x,y\n6,1.25,1\n", {"--body", "rod.csv"}).at(0)[1], "reached");
-}
-
-TEST_F(Deform, PushedBodiesStayBeforeOtherWalls) {
-  make_plane({{0, 1}, {4, 5}, {1, 2}, {5, 6}});
-  write("rod.csv", "x,y\n1.75,0.75\n1.75,1.25\n");
-  const auto rows = deform("point,x,y\n6,1.9375,1\n",
-                           {"--body", "rod.csv", "--at-contact", "push", "--positions", "rods.csv"});
-  EXPECT_GT(report_["counts"]["pushes"].get<int>(), 0);
-  EXPECT_GT(std::stod(rows.at(0)[3]), 1.75);
-  const auto rods = read_table(path("rods.csv"));
-  for (const std::size_t v : {1, 2}) EXPECT_LE(std::stod(rods.at(v)[2]), 2) << "behind the other membrane";
-}
-
-TEST_F(Deform, AskMovesNothing) {
-  make_plane({{0, 1}, {4, 5}});
-  write("rod.csv", "x,y\n1.5,0.75\n1.5,1.25\n");
-  // The second does not see the first; nor is the last done.
-  write("moves.csv", "point,x,y\n6,1.25,1\n6,1.75,1\n7,1.75,1\n");
-  const std::vector<std::string> ask{"deform",       "env.ovm",     "moves.csv", "--body",  "rod.csv",
-                                     "--at-contact", "ask",         "--report",  "ask.csv", "--json",
-                                     "ask.json",     "--positions", "rods.csv"};
-  const std::string said = succeed(ask);
-  EXPECT_TRUE(said.starts_with("env.ovm: certified, 2D\n")) << said;
-  const auto rows = read_table(path("ask.csv"));
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(Row(rows[1].begin() + 1, rows[1].begin() + 3), (Row{"reached", "1"}));
-  EXPECT_EQ(Row(rows[2].begin() + 1, rows[2].begin() + 5), (Row{"contact", "0.6666666666666666", "1", "1"}));
-  EXPECT_EQ(Row(rows[3].begin() + 1, rows[3].begin() + 3), (Row{"reached", "1"}));
-  EXPECT_EQ(json::parse(text("ask.json"))["counts"]["made"], 0);
-  EXPECT_EQ(text("rods.csv"), "body,vertex,x,y\n0,0,1.5,0.75\n0,1,1.5,1.25\n");
-  std::vector<std::string> both = ask;
-  both.insert(both.end(), {"-o", "out.ovm"});
-  std::filesystem::remove(path("ask.csv"));
-  std::filesystem::remove(path("ask.json"));
-  std::filesystem::remove(path("rods.csv"));
-  expect_failure(2, both, {"--at-contact ask moves nothing, so that there is no environment to write"});
 }
 
 TEST_F(Deform, FacesAreInTheWay) {
