@@ -44,6 +44,8 @@ void gzip(std::string_view bytes);
 void build(std::string_view bytes);
 /// Edits from bytes of a small environment, and walks in between.
 void edits(std::string_view bytes);
+/// Moves of walls from bytes among particles and bodies, judged by oracles.
+void moves(std::string_view bytes);
 
 /// A promise that was broken. No Error, so that nobody takes it for a refusal.
 struct Finding : std::logic_error {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fuzz/move_about.h"
+#include "fuzz/moves.h"
 #include "fuzz/targets.h"
 
 namespace cellwalk::fuzz {
@@ -23,7 +24,7 @@ struct Target {
   void (*run)(std::string_view bytes);
 };
 
-const std::array<Target, 17> targets{{{"ovm", ovm},
+const std::array<Target, 18> targets{{{"ovm", ovm},
                                       {"off", off},
                                       {"obj", obj},
                                       {"stl", stl},
@@ -39,7 +40,8 @@ const std::array<Target, 17> targets{{{"ovm", ovm},
                                       {"motion", motion},
                                       {"gzip", gzip},
                                       {"build", build},
-                                      {"edits", edits}}};
+                                      {"edits", edits},
+                                      {"moves", moves}}};
 
 /// The files of a target, by name.
 std::vector<std::filesystem::path> corpus(const Target& target) {
@@ -50,11 +52,13 @@ std::vector<std::filesystem::path> corpus(const Target& target) {
   return files;
 }
 
-void run(const Target& target, const std::filesystem::path& file) {
+std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  ASSERT_TRUE(in) << file;
-  target.run(std::string(std::istreambuf_iterator<char>(in), {}));
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
 }
+
+void run(const Target& target, const std::filesystem::path& file) { target.run(text_of(file)); }
 
 struct Entry {
   const Target* target;
@@ -108,6 +112,18 @@ TEST(Corpora, AreJudgedByOracles) {
     EXPECT_GT(judged().sweeps, before.sweeps + 5);
     EXPECT_GT(judged().sweeps_blocked, before.sweeps_blocked);
   }
+}
+
+TEST(Corpora, MovesOfWallsAreJudged) {
+  const Judged_moves before = judged_moves();
+  for (const auto& file : corpus({"moves", moves})) moves(text_of(file));
+  const Judged_moves& after = judged_moves();
+  EXPECT_GT(after.moves, before.moves + 50);
+  EXPECT_GT(after.reached, before.reached + 20);
+  EXPECT_GT(after.touching, before.touching + 5);
+  EXPECT_GT(after.contacts, before.contacts + 5);
+  EXPECT_GT(after.pushed, before.pushed);
+  EXPECT_GT(after.stopped, before.stopped);
 }
 
 }  // namespace

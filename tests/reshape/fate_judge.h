@@ -3,6 +3,7 @@
 #ifndef CELLWALK_TESTS_RESHAPE_FATE_JUDGE_H
 #define CELLWALK_TESTS_RESHAPE_FATE_JUDGE_H
 
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <algorithm>

@@ -6,8 +6,6 @@
 
 #include <cellwalk/internal/kernel/box.h>
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <map>
 #include <optional>

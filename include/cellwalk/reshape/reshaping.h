@@ -102,7 +102,7 @@ struct Reshape_counts {
   std::uint64_t moves = 0;  ///< of vertices of the environment tried, those of candidates to stop at included
   std::uint64_t made = 0;
   std::uint64_t cells = 0;       ///< cells around these vertices
-  std::uint64_t walls = 0;       ///< walls at them
+  std::uint64_t walls = 0;       ///< walls at those that have residents near
   std::uint64_t opened = 0;      ///< bodies and spans of particles that were near
   std::uint64_t vertices = 0;    ///< of residents in cells around a vertex
   std::uint64_t same_cell = 0;   ///< of these, proved free by their cell
