@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,6 +24,10 @@ using Node = std::array<int, 3>;  // lattice coordinates
 /// and Shewchuk prove dihedral angles above 10.7 degrees. Long edges join points of the same kind.
 constexpr double snap_long = 0.24999, snap_short = 0.41189;
 
+/// The least thickness of tissue, in edges of the lattice's cubes. No edge is longer than one, so that no
+/// tetrahedron is cut on both of its sides; and a lattice point moves by 0.36 of one at most.
+constexpr double least_tissue = 1.25;
+
 /// Secant steps towards a cut. The remaining error only makes the surface less smooth.
 constexpr int cut_steps = 4;
 
@@ -33,15 +38,21 @@ class Stuffing {
   explicit Stuffing(const Implicit_shape& shape) : shape_(shape), step_(shape.cell_size / 2) {
     if (!(shape.cell_size > 0))
       throw Error(Error_code::usage, "implicit shape: the cell size must be positive");
+    if (!(shape.tissue == 0 ||
+          (shape.tissue >= least_tissue * shape.cell_size && std::isfinite(shape.tissue))))
+      throw Error(Error_code::usage,
+                  "implicit shape: the tissue must be 0 or at least 1.25 times the cell size; give a smaller "
+                  "cell size, or thicker tissue");
+    // Cubes around the box, so that no tetrahedron of the shape or its tissue is missing at its rim.
+    const double ring = 1 + std::ceil(shape.tissue / shape.cell_size);
     double nodes = 1;
     for (int i = 0; i < 3; ++i) {
-      // A ring of cubes around the box, so that no tetrahedron of the shape is missing at its rim.
-      const double cubes = std::ceil((shape.high[i] - shape.low[i]) / shape.cell_size) + 2;
+      const double cubes = std::ceil((shape.high[i] - shape.low[i]) / shape.cell_size) + 2 * ring;
       if (!(cubes > 2 && (nodes *= cubes + 1) <= most_nodes))
         throw Error(Error_code::usage,
                     "implicit shape: the box is empty or has too many cells; give a larger cell size");
       cubes_[i] = static_cast<int>(cubes);
-      origin_[i] = shape.low[i] - shape.cell_size;
+      origin_[i] = shape.low[i] - ring * shape.cell_size;
     }
   }
 
@@ -93,8 +104,15 @@ class Stuffing {
       for_each_node(parity, [&](const Node& n) { depth_[index(n)] = shape_.depth(lattice_position(n)); });
   }
 
-  bool is_cut(std::size_t a, std::size_t b) const {
-    return (depth_[a] > 0 && depth_[b] < 0) || (depth_[a] < 0 && depth_[b] > 0);
+  bool is_cut(std::size_t a, std::size_t b, double level) const {
+    return (depth_[a] > level && depth_[b] < level) || (depth_[a] < level && depth_[b] > level);
+  }
+
+  /// The depth of the surface that cuts an edge: that of the shape, or the outer one of its tissue.
+  std::optional<double> cut_level(std::size_t a, std::size_t b) const {
+    if (is_cut(a, b, 0)) return 0;
+    if (shape_.tissue != 0 && is_cut(a, b, -shape_.tissue)) return -shape_.tissue;
+    return std::nullopt;
   }
 
   static std::uint64_t edge(std::size_t a, std::size_t b) {
@@ -117,19 +135,21 @@ class Stuffing {
           const Node m{n[0] + d[0], n[1] + d[1], n[2] + d[2]};
           if (!is_node(m)) continue;
           const std::size_t b = index(m);
-          if (a < b && is_cut(a, b)) cuts_[edge(a, b)] = {cut(n, m, depth_[a], depth_[b]), none};
+          if (a > b) continue;
+          if (const auto level = cut_level(a, b))
+            cuts_[edge(a, b)] = {cut(n, m, depth_[a] - *level, depth_[b] - *level, *level), none};
         }
       });
   }
 
-  /// The fraction at which the surface cuts the edge from a to b, by the Illinois method, which keeps the
-  /// root bracketed.
-  double cut(const Node& na, const Node& nb, double da, double db) const {
+  /// The fraction at which the surface of a depth cuts the edge from a to b, which are deeper by da and db, by
+  /// the Illinois method, which keeps the root bracketed.
+  double cut(const Node& na, const Node& nb, double da, double db, double level) const {
     const Point<3> a = lattice_position(na), b = lattice_position(nb);
     double ta = 0, tb = 1, t = 0.5;
     for (int step = 0; step < cut_steps; ++step) {
       t = ta + (tb - ta) * (da / (da - db));
-      const double d = shape_.depth(a + t * (b - a));
+      const double d = shape_.depth(a + t * (b - a)) - level;
       if (d == 0) break;
       if ((d > 0) == (da > 0)) {
         ta = t, da = d, db /= 2;
@@ -145,22 +165,23 @@ class Stuffing {
     for (int parity : {0, 1})
       for_each_node(parity, [&](const Node& n) {
         const std::size_t a = index(n);
-        double nearest = 3;  // in lattice units; more than any edge
+        double nearest = 3, level = 0;  // in lattice units; more than any edge
         Point<3> place{};
         for (const Node& d : directions()) {
           const Node m{n[0] + d[0], n[1] + d[1], n[2] + d[2]};
           if (!is_node(m)) continue;
           const std::size_t b = index(m);
-          if (!is_cut(a, b)) continue;  // a snapped point has depth 0, and its edges are not cut again
+          const auto cut = cut_level(a, b);  // a snapped point lies on it, and its edges are not cut again
+          if (!cut) continue;
           const double t = cuts_.at(edge(a, b)).fraction, from_a = a < b ? t : 1 - t;
           const bool is_long = (d[0] & 1) == 0;
           const double distance = from_a * (is_long ? 2 : std::sqrt(3.0));
           if (from_a > (is_long ? snap_long : snap_short) || distance >= nearest) continue;
-          nearest = distance;
+          nearest = distance, level = *cut;
           place = between(n, m, from_a);
         }
         if (nearest < 3) {
-          depth_[a] = 0;
+          depth_[a] = level;
           snapped_[a] = place;
         }
       });
@@ -206,16 +227,46 @@ class Stuffing {
         square[i][b] += i == 0 || i == 3 ? -1 : 1;
         square[i][c] += i < 2 ? -1 : 1;
       }
-      for (int i = 0; i < 4; ++i) add_inside({centre, next, square[i], square[(i + 1) % 4]});
+      for (int i = 0; i < 4; ++i) add_parts({centre, next, square[i], square[(i + 1) % 4]});
     }
   }
 
-  /// Adds the part of a lattice tetrahedron that lies inside. If the surface leaves a quadrangle of a facet,
-  /// it is cut from its inner point of lower index, as in the neighbour.
-  void add_inside(std::array<Node, 4> nodes) {
+  /// Adds the part of a lattice tetrahedron that lies in the shape, and that in its tissue.
+  void add_parts(const std::array<Node, 4>& nodes) {
+    double deepest = depth_[index(nodes[0])], highest = deepest;
+    for (const Node& n : nodes) {
+      deepest = std::max(deepest, depth_[index(n)]);
+      highest = std::min(highest, depth_[index(n)]);
+    }
+    if (deepest > 0) add_part(nodes, 0, 1, false);
+    if (shape_.tissue == 0 || deepest <= -shape_.tissue) return;
+    if (highest >= -shape_.tissue) {
+      // Outside of the shape; if all nodes lie on its surface, all of the tetrahedron.
+      if (highest < 0) add_part(nodes, 0, -1, true);
+      if (highest == 0 && deepest == 0) add_whole(nodes, true);
+      return;
+    }
+    if (deepest > 0)
+      throw Error(
+          Error_code::usage,
+          "implicit shape: the tissue is thinner than a cell somewhere; give a smaller cell size, or a "
+          "depth that is the distance to the surface");
+    add_part(nodes, -shape_.tissue, 1, true);
+  }
+
+  void add_whole(const std::array<Node, 4>& n, bool solid) {
+    const auto a = vertex(n[0]), b = vertex(n[1]), c = vertex(n[2]), d = vertex(n[3]);
+    add({a, b, c, d}, solid);
+  }
+
+  /// Adds the part of a lattice tetrahedron on one side of a depth: deeper (1) or less deep (-1). If the
+  /// surface leaves a quadrangle of a facet, it is cut from its inner point of lower index, as in the
+  /// neighbour; one on the surface is cut in the same way from both sides.
+  void add_part(std::array<Node, 4> nodes, double level, int side, bool solid) {
     // Inner points by index, then those on the surface, then outer ones.
-    const auto rank = [this](const Node& n) {
-      return depth_[index(n)] > 0 ? 0 : depth_[index(n)] == 0 ? 1 : 2;
+    const auto rank = [&](const Node& n) {
+      const double deeper = side * (depth_[index(n)] - level);
+      return deeper > 0 ? 0 : deeper == 0 ? 1 : 2;
     };
     std::array<int, 3> count{};
     for (const Node& n : nodes) ++count[rank(n)];
@@ -228,6 +279,7 @@ class Stuffing {
     const auto end = [&](const Node& from, const Node& n) {
       return rank(n) == 2 ? cut_vertex(from, n) : vertex(n);
     };
+    const auto add = [&](const std::array<std::uint32_t, 4>& t) { this->add(t, solid); };
     if (count[0] == 1) {
       add({vertex(p), end(p, q), end(p, r), end(p, s)});
     } else if (count[2] == 0) {
@@ -256,7 +308,7 @@ class Stuffing {
   }
 
   /// An array, since its initialiser makes new points in the order written; arguments have no order.
-  void add(const std::array<std::uint32_t, 4>& tetrahedron) {
+  void add(const std::array<std::uint32_t, 4>& tetrahedron, bool solid) {
     const auto [a, b, c, d] = tetrahedron;
     Predicate_counts counts;
     const auto& p = soup_.points;
@@ -266,6 +318,7 @@ class Stuffing {
           Error_code::not_certified,
           "implicit shape: a cell is flat; the size of cells is below the resolution of the coordinates");
     sign > 0 ? add_tetrahedron(soup_, a, b, c, d) : add_tetrahedron(soup_, b, a, c, d);
+    soup_.solid.back() = solid;
   }
 
   static constexpr std::uint32_t none = 0xffffffffu;
@@ -279,7 +332,7 @@ class Stuffing {
   double step_;  // of lattice coordinates
   Node cubes_;
   Point<3> origin_;
-  std::vector<double> depth_;                          // per node; 0 where it lies on the surface
+  std::vector<double> depth_;                          // per node; exactly that of a surface on which it lies
   std::vector<std::uint32_t> vertex_;                  // per node: its point of the soup
   std::unordered_map<std::uint64_t, Cut> cuts_;        // per cut edge
   std::unordered_map<std::size_t, Point<3>> snapped_;  // nodes moved onto the surface

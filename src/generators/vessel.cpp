@@ -75,13 +75,14 @@ Box<3> box_of(const Tube& tube) {
   return box;
 }
 
-/// The union of tubes, blended over a width of `blend` where they meet.
-Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cell_size) {
+/// The union of tubes, blended over a width of `blend` where they meet, and tissue around them.
+Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cell_size, double tissue) {
   std::vector<Box<3>> boxes;
   boxes.reserve(tubes.size());
   for (const Tube& tube : tubes) boxes.push_back(box_of(tube));
   Implicit_shape shape;
   shape.cell_size = cell_size;
+  shape.tissue = tissue;
   shape.low = boxes[0].low, shape.high = boxes[0].high;
   for (const Box<3>& box : boxes)
     for (int k = 0; k < 3; ++k) {
@@ -89,8 +90,9 @@ Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cel
       shape.low[k] = std::min(shape.low[k], box.low[k] - blend / 2);
       shape.high[k] = std::max(shape.high[k], box.high[k] + blend / 2);
     }
-  // Far from all tubes only the sign counts. A tube is skipped if it would change neither sign nor blend.
-  const double far = -2 * (blend + cell_size);
+  // Far from all tubes and their tissue only the sign counts. A tube is skipped if it would change neither
+  // sign nor blend.
+  const double far = -2 * (blend + cell_size) - tissue;
   shape.depth = [&, far](const Point<3>& p) {
     double depth = far;
     for (std::size_t i = 0; i < tubes.size(); ++i)
@@ -98,6 +100,12 @@ Cell_soup<3> fill_tubes(const std::vector<Tube>& tubes, double blend, double cel
     return depth;
   };
   return fill_implicit(shape);
+}
+
+/// Lengths are in radii.
+void check_tissue(double tissue, double cell_size) {
+  check_option(tissue == 0 || (tissue >= 1.25 * cell_size && tissue <= 20),
+               "vessel, tube: the tissue must be 0, or lie between 1.25 cell sizes and 20 radii");
 }
 
 void check(const Vessel_options& o) {
@@ -156,7 +164,8 @@ Cell_soup<3> branching_vessel(const Vessel_options& options) {
       "vessel: the cell size must lie between a hundredth of the trunk's radius and four fifths of the "
       "thinnest branch's; "
       "give a smaller one, or fewer generations");
-  return fill_tubes(tubes, thinnest, cell_size);
+  check_tissue(options.tissue, options.cell_size);
+  return fill_tubes(tubes, thinnest, cell_size, options.tissue * options.radius);
 }
 
 Tube bulging_tube_line(const Bulge_options& o) {
@@ -175,6 +184,7 @@ Cell_soup<3> bulging_tube(const Bulge_options& options) {
   check_option(std::abs(options.bulge_offset) <= 20, "tube: the bulge's offset must lie in [-20,20] radii");
   check_option(options.cell_size >= 0.01 && options.cell_size <= 0.5,
                "tube: the cell size must lie in [0.01,0.5] of the tube's radius");
+  check_tissue(options.tissue, options.cell_size);
   if (options.bulge_radius > 0) {
     const Point<3> top = tubes[0].points[segments_per_tube / 2];
     const Point<3> centre = top + Vector<3>{0, 0, options.bulge_offset * options.radius};
@@ -182,7 +192,8 @@ Cell_soup<3> bulging_tube(const Bulge_options& options) {
     // A ball, as a very short tube.
     tubes.push_back({{centre, centre + Vector<3>{0, 0, r / 16}}, {r, r}, 0});
   }
-  return fill_tubes(tubes, options.radius, options.cell_size * options.radius);
+  return fill_tubes(tubes, options.radius, options.cell_size * options.radius,
+                    options.tissue * options.radius);
 }
 
 }  // namespace cellwalk

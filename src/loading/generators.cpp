@@ -83,6 +83,7 @@ Any_soup vessel(const Generator_values& values) {
   options.curvature = number(values, "curvature");
   options.cell_size = number(values, "cell_size");
   options.radius = number(values, "radius");
+  options.tissue = number(values, "tissue");
   options.seed = seed(values);
   return branching_vessel(options);
 }
@@ -95,6 +96,7 @@ Any_soup tube(const Generator_values& values) {
   options.bulge_offset = number(values, "bulge_offset");
   options.cell_size = number(values, "cell_size");
   options.radius = number(values, "radius");
+  options.tissue = number(values, "tissue");
   return bulging_tube(options);
 }
 
@@ -135,6 +137,10 @@ std::vector<Generator> make_table() {
   const Generator_option jitter{"jitter", "Points move by up to this much along each axis, in cells", {0}};
   const Generator_option cell_size{"cell_size", "Size of the lattice it is cut from, in trunk radii", {0.3}};
   const Generator_option radius{"radius", "Of the trunk: scales everything", {1}};
+  const Generator_option tissue{
+      "tissue",
+      "Thickness of solid cells around it, in trunk radii; 0: none, else at least 1.25 cell sizes",
+      {0}};
   return {
       {"hexes", "A grid of hexahedra, some of them solid", lattice_options(3, 10, {solid}), grid<3>},
       {"tets", "A grid of cubes cut into tetrahedra", lattice_options(3, 10, {jitter}), simplex_grid<3>},
@@ -145,6 +151,7 @@ std::vector<Generator> make_table() {
         {"curvature", "How far branches bend sideways, from 0 to 1", {0.35}},
         cell_size,
         radius,
+        tissue,
         seed_option},
        vessel},
       {"tube",
@@ -154,7 +161,8 @@ std::vector<Generator> make_table() {
         {"bulge_radius", "Radius of the bulge, in radii; 0: none", {2}},
         {"bulge_offset", "Of the bulge from the centre line, in radii", {2}},
         cell_size,
-        radius},
+        radius,
+        tissue},
        tube},
       {"lattice", "Cells of many shapes, membranes, solid and missing cells", lattice_options(3, 4, {slits}),
        lattice<3>},

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -48,6 +50,19 @@ TEST_F(Generate, HelpNamesEveryKindTestedHere) {
     listed += list[at + 3] != ' ';
   EXPECT_EQ(listed, kinds.size()) << list;
   for (const auto& kind : kinds) EXPECT_NE(list.find("\n  " + kind[0] + " "), std::string::npos) << list;
+}
+
+TEST_F(Generate, VesselsLieInTissueOnRequest) {
+  succeed(with_output(
+      {"vessel", "--generations", "0", "--length", "3", "--tissue", "0.5", "--json", "in.json"}, "env.ovm"));
+  succeed(with_output({"vessel", "--generations", "0", "--length", "3", "--json", "alone.json"}, "env.ovm"));
+  const auto in = nlohmann::json::parse(text("in.json"))["certificate"],
+             alone = nlohmann::json::parse(text("alone.json"))["certificate"];
+  EXPECT_EQ(in["cells"].get<int>() - in["solid_cells"].get<int>(), alone["cells"].get<int>());
+  EXPECT_GT(in["solid_cells"].get<int>(), 1000);
+  EXPECT_NEAR(in["free_volume"].get<double>(), alone["volume"].get<double>(), 1e-9);
+  expect_failure(2, with_output({"vessel", "--tissue", "0.1"}, "x.ovm"), {"tissue", "1.25 cell sizes"});
+  expect_failure(2, with_output({"tube", "--tissue", "nan"}, "x.ovm"), {"tissue", "finite"});
 }
 
 TEST_F(Generate, TheSeedDecides) {

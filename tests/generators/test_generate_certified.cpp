@@ -100,6 +100,12 @@ TEST(GeneratedEnvironment, VesselsAreCertified) {
     EXPECT_EQ(c.components, 1u);
     EXPECT_EQ(c.walls, c.boundary_facets);
     EXPECT_EQ(c.pinched_vertices, 0u);
+    options.tissue = 0.5;
+    const auto in_tissue = certificate_of(branching_vessel(options));
+    EXPECT_EQ(in_tissue.cells - in_tissue.solid_cells, c.cells);
+    EXPECT_EQ(in_tissue.walls - in_tissue.boundary_facets, c.walls);
+    EXPECT_EQ(in_tissue.membranes, 0u);
+    EXPECT_NEAR(in_tissue.free_volume, c.volume, 1e-9);
   }
   EXPECT_EQ(certificate_of(bulging_tube({})).components, 1u);
 }

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <set>
+
 #include "environment/soup_checks.h"
 
 namespace cellwalk {
@@ -119,6 +123,76 @@ TEST(FillImplicit, RefusesWhatItCannotFill) {
   EXPECT_THROW(fill_implicit(shape), Error);
 }
 
+/// The cells that are free, or those that are solid, with their points.
+Cell_soup<3> part(const Cell_soup<3>& soup, bool solid) {
+  Cell_soup<3> result;
+  result.points = soup.points;
+  for (std::size_t c = 0; c < soup.cell_count(); ++c) {
+    if ((soup.solid[c] != 0) != solid) continue;
+    for (std::size_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) result.add_facet(soup.facet(f));
+    result.end_cell(solid);
+  }
+  return result;
+}
+
+/// The loops of a soup's facets on its boundary, each as the points in ascending order.
+std::set<std::set<Point<3>>> boundary(const Cell_soup<3>& soup) {
+  const Gluing gluing = glue(soup);
+  std::set<std::set<Point<3>>> result;
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
+    if (gluing.opposite[f] != no_facet) continue;
+    std::set<Point<3>> points;
+    for (const auto v : soup.facet(f)) points.insert(soup.points[v]);
+    result.insert(points);
+  }
+  return result;
+}
+
+TEST(FillImplicit, SurroundsABallByTissue) {
+  Implicit_shape ball;
+  ball.depth = [](const Point<3>& p) { return 1 - length(p); };
+  ball.low = {-1, -1, -1}, ball.high = {1, 1, 1};
+  for (const double cell : {0.16, 0.19, 0.2, 0.25, 0.31}) {
+    ball.cell_size = cell;
+    ball.tissue = 0;
+    const auto alone = fill_implicit(ball);
+    for (const double tissue : {1.25 * cell, 0.5, 0.8}) {
+      ball.tissue = tissue;
+      const auto soup = fill_implicit(ball);
+      expect_solid(soup, 2);
+      EXPECT_NEAR(test::volume(soup), 4.18879 * std::pow(1 + tissue, 3), 0.09 * std::pow(1 + tissue, 3));
+      EXPECT_GT(smallest_angle(soup), 5) << cell << " " << tissue;
+      const auto inside = part(soup, false), outside = part(soup, true);
+      expect_solid(inside, 2);
+      EXPECT_EQ(inside.cell_count(), alone.cell_count()) << "the shape is filled as without tissue";
+      EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-9);
+      // Tissue has two boundaries: the surface of the shape, and its own.
+      const auto walls = boundary(inside), all = boundary(soup), both = boundary(outside);
+      EXPECT_EQ(both.size(), walls.size() + all.size());
+      for (const auto& facet : walls) EXPECT_TRUE(both.contains(facet));
+      double worst = 0;
+      for (const auto& facet : all)
+        for (const auto& x : facet) worst = std::max(worst, std::abs(1 + tissue - length(x)));
+      EXPECT_LT(worst, 1e-3);
+    }
+  }
+}
+
+TEST(FillImplicit, RefusesTissueThinnerThanCells) {
+  Implicit_shape ball;
+  ball.depth = [](const Point<3>& p) { return 1 - length(p); };
+  ball.low = {-1, -1, -1}, ball.high = {1, 1, 1};
+  ball.cell_size = 0.2;
+  for (const double tissue : {0.24, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    ball.tissue = tissue;
+    EXPECT_THROW(fill_implicit(ball), Error) << tissue;
+  }
+  // A depth that grows four times as fast as the distance.
+  ball.depth = [](const Point<3>& p) { return 4 * (1 - length(p)); };
+  ball.tissue = 0.25;
+  EXPECT_THROW(fill_implicit(ball), Error);
+}
+
 TEST(BranchingVessel, IsOneTreeOfTubes) {
   const auto soup = branching_vessel({});
   expect_solid(soup, 2);  // a tree has no handles
@@ -155,10 +229,31 @@ TEST(BranchingVessel, DependsOnItsSeedOnly) {
 TEST(BranchingVessel, RefusesOptionsOutOfRange) {
   for (auto set : {+[](Vessel_options& o) { o.generations = 9; }, +[](Vessel_options& o) { o.length = 1; },
                    +[](Vessel_options& o) { o.curvature = 2; }, +[](Vessel_options& o) { o.radius = 0; },
-                   +[](Vessel_options& o) { o.cell_size = 0.6; }}) {
+                   +[](Vessel_options& o) { o.cell_size = 0.6; }, +[](Vessel_options& o) { o.tissue = 0.3; },
+                   +[](Vessel_options& o) { o.tissue = -1; }}) {
     Vessel_options options;
     set(options);
     EXPECT_THROW(branching_vessel(options), Error);
+  }
+}
+
+TEST(BranchingVessel, LiesInTissue) {
+  Vessel_options options;
+  options.generations = 2;
+  options.radius = 0.5;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    options.seed = seed;
+    options.tissue = 0;
+    const auto alone = branching_vessel(options);
+    options.tissue = 0.4;
+    const auto soup = branching_vessel(options);
+    const auto inside = part(soup, false);
+    expect_solid(inside, 2);
+    EXPECT_EQ(inside.cell_count(), alone.cell_count());
+    EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-9);
+    const auto walls = boundary(inside), all = boundary(soup);
+    EXPECT_EQ(boundary(part(soup, true)).size(), walls.size() + all.size()) << "no wall is on the boundary";
+    EXPECT_GT(smallest_angle(soup), 3);
   }
 }
 
@@ -171,6 +266,10 @@ TEST(BulgingTube, IsOneTube) {
   expect_solid(without, 2);
   EXPECT_GT(test::volume(with), test::volume(without) + 10);
   EXPECT_EQ(test::hash(without), 10972751635593088228u);
+  options.tissue = 0.375;
+  EXPECT_GT(bulging_tube(options).cell_count(), without.cell_count());
+  options.tissue = 0.37;
+  EXPECT_THROW(bulging_tube(options), Error);
 }
 
 }  // namespace

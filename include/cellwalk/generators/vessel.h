@@ -24,11 +24,13 @@ struct Vessel_options {
   double curvature = 0.35;  ///< sideways bend of branches, 0 to 1
   double cell_size = 0.3;   ///< see Implicit_shape; at most 0.8 of the thinnest branch's radius
   double radius = 1;        ///< of the trunk, in units of the result: scales everything
+  double tissue = 0;        ///< thickness of solid cells around it, see Implicit_shape; 0: none
   std::uint64_t seed = 1;
 };
 
 /// A branching vessel: a trunk that starts at the origin in direction z and forks into ever thinner branches,
-/// rounded at the ends. Tetrahedra, about 44,000 with the default options, in one component.
+/// rounded at the ends. Tetrahedra, about 44,000 with the default options, in one component; solid ones of its
+/// tissue come in addition, and its walls are inner facets then.
 /// \throw Error(usage) for options out of range
 /// Cost: about 7 us a tetrahedron.
 Cell_soup<3> branching_vessel(const Vessel_options& options);
@@ -46,6 +48,7 @@ struct Bulge_options {
   double bulge_offset = 2;  ///< of its centre from the centre line, outwards
   double cell_size = 0.3;
   double radius = 1;  ///< scales everything
+  double tissue = 0;  ///< thickness of solid cells around it, see Implicit_shape; 0: none
 };
 
 /// A tube from x = -length/2 to length/2 in the plane y = 0 that bends towards z.
