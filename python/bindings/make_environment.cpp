@@ -91,9 +91,10 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
                          const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
-                         bool keep_obstacles) {
+                         bool keep_obstacles, double tissue) {
   const std::string name = py::str(path);
   Import_options options;
+  options.tissue = tissue;
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
                     quality, cell_size, distance, keep_obstacles};
@@ -134,11 +135,12 @@ void bind_makers(py::class_<Shared_world>& environment) {
                   py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
                   py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen",
                   py::arg("quality") = py::none(), py::arg("cell_size") = 0.0, py::arg("distance") = 0.0,
-                  py::arg("keep_obstacles") = false,
+                  py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
                   "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
                   "necessary, a "
                   "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
-                  "triangles. `report` lists all changes.")
+                  "triangles. `report` lists all changes.\n\n"
+                  "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.")
       .def_static("generate", &generate_environment, py::arg("kind"),
                   "Generates an environment. Kinds and options are those of `cellwalk "
                   "generate`, with _ for "

@@ -65,6 +65,7 @@ class Environment:
         cell_size: float = 0.0,
         distance: float = 0.0,
         keep_obstacles: bool = False,
+        tissue: float = 0.0,
     ) -> Environment: ...
     @staticmethod
     def generate(kind: str, **kwargs: Union[float, bool, Sequence[float]]) -> Environment: ...

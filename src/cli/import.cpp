@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// Adds the options of the meshers in this build.
-void add_mesher_options(CLI::App& command, Mesher_options& options) {
+void add_mesher_options(CLI::App& command, Mesher_options& options, double& tissue) {
   if (!mesher_parts().meshing) return;
   add_choice(
       command, "--mesher", options.mesher, {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}},
@@ -47,6 +47,13 @@ void add_mesher_options(CLI::App& command, Mesher_options& options) {
   command.add_option("--distance", options.distance, "Mesh_3: how far the boundary may leave the surface")
       ->check(number_from(least_size, "greater than 0"))
       ->type_name("D");
+  command
+      .add_option(
+          "--tissue", tissue,
+          "3D: surround it by solid cells up to a box at this distance, so that walls that move cannot "
+          "run into each other; by TetGen")
+      ->check(number_from(least_size, "greater than 0"))
+      ->type_name("DIST");
   command.add_flag("--keep-obstacles", options.keep_obstacles,
                    "Keep the inside of obstacles and holes as solid cells");
 }
@@ -102,7 +109,7 @@ void add_import(CLI::App& app, Action& chosen) {
       ->add_option("--obstacle", options->import.obstacles,
                    "A closed surface inside; may be given several times")
       ->type_name("MESH2");
-  add_mesher_options(*command, options->import.mesher);
+  add_mesher_options(*command, options->import.mesher, options->import.tissue);
   CLI::Option* const no_split = command->add_flag(
       "--no-split", options->no_split, "Refuse cells that are not exactly convex instead of splitting");
   command
@@ -116,6 +123,7 @@ void add_import(CLI::App& app, Action& chosen) {
       *command,
       {"cellwalk import vessel.stl -o vessel.ovm", "cellwalk import vessel.stl --cell-size 0.5 -o fine.ovm",
        "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
+       "cellwalk import aneurysm.stl --mesher mesh3 --tissue 2 -o beating.ovm",
        "cellwalk import floor.wkt -o floor.ovm --json report.json"});
   command->callback([options, &chosen] { chosen = [options] { import(*options); }; });
 }

@@ -98,8 +98,27 @@ class Import {
         naming(path_, [&] { return Environment<D>::build(std::move(soup), options_.build, &built); });
     report_.stages.push_back({"changed", changes(built)});
     report_.json["changed"] = to_json(built);
+    if (options_.tissue != 0) {
+      if constexpr (D == 3)
+        environment = naming(path_, [&] { return in_tissue(environment.soup(), built.certificate); });
+      else
+        throw Error(Error_code::usage, fmt::format("--tissue goes with 3D, and {} is 2D", path_));
+    }
     report_.json["certificate"] = to_json(built.certificate, D);
     return {std::move(environment), std::move(built), std::move(report_)};
+  }
+
+  /// The cells surrounded by solid ones, and certified again.
+  Environment<3> in_tissue(Cell_soup<3> cells, Certificate& certificate) {
+    begin("meshing the tissue around " + path_);
+    Meshed<3> meshed = add_tissue(std::move(cells), options_.tissue, options_.mesher);
+    report_.stages.push_back({"tissue", std::move(meshed.lines)});
+    report_.json["tissue"] = std::move(meshed.report);
+    begin("gluing and certifying " + path_);
+    Build_report built;
+    auto environment = Environment<3>::build(std::move(meshed.soup), options_.build, &built);
+    certificate = built.certificate;
+    return environment;
   }
 
   const std::string& path_;

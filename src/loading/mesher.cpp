@@ -4,9 +4,12 @@
 #include <cellwalk/loading/report.h>
 #include <cellwalk/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
+#include <cellwalk/meshing/tissue.h>
 #include <cellwalk/meshing/triangulate.h>
 
 #include <fmt/core.h>
+
+#include <utility>
 
 namespace cellwalk {
 namespace {
@@ -111,6 +114,34 @@ Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_so
                        const Mesher_options& options) {
   return options.mesher == Mesher::tetgen ? with_tetgen(surface, obstacles, options)
                                           : with_mesh3(surface, obstacles, options);
+}
+
+Meshed<3> add_tissue(Cell_soup<3> cells, double thickness, const Mesher_options& options) {
+  Tissue_options tissue;
+  tissue.thickness = thickness;
+  tissue.quality = options.quality.value_or(tissue.quality);
+  Tissue_report report;
+  Meshed<3> meshed{surround_by_tissue(std::move(cells), tissue, &report), {}, {}};
+  const auto corner = [](const Point<3>& p) {
+    return fmt::format("({}, {}, {})", rounded(p[0]), rounded(p[1]), rounded(p[2]));
+  };
+  meshed.lines.push_back(
+      fmt::format("{} solid tetrahedra to a box from {} to {}, all {} boundary triangles kept",
+                  report.solid_cells, corner(report.low), corner(report.high), report.inner_facets));
+  if (report.out_of_bounds != 0)
+    meshed.lines.push_back(
+        fmt::format("{} of them violate the bound of quality {:g}", report.out_of_bounds, tissue.quality));
+  if (report.added_points == tissue.most_added_points)
+    meshed.lines.push_back("refinement stopped at the largest number of points");
+  meshed.report = {{"thickness", thickness},
+                   {"quality", tissue.quality},
+                   {"low", report.low},
+                   {"high", report.high},
+                   {"solid_cells", report.solid_cells},
+                   {"added_points", report.added_points},
+                   {"inner_facets", report.inner_facets},
+                   {"out_of_bounds", report.out_of_bounds}};
+  return meshed;
 }
 
 Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options) {

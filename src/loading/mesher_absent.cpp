@@ -19,6 +19,8 @@ Meshed<3> mesh_surface(const Surface_soup&, const std::vector<Surface_soup>&, co
   refuse("a surface");
 }
 
+Meshed<3> add_tissue(Cell_soup<3>, double, const Mesher_options&) { refuse("tissue"); }
+
 Meshed<2> mesh_domain(const Planar_domain&, const Mesher_options&) { refuse("a planar domain"); }
 
 }  // namespace cellwalk

@@ -190,6 +190,40 @@ TEST_F(Import, OptionsWithoutEffectAreRefused) {
   refuse("cells.ovm", {"--distance", "2"}, "--distance goes with a surface, and cells.ovm holds a ");
 }
 
+TEST_F(Import, SurroundsCellsByTissue) {
+  write("cube.off", cube_off(2));
+  write("inner.off", cube_off(0.5, 0.5));
+  for (const char* mesher : {"tetgen", "mesh3"}) {
+    SCOPED_TRACE(mesher);
+    const auto alone = import("cube.off", {"--mesher", mesher, "--obstacle", "inner.off"});
+    const auto report =
+        import("cube.off", {"--mesher", mesher, "--obstacle", "inner.off", "--tissue", "0.75"});
+    EXPECT_EQ(report.at("meshed"), alone.at("meshed")) << "the cells are the same";
+    const auto& before = alone.at("certificate");
+    const auto& after = report.at("certificate");
+    EXPECT_EQ(after.at("cells").get<int>() - after.at("solid_cells").get<int>(),
+              before.at("cells").get<int>());
+    EXPECT_EQ(report.at("tissue").at("solid_cells"), after.at("solid_cells"));
+    EXPECT_EQ(report.at("tissue").at("inner_facets"), before.at("walls"));
+    EXPECT_EQ(report.at("tissue").at("thickness"), 0.75);
+    EXPECT_NEAR(after.at("free_volume").get<double>(), before.at("volume").get<double>(), 1e-12);
+    EXPECT_EQ(after.at("walls").get<int>() - after.at("boundary_facets").get<int>(),
+              before.at("walls").get<int>());
+    EXPECT_NEAR(after.at("volume").get<double>(), 3.5 * 3.5 * 3.5,
+                mesher == std::string("tetgen") ? 1e-12 : 1);
+    const std::string bytes = text("env.ovm");
+    import("cube.off", {"--mesher", mesher, "--obstacle", "inner.off", "--tissue", "0.75"});
+    EXPECT_EQ(text("env.ovm"), bytes);
+  }
+  write("cells.ovm", hexahedron_ovm(0));
+  expect_failure(3, {"import", "cells.ovm", "--tissue", "1", "-o", "out.ovm"},
+                 {"not a triangle", "--simplicial"});
+  EXPECT_GT(import("cells.ovm", {"--simplicial", "--tissue", "1"}).at("tissue").at("solid_cells").get<int>(),
+            11);
+  write("open.off", open_cube_off());
+  expect_failure(3, {"import", "open.off", "--tissue", "1", "-o", "out.ovm"}, {"surface is open"});
+}
+
 TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {
   write("cube.off", cube_off(1, 0, true));
   EXPECT_EQ(import("cube.off").at("meshed").at("surface").at("inside_out"), true);

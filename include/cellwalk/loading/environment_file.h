@@ -45,6 +45,8 @@ struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface
   Mesher_options mesher;
   Build_options build{.keep_map = false};
+  /// If not 0: 3D cells are surrounded by solid ones up to a box at this distance, see surround_by_tissue().
+  double tissue = 0;
   /// Called before each stage of long work with its description, such as "reading part.off".
   std::function<void(const std::string&)> on_stage{};
 };
@@ -52,11 +54,11 @@ struct Import_options {
 /// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
-    std::string title;  ///< "read", "meshed" or "changed"
+    std::string title;  ///< "read", "meshed", "changed" or "tissue"
     std::vector<std::string> lines;
   };
   std::vector<Stage> stages;
-  nlohmann::ordered_json json;  ///< the same for programs: read, meshed, changed, certificate
+  nlohmann::ordered_json json;  ///< the same for programs: read, meshed, changed, tissue, certificate
 };
 
 struct Imported_environment {
@@ -68,8 +70,8 @@ struct Imported_environment {
 /// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
 /// surface is filled with tetrahedra, a planar domain with triangles.
 /// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
-///        with the cell and the reason, Error(usage) for obstacles without a surface, and if this build
-///        cannot mesh
+///        with the cell and the reason, Error(usage) for obstacles without a surface, for tissue in 2D or as
+///        surround_by_tissue(), and if this build cannot mesh
 /// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe if TetGen is used.
 Imported_environment import_environment(const std::string& path, const Import_options& options);
 

@@ -48,6 +48,11 @@ Mesher_parts mesher_parts();
 Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                        const Mesher_options& options);
 
+/// Surrounds cells by solid ones, see surround_by_tissue(), with the quality of the options. The report is
+/// about the tissue only.
+/// \throw Error as surround_by_tissue(); Error(usage) in a build without TetGen
+Meshed<3> add_tissue(Cell_soup<3> cells, double thickness, const Mesher_options& options);
+
 /// Triangulates a planar domain.
 /// \throw Error as triangulate(); Error(usage) in a build without meshing
 Meshed<2> mesh_domain(const Planar_domain& domain, const Mesher_options& options);
