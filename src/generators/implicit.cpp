@@ -142,8 +142,8 @@ class Stuffing {
       });
   }
 
-  /// The fraction at which the surface of a depth cuts the edge from a to b, which are deeper by da and db, by
-  /// the Illinois method, which keeps the root bracketed.
+  /// The fraction at which the surface of a depth cuts the edge from a to b, which are deeper by da and db:
+  /// by the Illinois method, which keeps the root bracketed.
   double cut(const Node& na, const Node& nb, double da, double db, double level) const {
     const Point<3> a = lattice_position(na), b = lattice_position(nb);
     double ta = 0, tb = 1, t = 0.5;
