@@ -134,7 +134,7 @@ class Environment {
   void check_point(std::uint32_t point) const;
   void check_move(std::uint32_t point, const Point<D>& position) const;
   bool is_on_boundary(std::uint32_t point, const std::vector<Cell>& star) const;
-  const detail::Star_index<D>& stars();
+  detail::Star_index<D>& stars();
   detail::Boundary_index<D>& boundary();
   void follow_move(std::uint32_t point, bool on_boundary);
 

@@ -95,7 +95,8 @@ Star_index<D>::Star_index(const Snapshot<D>& snapshot) : first_(snapshot.points(
   if (!are_pinched) return;
   for_each_corner(snapshot, [&](std::uint32_t point, Cell c) {
     if (missed[point] == 0) return;
-    find_cells(snapshot, point, cells);
+    cells.clear();
+    append_parts(snapshot, point, cells);
     if (std::find(cells.begin(), cells.end(), c) != cells.end()) return;
     other_parts_.insert(std::upper_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, c)),
                         {point, c});
@@ -106,10 +107,8 @@ Star_index<D>::Star_index(const Snapshot<D>& snapshot) : first_(snapshot.points(
 }
 
 template <int D>
-void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point,
-                               std::vector<Cell>& cells) const {
-  cells.clear();
-  if (point >= first_.size() || first_[point] == Cell::none) return;
+void Star_index<D>::append_parts(const Snapshot<D>& snapshot, std::uint32_t point,
+                                 std::vector<Cell>& cells) const {
   append_part(snapshot, point, first_[point], cells);
   for (auto part = std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
        part != other_parts_.end() && part->first == point; ++part)
@@ -117,7 +116,25 @@ void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point,
 }
 
 template <int D>
+void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells) {
+  cells.clear();
+  if (point >= first_.size() || first_[point] == Cell::none) return;
+  if (kept_.size() < first_.size()) kept_.resize(first_.size(), none);
+  if (kept_[point] != none) {
+    for (const Cell* c = cells_.data() + kept_[point]; *c != Cell::none; ++c) cells.push_back(*c);
+    return;
+  }
+  append_parts(snapshot, point, cells);
+  const auto begin = static_cast<std::uint32_t>(cells_.size());
+  cells_.insert(cells_.end(), cells.begin(), cells.end());
+  cells_.push_back(Cell::none);
+  kept_[point] = begin;
+}
+
+template <int D>
 void Star_index<D>::replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added) {
+  kept_.clear();
+  cells_.clear();
   first_.resize(snapshot.points().size(), Cell::none);
   for (const Cell c : added)
     for (const std::uint32_t point : snapshot.view(c).vertices) {

@@ -24,6 +24,7 @@ void expect_all_stars(Environment<D>& environment) {
       for (const std::uint32_t p : snapshot.view(c).vertices) stars[p].push_back(c);
   for (std::uint32_t p = 0; p < stars.size(); ++p) {
     std::vector<Cell> found = environment.cells_around(p);
+    EXPECT_EQ(environment.cells_around(p), found) << "kept for the next time";
     std::sort(found.begin(), found.end());
     std::sort(stars[p].begin(), stars[p].end());
     ASSERT_EQ(found, stars[p]) << "point " << p;

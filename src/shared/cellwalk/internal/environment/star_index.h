@@ -29,16 +29,22 @@ class Star_index {
   explicit Star_index(const Snapshot<D>& snapshot);
 
   /// Sets `cells` to all cells that have a point, part after part; solid ones too. The order depends on the
-  /// numbering of cells.
-  /// Cost: that of the cells found.
-  void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells) const;
+  /// numbering of cells. They are kept for the next time.
+  /// Cost: at first about 0.4 us, later that of a copy. The first call takes 4 bytes for each point.
+  void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells);
 
-  /// Follows an edit that replaces a cell by cells that cover it and have its vertices, and new ones.
+  /// Follows an edit that replaces a cell by cells that cover it and have its vertices, and new ones. Forgets
+  /// all that was kept.
   void replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added);
 
  private:
+  void append_parts(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells) const;
+
+  static constexpr std::uint32_t none = 0xffffffffu;
   std::vector<Cell> first_;                                  ///< of each point
   std::vector<std::pair<std::uint32_t, Cell>> other_parts_;  ///< by point
+  std::vector<std::uint32_t> kept_;  ///< of each point: where its cells begin in `cells_`, or none
+  std::vector<Cell> cells_;          ///< of points asked for, each ended by Cell::none
 };
 
 extern template class Star_index<2>;
