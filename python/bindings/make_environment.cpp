@@ -23,6 +23,13 @@ Duplicate_vertices to_duplicates(const std::string& word) {
                                      {"keep", Duplicate_vertices::keep}});
 }
 
+/// \throw UsageError for two options that exclude each other
+Build_options to_build_options(const std::string& duplicates, bool split, bool simplicial) {
+  if (simplicial && !split)
+    throw Error(Error_code::usage, "simplicial=True splits cells, and split=False refuses them: give one");
+  return {to_duplicates(duplicates), split, simplicial, /*keep_map=*/false};
+}
+
 /// Builds without the interpreter, and says what was changed.
 template <int D>
 Shared_world build(Cell_soup<D> soup, const Build_options& options) {
@@ -69,9 +76,9 @@ Shared_world of_arrays(const py::object& points, const py::object& cells, const 
   return build(std::move(soup), options);
 }
 
-Shared_world from_arrays(const py::object& points, const py::object& cells, bool split,
+Shared_world from_arrays(const py::object& points, const py::object& cells, bool split, bool simplicial,
                          const std::string& duplicates) {
-  const Build_options options{to_duplicates(duplicates), split, false};
+  const Build_options options = to_build_options(duplicates, split, simplicial);
   const bool is_planar = py::isinstance<py::array>(points) && points.attr("ndim").cast<int>() == 2 &&
                          points.cast<py::array>().shape(1) == 2;
   return is_planar ? of_arrays<2>(points, cells, options) : of_arrays<3>(points, cells, options);
@@ -79,7 +86,7 @@ Shared_world from_arrays(const py::object& points, const py::object& cells, bool
 
 Shared_world load(const py::object& path, const std::string& duplicates) {
   const std::string name = py::str(path);
-  const Build_options options{to_duplicates(duplicates), false, false};
+  const Build_options options{.duplicates = to_duplicates(duplicates), .split = false, .keep_map = false};
   const py::gil_scoped_release released;
   Loaded_environment loaded = load_environment(name, options);
   const nlohmann::ordered_json report{
@@ -89,7 +96,7 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
 }
 
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
-                         const std::string& duplicates, const std::string& mesher,
+                         bool simplicial, const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
                          bool keep_obstacles, double tissue) {
   const std::string name = py::str(path);
@@ -98,21 +105,23 @@ Shared_world import_mesh(const py::object& path, const std::vector<py::object>& 
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
                     quality, cell_size, distance, keep_obstacles};
-  options.build = {to_duplicates(duplicates), split, false};
+  options.build = to_build_options(duplicates, split, simplicial);
   // The interpreter waits: TetGen is not thread-safe.
   Imported_environment imported = import_environment(name, options);
   return share(std::move(imported.environment), imported.built.certificate, imported.report.json.dump());
 }
 
 /// Numbers, sequences of numbers and truth values, as generators take them.
-Shared_world generate_environment(const std::string& kind, const py::kwargs& given) {
+Shared_world generate_environment(const std::string& kind, bool simplicial, const py::kwargs& given) {
   Generator_values values;
   for (const auto& [name, value] : given)
     values[std::string(py::str(name))] = py::isinstance<py::sequence>(value)
                                              ? value.cast<std::vector<double>>()
                                              : std::vector<double>{value.cast<double>()};
   Any_soup soup = generate(kind, values);
-  return std::visit([](auto& cells) { return build(std::move(cells), build_of_generated); }, soup);
+  Build_options options = build_of_generated;
+  options.simplicial = simplicial;
+  return std::visit([&](auto& cells) { return build(std::move(cells), options); }, soup);
 }
 
 }  // namespace
@@ -121,30 +130,37 @@ void bind_makers(py::class_<Shared_world>& environment) {
   environment
       .def(
           py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(), py::arg("split") = true,
-          py::arg("duplicates") = "refuse",
+          py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
           "Makes an environment from arrays: points float64 (N, 3) with cells integer (M, 4), (M, 5), (M, 6) "
           "or (M, 8) "
           "(tetrahedra, pyramids, prisms, hexahedra, in the order of VTK), or points (N, 2) with polygons "
           "(M, k), "
           "counterclockwise. Its boundary facets are walls.\n\n"
           "split: cells that are not exactly convex are split; otherwise they are refused.\n"
+          "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: see "
+          "reshape().\n"
           "duplicates: points with equal coordinates: \"refuse\", \"merge\", or \"keep\" apart (as a slit).")
       .def_static("load", &load, py::arg("path"), py::kw_only(), py::arg("duplicates") = "refuse",
                   "Reads a file of cells and certifies it unchanged.")
       .def_static("import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
                   py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
-                  py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen",
-                  py::arg("quality") = py::none(), py::arg("cell_size") = 0.0, py::arg("distance") = 0.0,
-                  py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
+                  py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
+                  py::arg("mesher") = "tetgen", py::arg("quality") = py::none(), py::arg("cell_size") = 0.0,
+                  py::arg("distance") = 0.0, py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
                   "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
                   "necessary, a "
                   "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
                   "triangles. `report` lists all changes.\n\n"
+                  "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
+                  "see reshape().\n"
                   "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.")
-      .def_static("generate", &generate_environment, py::arg("kind"),
-                  "Generates an environment. Kinds and options are those of `cellwalk "
-                  "generate`, with _ for "
-                  "-: generate(\"hexes\", cells=(10, 10, 10), solid=0.05). One number stands for all axes.");
+      .def_static(
+          "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
+          "Generates an environment. Kinds and options are those of `cellwalk "
+          "generate`, with _ for "
+          "-: generate(\"hexes\", cells=(10, 10, 10), solid=0.05). One number stands for all axes.\n\n"
+          "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
+          "see reshape().");
 }
 
 }  // namespace cellwalk::python

@@ -49,7 +49,13 @@ class Locations:
 @final
 class Environment:
     def __init__(
-        self, points: _Points, cells: _Indices, *, split: bool = True, duplicates: _Duplicates = "refuse"
+        self,
+        points: _Points,
+        cells: _Indices,
+        *,
+        split: bool = True,
+        simplicial: bool = False,
+        duplicates: _Duplicates = "refuse",
     ) -> None: ...
     @staticmethod
     def load(path: _Path, *, duplicates: _Duplicates = "refuse") -> Environment: ...
@@ -59,6 +65,7 @@ class Environment:
         *,
         obstacles: Sequence[_Path] = [],
         split: bool = True,
+        simplicial: bool = False,
         duplicates: _Duplicates = "refuse",
         mesher: Literal["tetgen", "mesh3"] = "tetgen",
         quality: Union[float, None] = None,
@@ -68,7 +75,9 @@ class Environment:
         tissue: float = 0.0,
     ) -> Environment: ...
     @staticmethod
-    def generate(kind: str, **kwargs: Union[float, bool, Sequence[float]]) -> Environment: ...
+    def generate(
+        kind: str, *, simplicial: bool = False, **kwargs: Union[float, bool, Sequence[float]]
+    ) -> Environment: ...
     @property
     def dimension(self) -> int: ...
     @property
