@@ -21,8 +21,8 @@ Shared_world share(Any_environment environment, const Certificate& certificate, 
   return std::visit(
       [&]<int D>(Environment<D>& built) -> Shared_world {
         built.freeze();
-        return {std::make_shared<const Any_world>(std::in_place_type<World<D>>, std::move(built)),
-                certificate, std::move(report)};
+        return {std::make_shared<Any_world>(std::in_place_type<World<D>>, std::move(built), certificate),
+                std::move(report)};
       },
       environment);
 }
@@ -48,13 +48,15 @@ Locations locate(const Shared_world& self, const py::object& points, int threads
         auto *status = found.status.mutable_data(), *dimension = found.dimension.mutable_data();
         auto* cell = found.cell.mutable_data();
         auto* sides = found.sides.mutable_data();
-        const py::gil_scoped_release released;
+        const typename World<D>::Reading reading(world);
+        const Snapshot<D>& snapshot = reading.snapshot();
+        const Locator<D>& locator = reading.locator();
         for_each_chunk(asked.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            const Location<D> at = is_finite(asked[i]) ? world.locator.locate(asked[i]) : Location<D>{};
+            const Location<D> at = is_finite(asked[i]) ? locator.locate(asked[i]) : Location<D>{};
             status[i] = static_cast<std::uint8_t>(at.status);
             dimension[i] = static_cast<std::uint8_t>(at.dimension);
-            cell[i] = number_of(world.snapshot(), at.cell);
+            cell[i] = number_of(snapshot, at.cell);
             sides[i] = static_cast<std::uint32_t>(at.sides.size());
           }
         });
@@ -79,14 +81,15 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
       throw Error(Error_code::usage, "touch=\"stop\" needs kernel=\"exact\": touches are found exactly only");
   }
   return std::visit(
-      [&]<int D>(const World<D>& world) {
+      [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(starts, "starts"), to = points_of<D>(targets, "targets");
         need_equal(to.size(), "targets", from.size(), "starts");
-        return run_questions<D>(
-            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
-              if (!is_usable(from[row]) || !is_usable(to[row])) return {};
-              return answer_move(world.snapshot(), world.locator, from[row], to[row], options, counts);
-            });
+        return run_questions<D>(self.world, from.size(), threads,
+                                [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
+                                    Edge_counts& counts) -> Answer<D> {
+                                  if (!is_usable(from[row]) || !is_usable(to[row])) return {};
+                                  return answer_move(snapshot, locator, from[row], to[row], options, counts);
+                                });
       },
       *self.world);
 }
@@ -99,17 +102,20 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
   const Sweep_options options =
       to_sweep_options({sweep, touch, search, search_cells, tolerance, search_limit});
   return std::visit(
-      [&]<int D>(const World<D>& world) {
+      [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(p, "p"), to = points_of<D>(targets, "targets"),
                    other = points_of<D>(q, "q");
         need_equal(to.size(), "targets", from.size(), "p");
         need_equal(other.size(), "q", from.size(), "p");
-        return run_questions<D>(
-            self.world, from.size(), threads, [&](std::size_t row, Edge_counts& counts) -> Answer<D> {
-              if (!is_usable(from[row]) || !is_usable(to[row]) || !is_usable(other[row])) return {};
-              return answer_sweep(world.snapshot(), world.locator,
-                                  Edge_motion<D>{from[row], to[row], other[row]}, options, counts);
-            });
+        return run_questions<D>(self.world, from.size(), threads,
+                                [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
+                                    Edge_counts& counts) -> Answer<D> {
+                                  if (!is_usable(from[row]) || !is_usable(to[row]) || !is_usable(other[row]))
+                                    return {};
+                                  return answer_sweep(snapshot, locator,
+                                                      Edge_motion<D>{from[row], to[row], other[row]}, options,
+                                                      counts);
+                                });
       },
       *self.world);
 }
@@ -118,7 +124,7 @@ py::array points(const py::object& self) {
   const auto& shared = self.cast<const Shared_world&>();
   return std::visit(
       [&]<int D>(const World<D>& world) {
-        const auto all = world.snapshot().points();
+        const auto all = world.points();
         return view_of(all.data()->data(), all.size(), D, sizeof(Point<D>), self);
       },
       *shared.world);
@@ -126,8 +132,20 @@ py::array points(const py::object& self) {
 
 void save(const Shared_world& self, const py::object& path) {
   const std::string name = py::str(path);
-  const py::gil_scoped_release released;
-  std::visit([&](const auto& world) { io::write_ovm(name, world.environment.soup()); }, *self.world);
+  std::visit(
+      [&]<int D>(const World<D>& world) {
+        const Cell_soup<D> soup = [&] { return typename World<D>::Reading(world).environment().soup(); }();
+        const py::gil_scoped_release released;
+        io::write_ovm(name, soup);
+      },
+      *self.world);
+}
+
+py::object certificate(const Shared_world& self) {
+  const Certificate found = std::visit(
+      [&]<int D>(const World<D>& world) { return typename World<D>::Reading(world).certificate(); },
+      *self.world);
+  return from_json(to_json(found, self.dimension()).dump());
 }
 
 }  // namespace
@@ -148,25 +166,29 @@ void bind_environment(py::module_& module) {
 
   py::class_<Shared_world> environment(module, "Environment",
                                        "A certified complex of convex cells, some of whose facets are walls. "
-                                       "It never changes, so threads can share it.");
+                                       "Threads can share it: only reshape() changes it, and waits until it "
+                                       "is alone.");
   bind_makers(environment);
   environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
       .def_property_readonly(
           "cell_count",
           [](const Shared_world& self) {
-            return std::visit([](const auto& world) { return world.snapshot().cell_count(); }, *self.world);
+            return std::visit([](const auto& world) { return world.cell_count(); }, *self.world);
           },
           "Number of cells, solid ones included.")
-      .def_property_readonly("points", points, "float64 (N, dimension): the vertices, as a read-only view.")
       .def_property_readonly(
-          "certificate",
-          [](const Shared_world& self) {
-            return from_json(to_json(self.certificate, self.dimension()).dump());
-          },
-          "The counts, volumes, walls and components found by certification.")
+          "points", points,
+          "float64 (N, dimension): the vertices, as a read-only view, no copy: it changes "
+          "as walls move. While another thread is in reshape() it may show points that are "
+          "tried: copy it before.")
+      .def_property_readonly("certificate", certificate,
+                             "The counts, volumes, walls and components found by certification, which is "
+                             "done again when this is "
+                             "asked for after walls moved.")
       .def_property_readonly(
           "report", [](const Shared_world& self) { return from_json(self.report); },
-          "The report of reading, meshing and changes, as written by `cellwalk import --json`.")
+          "The report of reading, meshing and changes when the environment was made, as written by `cellwalk "
+          "import --json`.")
       .def("save", save, py::arg("path"), "Writes an .ovm file, which every command of the program reads.")
       .def(
           "locate",
@@ -200,8 +222,12 @@ void bind_environment(py::module_& module) {
           "or \"traversed\", \"below\" the edge at its end, or \"none\" for no limit, with the same result.\n"
           "threads: 0: all cores. The answers do not depend on it.")
       .def("__repr__", [](const Shared_world& self) {
-        return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", self.dimension(),
-                           self.certificate.cells, self.certificate.walls);
+        return std::visit(
+            []<int D>(const World<D>& world) {
+              return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", D, world.cell_count(),
+                                 world.wall_count());
+            },
+            *self.world);
       });
 }
 

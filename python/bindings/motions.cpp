@@ -13,8 +13,9 @@ const py::object& Motions::cell_numbers() {
   const std::uint32_t* handle = handles.data();
   std::int32_t* number = numbers.mutable_data();
   std::visit(
-      [&](const auto& chosen) {
-        for (std::size_t i = 0; i < size(); ++i) number[i] = number_of(chosen.snapshot(), Cell{handle[i]});
+      [&]<int D>(const World<D>& chosen) {
+        const typename World<D>::Reading reading(chosen);
+        for (std::size_t i = 0; i < size(); ++i) number[i] = number_of(reading.snapshot(), Cell{handle[i]});
       },
       *world);
   return cell = std::move(numbers);

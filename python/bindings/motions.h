@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -115,11 +116,12 @@ py::dict to_dict(const Set& counts) {
 py::dict to_dict(const Walk_counts& counts);
 py::dict to_dict(const Edge_counts& counts);
 
-/// Works a batch off: work(rows, chunk, first row, row after the last) answers a chunk. The interpreter is
-/// free meanwhile.
-template <class Counts, int D, class Work>
-Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
-                  const Work& work) {
+/// Works a batch off: begin(reading) returns work(rows, chunk, first row, row after the last), which answers
+/// a chunk. The interpreter is free meanwhile.
+/// \param owner what guards the particles of the batch, or null
+template <class Counts, int D, class Begin>
+Motions run_batch(const std::shared_ptr<const Any_world>& world, std::mutex* owner, std::size_t rows,
+                  int threads, const Begin& begin) {
   const auto n = static_cast<py::ssize_t>(rows);
   Motions motions{py::array_t<std::uint8_t>(n), py::array_t<std::uint32_t>(n), {}, {}, world, {},
                   py::array_t<std::uint32_t>(n)};
@@ -127,42 +129,46 @@ Motions run_batch(const std::shared_ptr<const Any_world>& world, std::size_t row
                            motions.cells.mutable_data(), motions.handles.mutable_data()};
   std::vector<Contact_row<D>> contacts;
   Counts counts;
-  {
-    const py::gil_scoped_release released;
+  const auto run = [&](const typename World<D>::Reading& reading) {
+    const auto work = begin(reading);
     std::vector<Chunk<D, Counts>> chunks(chunk_count(rows));
-    for_each_chunk(rows, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-      work(out, chunks[chunk], begin, end);
+    for_each_chunk(rows, threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      work(out, chunks[chunk], first, last);
     });
     for (const Chunk<D, Counts>& chunk : chunks) {
       contacts.insert(contacts.end(), chunk.contacts.begin(), chunk.contacts.end());
       counts += chunk.counts;
     }
     for (const Contact_row<D>& contact : contacts) motions.stops.emplace_back(contact.row, contact.time);
-  }
+  };
+  const auto& of_world = std::get<World<D>>(*world);
+  owner ? run(typename World<D>::Reading(of_world, *owner)) : run(typename World<D>::Reading(of_world));
   motions.contacts = to_array(std::move(contacts));
   motions.counts = to_dict(counts);
   return motions;
 }
 
-/// A batch of questions: answer(row, counts) answers one.
+/// A batch of questions: answer_row(snapshot, locator, row, counts) answers one.
 template <int D, class Answer_row>
 Motions run_questions(const std::shared_ptr<const Any_world>& world, std::size_t rows, int threads,
                       const Answer_row& answer_row) {
-  const Snapshot<D>& snapshot = std::get<World<D>>(*world).snapshot();
   return run_batch<Edge_counts, D>(
-      world, rows, threads,
-      [&](const Motion_rows<D>& out, Chunk<D, Edge_counts>& chunk, std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          const Answer<D> answer = answer_row(row, chunk.counts);
-          if (answer.contact) {
-            out.meet(row, *answer.contact, answer.cells);
-            chunk.add(snapshot, row, *answer.contact);
-          } else if (answer.status == Motion_status::free) {
-            out.arrive(row, answer.cell, answer.cells);
-          } else {
-            out.fail(row, answer.status);
-          }
-        }
+      world, nullptr, rows, threads, [&](const typename World<D>::Reading& reading) {
+        return
+            [&answer_row, &snapshot = reading.snapshot(), &locator = reading.locator()](
+                const Motion_rows<D>& out, Chunk<D, Edge_counts>& chunk, std::size_t begin, std::size_t end) {
+              for (std::size_t row = begin; row < end; ++row) {
+                const Answer<D> answer = answer_row(snapshot, locator, row, chunk.counts);
+                if (answer.contact) {
+                  out.meet(row, *answer.contact, answer.cells);
+                  chunk.add(snapshot, row, *answer.contact);
+                } else if (answer.status == Motion_status::free) {
+                  out.arrive(row, answer.cell, answer.cells);
+                } else {
+                  out.fail(row, answer.status);
+                }
+              }
+            };
       });
 }
 

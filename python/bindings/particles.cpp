@@ -1,101 +1,114 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Particles: points that remember their cells, moved in batches.
+#include "particles.h"
+
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/walk/walk.h>
 
-#include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "module.h"
-#include "motions.h"
 #include "options.h"
 
 namespace cellwalk::python {
 namespace {
 
-/// The particles of an environment of either dimension.
-class Particles {
- public:
-  Particles(const Shared_world& environment, const py::object& points, int threads)
-      : world_(environment.world) {
-    check_threads(threads);
-    std::visit(
-        [&]<int D>(const World<D>& world) {
-          const auto at = points_of<D>(points, "points");
-          auto& particles = particles_.emplace<std::vector<Particle<D>>>(at.size());
-          const py::gil_scoped_release released;
-          for_each_chunk(at.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-              particles[i] = (is_usable(at[i]) ? world.locator.particle_at(at[i]) : std::nullopt)
-                                 .value_or(Particle<D>{at[i]});
-          });
-        },
-        *world_);
-  }
+/// A particle where one is, in the environment as it is now: on the side on which it was, if its cell still
+/// holds it there.
+template <int D>
+Particle<D> located(const Locator<D>& locator, const Particle<D>& particle) {
+  if (!is_usable(particle.position)) return {particle.position};
+  const Location<D> at = locator.locate(particle.position);
+  if (at.status != Location_status::free) return {particle.position};
+  for (std::size_t i = 0; i < at.cells.size(); ++i)
+    if (at.cells[i] == particle.cell) return at.sides[static_cast<std::size_t>(at.side_of_cell[i])];
+  return at.sides.front();
+}
 
-  std::size_t size() const {
-    return std::visit([](const auto& particles) { return particles.size(); }, particles_);
-  }
+}  // namespace
 
-  py::array positions(const py::object& self) const {
-    return std::visit(
-        [&]<int D>(const std::vector<Particle<D>>& particles) {
-          return view_of(reinterpret_cast<const double*>(particles.data()), particles.size(), D,
-                         sizeof(Particle<D>), self);
-        },
-        particles_);
-  }
+Particles::Particles(const Shared_world& environment, const py::object& points, int threads)
+    : world_(environment.world) {
+  check_threads(threads);
+  std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto at = points_of<D>(points, "points");
+        auto& particles = particles_.emplace<std::vector<Particle<D>>>(at.size());
+        const typename World<D>::Reading reading(world);
+        const Locator<D>& locator = reading.locator();
+        for_each_chunk(at.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i)
+            particles[i] =
+                (is_usable(at[i]) ? locator.particle_at(at[i]) : std::nullopt).value_or(Particle<D>{at[i]});
+        });
+        epoch_ = reading.snapshot().epoch();
+      },
+      *world_);
+}
 
-  py::array_t<std::int32_t> cells() const {
-    py::array_t<std::int32_t> numbers(static_cast<py::ssize_t>(size()));
-    std::int32_t* const number = numbers.mutable_data();
-    visit([&](const auto& world, const auto& particles) {
-      for (std::size_t i = 0; i < particles.size(); ++i)
-        number[i] = number_of(world.snapshot(), particles[i].cell);
-    });
-    return numbers;
-  }
+std::size_t Particles::size() const {
+  return std::visit([](const auto& particles) { return particles.size(); }, particles_);
+}
 
-  Motions move(const py::object& targets, const std::string& at_contact, int threads) {
-    check_threads(threads);
-    const bool stops = choose<bool>(at_contact, "at_contact", {{"stay", false}, {"stop", true}});
-    return std::visit(
-        [&]<int D>(std::vector<Particle<D>>& particles) {
-          const auto to = points_of<D>(targets, "targets");
-          need_equal(to.size(), "targets", particles.size(), "the particles");
-          const Snapshot<D>& snapshot = std::get<World<D>>(*world_).snapshot();
-          const auto guard = exclusively();
-          return stops ? move_all<true>(snapshot, particles, to, threads)
-                       : move_all<false>(snapshot, particles, to, threads);
-        },
-        particles_);
-  }
+py::array Particles::positions(const py::object& self) const {
+  return std::visit(
+      [&]<int D>(const std::vector<Particle<D>>& particles) {
+        return view_of(reinterpret_cast<const double*>(particles.data()), particles.size(), D,
+                       sizeof(Particle<D>), self);
+      },
+      particles_);
+}
 
- private:
-  template <class Visitor>
-  void visit(const Visitor& visitor) const {
-    std::visit(
-        [&]<int D>(const std::vector<Particle<D>>& particles) {
-          visitor(std::get<World<D>>(*world_), particles);
-        },
-        particles_);
-  }
+py::array_t<std::int32_t> Particles::cells() const {
+  py::array_t<std::int32_t> numbers(static_cast<py::ssize_t>(size()));
+  std::int32_t* const number = numbers.mutable_data();
+  std::visit(
+      [&]<int D>(const std::vector<Particle<D>>& particles) {
+        const typename World<D>::Reading reading(std::get<World<D>>(*world_), *moving_);
+        for (std::size_t i = 0; i < particles.size(); ++i)
+          number[i] = number_of(reading.snapshot(), particles[i].cell);
+      },
+      particles_);
+  return numbers;
+}
 
-  /// Waits without the interpreter for another thread that moves the same particles.
-  std::unique_lock<std::mutex> exclusively() {
-    const py::gil_scoped_release released;
-    return std::unique_lock<std::mutex>(*moving_);
-  }
+Motions Particles::move(const py::object& targets, const std::string& at_contact, int threads) {
+  check_threads(threads);
+  const bool stops = choose<bool>(at_contact, "at_contact", {{"stay", false}, {"stop", true}});
+  return std::visit(
+      [&]<int D>(std::vector<Particle<D>>& particles) {
+        const auto to = points_of<D>(targets, "targets");
+        need_equal(to.size(), "targets", particles.size(), "the particles");
+        return stops ? move_all<true>(particles, to, threads) : move_all<false>(particles, to, threads);
+      },
+      particles_);
+}
 
-  template <bool stops, int D>
-  Motions move_all(const Snapshot<D>& snapshot, std::vector<Particle<D>>& particles,
-                   std::span<const Point<D>> targets, int threads) {
-    return run_batch<Walk_counts, D>(
-        world_, particles.size(), threads,
-        [&snapshot, from = particles.data(), to = targets.data()](
-            Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
+void Particles::locate_again(int threads) {
+  check_threads(threads);
+  std::visit(
+      [&]<int D>(std::vector<Particle<D>>& particles) {
+        const typename World<D>::Reading reading(std::get<World<D>>(*world_), *moving_);
+        const Locator<D>& locator = reading.locator();
+        for_each_chunk(particles.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) particles[i] = located(locator, particles[i]);
+        });
+        epoch_ = reading.snapshot().epoch();
+      },
+      particles_);
+}
+
+template <bool stops, int D>
+Motions Particles::move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets,
+                            int threads) {
+  return run_batch<Walk_counts, D>(
+      world_, moving_.get(), particles.size(), threads, [&](const typename World<D>::Reading& reading) {
+        check_epoch(reading.snapshot());
+        return [&snapshot = reading.snapshot(), from = particles.data(), to = targets.data()](
+                   Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
           Walk_counts counts;
           for (std::size_t row = begin; row < end; ++row) {
             Particle<D>& particle = from[row];
@@ -116,15 +129,9 @@ class Particles {
             if constexpr (stops) stop_at_contact(snapshot, particle, target, contact, counts);
           }
           chunk.counts = counts;
-        });
-  }
-
-  std::shared_ptr<const Any_world> world_;
-  std::variant<std::vector<Particle<2>>, std::vector<Particle<3>>> particles_;
-  std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
-};
-
-}  // namespace
+        };
+      });
+}
 
 void bind_particles(py::module_& module) {
   py::class_<Particles>(
@@ -146,6 +153,11 @@ void bind_particles(py::module_& module) {
            "at_contact: \"stay\": a blocked particle stays in place; \"stop\": it moves up to the wall, to a "
            "position to which its whole path is free.\n"
            "threads: 0: all cores. The results do not depend on it.")
+      .def("locate_again", &Particles::locate_again, py::kw_only(), py::arg("threads") = 0,
+           "Finds their cells anew where they are, after walls moved by a reshape() in which they were not "
+           "listed: until then they raise UsageError. One that walls passed may be on their other side now, "
+           "or "
+           "outside.")
       .def("__repr__",
            [](const Particles& self) { return "<cellwalk.Particles, " + std::to_string(self.size()) + ">"; });
 }

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "any_body.h"
+
+#include <cellwalk/io/body_file.h>
+#include <cellwalk/records/make_body.h>
+
+#include <fmt/core.h>
+#include <pybind11/stl.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "body_rows.h"
+#include "motions.h"
+#include "options.h"
+
+namespace cellwalk::python {
+namespace {
+
+template <int D>
+Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, const py::object& faces) {
+  Body_parts<D> parts;
+  const auto given = points_of<D>(points, "points");
+  parts.points.assign(given.begin(), given.end());
+  if (!edges.is_none()) {
+    const Index_table table = indices_of(edges, "edges", given.size());
+    if (table.columns != 2)
+      throw py::value_error(fmt::format("edges has {} columns: an edge has 2 ends", table.columns));
+    for (std::size_t i = 0; i < table.rows; ++i) parts.segments.push_back({table.row(i)[0], table.row(i)[1]});
+  }
+  if (!faces.is_none()) {
+    const Index_table table = indices_of(faces, "faces", given.size());
+    if (table.columns < 3)
+      throw py::value_error(
+          fmt::format("faces has {} columns: a face has at least 3 corners", table.columns));
+    for (std::size_t i = 0; i < table.rows; ++i)
+      parts.polygons.emplace_back(table.row(i).begin(), table.row(i).end());
+  }
+  return make_body(std::move(parts)).body;
+}
+
+template <std::size_t D>
+void need_finite(const std::array<double, D>& target, std::size_t vertex) {
+  if (!is_usable(target)) throw py::value_error(fmt::format("the target of vertex {} is not finite", vertex));
+}
+
+template <int D>
+std::span<const Point<D>> targets_of(const Body<D>& body, const py::object& targets) {
+  const auto to = points_of<D>(targets, "targets");
+  need_equal(to.size(), "targets", body.vertex_count(), "the body");
+  for (std::size_t i = 0; i < to.size(); ++i) need_finite(to[i], i);
+  return to;
+}
+
+template <std::size_t N>
+py::array_t<std::uint32_t> table_of(std::span<const std::array<std::uint32_t, N>> rows) {
+  py::array_t<std::uint32_t> table({rows.size(), N});
+  std::copy_n(reinterpret_cast<const std::uint32_t*>(rows.data()), rows.size() * N, table.mutable_data());
+  return table;
+}
+
+}  // namespace
+
+template <class Make_soup>
+Any_body::Bodies Any_body::place(const Any_world& any, const Make_soup& make) {
+  return std::visit(
+      [&]<int D>(const World<D>& world) -> Bodies {
+        const Body_soup<D> soup = make(std::integral_constant<int, D>{});
+        const typename World<D>::Reading reading(world);
+        return Body<D>(reading.snapshot(), reading.locator(), soup);
+      },
+      any);
+}
+
+template <class Use>
+void Any_body::reading(const Use& use) {
+  std::visit(
+      [&]<int D>(Body<D>& body) {
+        const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+        use(body, world);
+      },
+      body_);
+}
+
+Any_body::Any_body(const Shared_world& environment, const py::object& points, const py::object& edges,
+                   const py::object& faces)
+    : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
+        return soup_of_arrays<D>(points, edges, faces);
+      })) {}
+
+Any_body::Any_body(const Shared_world& environment, const std::string& path)
+    : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
+        return io::read_body<D>(path).body;
+      })) {}
+
+py::array Any_body::positions(const py::object& self) const {
+  return std::visit(
+      [&]<int D>(const Body<D>& body) {
+        return view_of(body.positions().data()->data(), body.vertex_count(), D, sizeof(Point<D>), self);
+      },
+      body_);
+}
+
+py::array_t<std::uint32_t> Any_body::edges() const {
+  return std::visit([](const auto& body) { return table_of(body.edges()); }, body_);
+}
+
+py::array_t<std::uint32_t> Any_body::faces() const {
+  return std::visit([](const auto& body) { return table_of(body.faces()); }, body_);
+}
+
+std::size_t Any_body::vertex_count() const {
+  return std::visit([](const auto& body) { return body.vertex_count(); }, body_);
+}
+
+py::array Any_body::step(const py::object& targets, Body_options options, int threads) {
+  check_threads(threads);
+  options.parallel = threads != 1;
+  return std::visit(
+      [&]<int D>(Body<D>& body) -> py::array {
+        const auto to = targets_of(body, targets);
+        if (options.edges == Edge_rule::at_target) need_few_edges(body);
+        Step_report<D> report;
+        std::vector<Body_contact_row<D>> contacts;
+        std::vector<Rejected_row<D>> blocked;
+        {
+          const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+          const auto step = [&] { body.step(to, options, report, counts_); };
+          threads > 1 ? tbb::task_arena(threads).execute(step) : step();
+          for (const Contact<D>& met : report.contacts) contacts.push_back(to_row(world.snapshot(), met));
+          for (const Rejected_move<D>& move : report.blocked)
+            blocked.push_back(to_row(world.snapshot(), move));
+        }
+        return options.reported == Reported::blocked ? py::array(to_array(std::move(blocked)))
+                                                     : py::array(to_array(std::move(contacts)));
+      },
+      body_);
+}
+
+py::array_t<std::uint32_t> Any_body::neighbours(std::uint32_t vertex) const {
+  need_vertex(vertex);
+  return std::visit([&](const auto& body) { return to_array(body.neighbours(vertex)); }, body_);
+}
+
+py::array Any_body::move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options) {
+  need_vertex(vertex);
+  return std::visit(
+      [&]<int D>(Body<D>& body) -> py::array {
+        const auto to = target.cast<std::array<double, D>>();
+        need_finite(to, vertex);
+        std::vector<Body_contact_row<D>> rows;
+        {
+          const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+          if (const auto contact = body.move_vertex(vertex, to, options, counts_))
+            rows.push_back(to_row(world.snapshot(), *contact));
+        }
+        return to_array(std::move(rows));
+      },
+      body_);
+}
+
+void Any_body::validate() {
+  reading([&](auto& body, const auto&) {
+    body.refresh(counts_);
+    body.validate();
+  });
+}
+
+void Any_body::register_again() {
+  reading([](auto& body, const auto& world) { body.register_again(world.locator()); });
+}
+
+py::dict Any_body::counts() const {
+  using namespace py::literals;
+  const Body_counts done = [this] {
+    const py::gil_scoped_release released;
+    const std::lock_guard guard(*moving_);
+    return counts_;
+  }();
+  py::dict result = to_dict(done);
+  result["edges"] = to_dict(done.edges);
+  return result;
+}
+
+void Any_body::need_vertex(std::uint32_t vertex) const {
+  if (vertex >= vertex_count())
+    throw py::index_error(
+        fmt::format("there is no vertex {}: the body has {}, numbered from 0", vertex, vertex_count()));
+}
+
+template <int D>
+void Any_body::need_few_edges(const Body<D>& body) {
+  if (has_few_edges_) return;
+  constexpr std::size_t most = 64;
+  for (std::uint32_t v = 0; v < body.vertex_count(); ++v)
+    if (const std::size_t count = body.neighbours(v).size(); count > most)
+      throw py::value_error(
+          fmt::format("vertex {} has {} edges: edges=\"at_target\" takes at most {} a vertex, "
+                      "edges=\"swept\" any number",
+                      v, count, most));
+  has_few_edges_ = true;
+}
+
+}  // namespace cellwalk::python

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What Python calls Body.
+#ifndef CELLWALK_PYTHON_ANY_BODY_H
+#define CELLWALK_PYTHON_ANY_BODY_H
+
+#include <cellwalk/body/body.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <variant>
+
+#include "arrays.h"
+#include "world.h"
+
+namespace cellwalk::python {
+
+/// A body of either dimension, and what its moves did.
+class Any_body {
+ public:
+  Any_body(const Shared_world& environment, const py::object& points, const py::object& edges,
+           const py::object& faces);
+  /// The body of a file.
+  Any_body(const Shared_world& environment, const std::string& path);
+
+  py::array positions(const py::object& self) const;
+  py::array_t<std::uint32_t> edges() const;
+  py::array_t<std::uint32_t> faces() const;
+  std::size_t vertex_count() const;
+  py::array step(const py::object& targets, Body_options options, int threads);
+  py::array_t<std::uint32_t> neighbours(std::uint32_t vertex) const;
+  py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options);
+  void validate();
+  void register_again();
+  py::dict counts() const;
+
+  const std::shared_ptr<const Any_world>& world() const { return world_; }
+  /// For reshape(), which is alone in the world.
+  template <int D>
+  Body<D>& body() {
+    return std::get<Body<D>>(body_);
+  }
+
+ private:
+  using Bodies = std::variant<Body<2>, Body<3>>;
+
+  template <class Make_soup>
+  static Bodies place(const Any_world& any, const Make_soup& make);
+  /// Calls use() with the body and a Reading of its world; no other thread uses the body meanwhile.
+  template <class Use>
+  void reading(const Use& use);
+  void need_vertex(std::uint32_t vertex) const;
+  /// Each edge of a vertex has a bit.
+  template <int D>
+  void need_few_edges(const Body<D>& body);
+
+  std::shared_ptr<const Any_world> world_;
+  Bodies body_;
+  Body_counts counts_;
+  bool has_few_edges_ = false;  ///< known to
+  std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
+};
+
+}  // namespace cellwalk::python
+
+#endif  // CELLWALK_PYTHON_ANY_BODY_H

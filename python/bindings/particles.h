@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What Python calls Particles.
+#ifndef CELLWALK_PYTHON_PARTICLES_H
+#define CELLWALK_PYTHON_PARTICLES_H
+
+#include <cellwalk/walk/particle.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "motions.h"
+
+namespace cellwalk::python {
+
+/// The particles of an environment of either dimension. They know of the moves of its walls in which they
+/// were listed; after others they refuse to move, instead of missing a wall.
+class Particles {
+ public:
+  Particles(const Shared_world& environment, const py::object& points, int threads);
+
+  std::size_t size() const;
+  py::array positions(const py::object& self) const;
+  py::array_t<std::int32_t> cells() const;
+  Motions move(const py::object& targets, const std::string& at_contact, int threads);
+  /// Finds their cells anew where they are. One that is on a wall keeps its side if its cell still holds it.
+  void locate_again(int threads);
+
+  const std::shared_ptr<const Any_world>& world() const { return world_; }
+
+  // For reshape(), which is alone in the world.
+  template <int D>
+  std::vector<Particle<D>>& all() {
+    return std::get<std::vector<Particle<D>>>(particles_);
+  }
+  /// \throw Error(usage) if walls moved since they were located
+  template <int D>
+  void check_epoch(const Snapshot<D>& snapshot) const {
+    snapshot.check_epoch(epoch_,
+                         "these particles were located: call Particles.locate_again(), and list them "
+                         "where walls move");
+  }
+  /// They are located in the environment as it is now.
+  template <int D>
+  void follow_epoch(const Snapshot<D>& snapshot) {
+    epoch_ = snapshot.epoch();
+  }
+
+ private:
+  template <bool stops, int D>
+  Motions move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets, int threads);
+
+  std::shared_ptr<const Any_world> world_;
+  std::variant<std::vector<Particle<2>>, std::vector<Particle<3>>> particles_;
+  std::uint64_t epoch_ = 0;  ///< of the environment in which they are located
+  std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();
+};
+
+}  // namespace cellwalk::python
+
+#endif  // CELLWALK_PYTHON_PARTICLES_H
