@@ -70,6 +70,8 @@ if [ -e "$root$(package python3-cellwalk)" ]; then
   install "the Python module is installed" "$(package python3-cellwalk)"
   inside "the Python module runs" python3 /examples/examples/python/first_steps.py
   same_output first_steps
+  inside "the Python module moves walls" python3 /examples/examples/python/moving_walls.py
+  same_output moving_walls
 else
   echo "packages: there is no Python module among them"
 fi

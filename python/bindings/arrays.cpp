@@ -18,6 +18,29 @@ std::string description(const py::handle& argument) {
                      array.flags() & py::array::c_style ? "" : ", not C-contiguous");
 }
 
+/// The integers of an array of any integer type, and its shape.
+/// \throw TypeError for another type, or another number of dimensions
+std::pair<std::vector<std::int64_t>, std::vector<std::size_t>> integers_of(const py::handle& argument,
+                                                                           const char* name, int dimensions) {
+  const py::array array = py::array::ensure(argument);
+  if (!array || array.ndim() != dimensions || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u'))
+    throw py::type_error(fmt::format("{} must be an integer array of {}, and is {}", name,
+                                     dimensions == 1 ? "one dimension" : "two dimensions",
+                                     description(argument)));
+  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  return {std::vector<std::int64_t>(numbers.data(), numbers.data() + numbers.size()),
+          std::vector<std::size_t>(array.shape(), array.shape() + dimensions)};
+}
+
+/// \throw ValueError that begins with place() if there is no such point
+template <class Place>
+std::uint32_t index_of(std::int64_t number, std::size_t bound, const Place& place) {
+  if (number < 0 || static_cast<std::uint64_t>(number) >= bound)
+    throw py::value_error(
+        fmt::format("{} is {}: there are {} points, numbered from 0", place(), number, bound));
+  return static_cast<std::uint32_t>(number);
+}
+
 }  // namespace
 
 std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const char* name, int columns) {
@@ -35,23 +58,25 @@ std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const 
 }
 
 Index_table indices_of(const py::handle& argument, const char* name, std::size_t bound) {
-  const py::array array = py::array::ensure(argument);
-  if (!array || array.ndim() != 2 || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u'))
-    throw py::type_error(
-        fmt::format("{} must be an integer array of two dimensions, and is {}", name, description(argument)));
-  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  const auto [numbers, shape] = integers_of(argument, name, 2);
   Index_table table;
-  table.rows = static_cast<std::size_t>(array.shape(0));
-  table.columns = static_cast<std::size_t>(array.shape(1));
-  table.indices.reserve(table.rows * table.columns);
-  for (std::size_t i = 0; i < table.rows * table.columns; ++i) {
-    const std::int64_t index = numbers.data()[i];
-    if (index < 0 || static_cast<std::uint64_t>(index) >= bound)
-      throw py::value_error(fmt::format("{}[{}, {}] is {}: there are {} points, numbered from 0", name,
-                                        i / table.columns, i % table.columns, index, bound));
-    table.indices.push_back(static_cast<std::uint32_t>(index));
-  }
+  table.rows = shape[0];
+  table.columns = shape[1];
+  table.indices.reserve(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    table.indices.push_back(index_of(numbers[i], bound, [&] {
+      return fmt::format("{}[{}, {}]", name, i / table.columns, i % table.columns);
+    }));
   return table;
+}
+
+std::vector<std::uint32_t> numbers_of(const py::handle& argument, const char* name, std::size_t bound) {
+  const std::vector<std::int64_t> numbers = integers_of(argument, name, 1).first;
+  std::vector<std::uint32_t> indices;
+  indices.reserve(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    indices.push_back(index_of(numbers[i], bound, [&] { return fmt::format("{}[{}]", name, i); }));
+  return indices;
 }
 
 void need_equal(std::size_t rows, const char* name, std::size_t expected, const char* expected_name) {

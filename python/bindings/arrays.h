@@ -43,6 +43,9 @@ struct Index_table {
 };
 Index_table indices_of(const py::handle& argument, const char* name, std::size_t bound);
 
+/// Indices of an integer array of one dimension, copied, likewise.
+std::vector<std::uint32_t> numbers_of(const py::handle& argument, const char* name, std::size_t bound);
+
 /// \throw ValueError unless both arrays have as many rows
 void need_equal(std::size_t rows, const char* name, std::size_t expected, const char* expected_name);
 

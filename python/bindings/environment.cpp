@@ -14,6 +14,7 @@
 #include "module.h"
 #include "motions.h"
 #include "options.h"
+#include "reshape.h"
 
 namespace cellwalk::python {
 
@@ -169,6 +170,7 @@ void bind_environment(py::module_& module) {
                                        "Threads can share it: only reshape() changes it, and waits until it "
                                        "is alone.");
   bind_makers(environment);
+  bind_reshape(module, environment);
   environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
       .def_property_readonly(
           "cell_count",

@@ -9,7 +9,8 @@
 (array([0.7]), array([[-1.,  0.,  0.]]))
 
 Points are C-contiguous float64 arrays of shape (N, 3) or (N, 2). They are read in place; other arrays raise a TypeError.
-Batches run without the interpreter lock, on `threads` threads; the results do not depend on their number.
+Batches run without the interpreter lock, on `threads` threads; the results do not depend on their number. Any number of threads
+may ask one environment; Environment.reshape() moves its walls among what lies in it, and waits until it is alone.
 """
 
 from ._cellwalk import (
@@ -18,10 +19,11 @@ from ._cellwalk import (
     Locations,
     Motions,
     Particles,
+    WallMoves,
     __version__,
     build_features,
 )
-from ._codes import Feature, Place, Status
+from ._codes import Feature, MoveEnd, Place, Status
 from ._errors import Error, InputError, NotCertifiedError, OutsideError, UsageError
 
 __all__ = [
@@ -32,12 +34,14 @@ __all__ = [
     "InputError",
     "Locations",
     "Motions",
+    "MoveEnd",
     "NotCertifiedError",
     "OutsideError",
     "Particles",
     "Place",
     "Status",
     "UsageError",
+    "WallMoves",
     "__version__",
     "build_features",
 ]

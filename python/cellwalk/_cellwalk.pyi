@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
-from typing import Any, Literal, Sequence, Union, final
+from typing import Any, Iterable, Literal, Sequence, Union, final
 
 import numpy
 import numpy.typing
@@ -44,6 +44,28 @@ class Locations:
     def dimension(self) -> numpy.typing.NDArray[numpy.uint8]: ...
     @property
     def sides(self) -> numpy.typing.NDArray[numpy.uint32]: ...
+    def __len__(self) -> int: ...
+
+@final
+class WallMoves:
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.uint32]: ...
+    @property
+    def end(self) -> numpy.typing.NDArray[numpy.uint8]: ...
+    @property
+    def position(self) -> _Points: ...
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def cell(self) -> numpy.typing.NDArray[numpy.int32]: ...
+    @property
+    def contacts(self) -> numpy.typing.NDArray[numpy.void]: ...
+    @property
+    def hits(self) -> numpy.typing.NDArray[numpy.void]: ...
+    @property
+    def rounds(self) -> int: ...
+    @property
+    def counts(self) -> dict[str, Any]: ...
     def __len__(self) -> int: ...
 
 @final
@@ -113,6 +135,19 @@ class Environment:
         search_limit: Literal["below", "none"] = "below",
         threads: int = 0,
     ) -> Motions: ...
+    def reshape(
+        self,
+        points: Union[_Indices, Sequence[int]],
+        targets: _Points,
+        *,
+        bodies: Iterable[Body] = (),
+        particles: Iterable[Particles] = (),
+        at_contact: Literal["stop", "hold", "push", "ask"] = "stop",
+        most_rounds: int = 8,
+        most_pushes: int = 16,
+        sweep: _Sweep = "triangle",
+        most_contacts: int = 4,
+    ) -> WallMoves: ...
 
 @final
 class Particles:

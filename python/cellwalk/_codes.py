@@ -29,3 +29,17 @@ class Feature(enum.IntEnum):
     EDGE = 1
     FACET = 2
     FACE = 2
+
+
+class MoveEnd(enum.IntEnum):
+    """How the move of a point of the environment ended (WallMoves.end).
+
+    CONTACT: a wall would pass through something. TOUCH: it passes through nothing, but what it touches would end on different
+    sides of it. CELL: a cell would be flat or inverted. BOUNDARY: the boundary would run into itself, or into another point.
+    """
+
+    REACHED = 0
+    CONTACT = 1
+    TOUCH = 2
+    CELL = 3
+    BOUNDARY = 4

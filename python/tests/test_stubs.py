@@ -63,7 +63,7 @@ class Stubs(unittest.TestCase):
         self.assertGreaterEqual(compared, 12)
 
     def test_everything_is_documented(self):
-        for name in ("Body", "Environment", "Locations", "Motions", "Particles"):
+        for name in ("Body", "Environment", "Locations", "Motions", "Particles", "WallMoves"):
             bound = getattr(cellwalk, name)
             self.assertGreater(len(bound.__doc__), 20, name)
             for member, attribute in vars(bound).items():
@@ -71,7 +71,7 @@ class Stubs(unittest.TestCase):
                     text = getattr(bound, member).__doc__ or ""
                     prose = text if isinstance(attribute, property) else "\n".join(text.splitlines()[1:])
                     self.assertGreater(len(prose.strip()), 3, f"{name}.{member}")
-        for name in ("Error", "InputError", "NotCertifiedError", "OutsideError", "UsageError", "Status", "Place", "Feature"):
+        for name in ("Error", "InputError", "NotCertifiedError", "OutsideError", "UsageError", "Status", "Place", "Feature", "MoveEnd"):
             self.assertTrue(getattr(cellwalk, name).__doc__, name)
 
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "listed.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/core.h>
+
+namespace cellwalk::python {
+namespace {
+
+template <class Owner>
+void list_all(const std::shared_ptr<Any_world>& world, const py::iterable& given, const char* name,
+              const char* type, std::vector<py::object>& objects, std::vector<Owner*>& owners) {
+  for (const py::handle item : given) {
+    const std::size_t i = owners.size();
+    if (!py::isinstance<Owner>(item))
+      throw py::type_error(fmt::format("{}[{}] is {}: a list of {} is needed", name, i,
+                                       std::string(py::str(py::type::of(item).attr("__name__"))), type));
+    Owner* const owner = item.cast<Owner*>();
+    if (owner->world() != world)
+      throw Error(
+          Error_code::usage,
+          fmt::format("{}[{}] lies in another environment: list it in the reshape() of that", name, i));
+    if (const auto first = std::find(owners.begin(), owners.end(), owner); first != owners.end())
+      throw Error(Error_code::usage,
+                  fmt::format("{0}[{1}] is {0}[{2}] again: list it once", name, i, first - owners.begin()));
+    objects.push_back(py::reinterpret_borrow<py::object>(item));
+    owners.push_back(owner);
+  }
+}
+
+}  // namespace
+
+Listed listed_of(const std::shared_ptr<Any_world>& world, const py::iterable& bodies,
+                 const py::iterable& particles) {
+  Listed listed;
+  list_all(world, bodies, "bodies", "Body", listed.objects, listed.bodies);
+  list_all(world, particles, "particles", "Particles", listed.objects, listed.particles);
+  return listed;
+}
+
+}  // namespace cellwalk::python
