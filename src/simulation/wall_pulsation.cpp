@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "scene_shape.h"
+#include "star_smoother.h"
 
 namespace cellwalk {
 namespace {
@@ -36,8 +38,14 @@ template <int D>
 struct Point_surroundings {
   std::vector<Vector<D>> normals;  ///< the sum of those of its walls, away from free space
   std::vector<char> is_at_wall, is_held;
-  std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< a point and a neighbour of it, ascending
+  std::vector<std::array<std::uint32_t, 2>> neighbours;   ///< a point and a neighbour of it, ascending
+  std::vector<std::array<std::uint32_t, 2>> along_walls;  ///< those along edges of walls
 };
+
+void sort_once(std::vector<std::array<std::uint32_t, 2>>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
 
 template <int D>
 Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
@@ -66,16 +74,37 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
       corners.clear();
       for (const std::uint32_t v : loop) corners.push_back(snapshot.point(v));
       const Vector<D> normal = across(corners);
-      for (const std::uint32_t v : loop) {
-        result.normals[v] = result.normals[v] + normal;
-        result.is_at_wall[v] = 1;
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::uint32_t u = loop[k], v = loop[(k + 1) % loop.size()];
+        result.normals[u] = result.normals[u] + normal;
+        result.is_at_wall[u] = 1;
+        result.along_walls.push_back({u, v});
+        result.along_walls.push_back({v, u});
       }
     }
   }
-  std::sort(result.neighbours.begin(), result.neighbours.end());
-  result.neighbours.erase(std::unique(result.neighbours.begin(), result.neighbours.end()),
-                          result.neighbours.end());
+  sort_once(result.neighbours);
+  sort_once(result.along_walls);
   return result;
+}
+
+/// Normals of walls become the mean of their own and those beside them along walls, as units, so often.
+template <int D>
+void smooth_normals(Point_surroundings<D>& around, std::uint32_t sweeps) {
+  const auto& pairs = around.along_walls;
+  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+    std::vector<Vector<D>> units = around.normals;
+    for (Vector<D>& n : units)
+      if (const double size = length(n); size > 0) n = (1 / size) * n;
+    for (std::size_t i = 0; i < pairs.size();) {
+      const std::uint32_t point = pairs[i][0];
+      Vector<D> sum{};
+      std::size_t n = i;
+      for (; n < pairs.size() && pairs[n][0] == point; ++n) sum = sum + units[pairs[n][1]];
+      around.normals[point] = 0.5 * (units[point] + (1.0 / static_cast<double>(n - i)) * sum);
+      i = n;
+    }
+  }
 }
 
 /// Directions at walls given, each other point takes the mean of its neighbours, again and again.
@@ -101,6 +130,7 @@ Wall_pulsation<D>::Wall_pulsation(const Snapshot<D>& snapshot, const Pulsation<D
                                   std::span<const Scene_shape<D>> fixed)
     : pulsation_(pulsation) {
   Point_surroundings<D> around = surroundings(snapshot);
+  smooth_normals(around, pulsation.even);
   const auto share = [&](const Point<D>& x) {
     return std::min(1.0, detail::distance<D>(fixed, x) / (fading_amplitudes * pulsation.amplitude));
   };
@@ -113,7 +143,39 @@ Wall_pulsation<D>::Wall_pulsation(const Snapshot<D>& snapshot, const Pulsation<D
   }
   smooth(around, directions);
   for (std::uint32_t i = 0; i < directions.size(); ++i)
-    if (directions[i] != Vector<D>{}) movers_.push_back({i, snapshot.point(i), directions[i]});
+    if (directions[i] != Vector<D>{}) movers_.push_back({i, snapshot.point(i), directions[i], {}});
+  if (pulsation.smooth == 0) return;
+  std::vector<char> may_move(directions.size());
+  for (std::size_t i = 0; i < may_move.size(); ++i) may_move[i] = !around.is_at_wall[i] && !around.is_held[i];
+  smooth_inside(snapshot, std::move(may_move), directions);
+}
+
+/// Points between walls get the best places found at the ends of the motion and in its middle, and go on a
+/// parabola through them.
+template <int D>
+void Wall_pulsation<D>::smooth_inside(const Snapshot<D>& snapshot, std::vector<char> may_move,
+                                      const std::vector<Vector<D>>& directions) {
+  const detail::Star_smoother<D> smoother(snapshot, std::move(may_move));
+  const int sweeps = static_cast<int>(pulsation_.smooth);
+  const double size = pulsation_.amplitude, floor = pulsation_.quality_floor;
+  std::vector<Point<D>> rest(directions.size()), out = rest, in = rest;
+  for (std::uint32_t i = 0; i < rest.size(); ++i) rest[i] = snapshot.point(i);
+  const std::vector<char> moved = smoother.smooth(rest, sweeps, floor);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    out[i] = rest[i] + size * directions[i];
+    in[i] = rest[i] + -size * directions[i];
+  }
+  const std::vector<char> moved_out = smoother.smooth(out, sweeps, floor);
+  const std::vector<char> moved_in = smoother.smooth(in, sweeps, floor);
+  movers_.clear();
+  for (std::uint32_t i = 0; i < rest.size(); ++i) {
+    Mover mover{i, rest[i], directions[i], {}};
+    if (moved_out[i] || moved_in[i]) {
+      mover.direction = (0.5 / size) * (out[i] - in[i]);
+      mover.bend = 0.5 * ((out[i] - rest[i]) + (in[i] - rest[i]));
+    }
+    if (moved[i] || mover.direction != Vector<D>{} || mover.bend != Vector<D>{}) movers_.push_back(mover);
+  }
 }
 
 template <int D>
@@ -128,7 +190,12 @@ std::vector<Vertex_move<D>> Wall_pulsation<D>::targets(double time) const {
       phase -= dot(mover.start - Point<D>{}, wave) / dot(wave, wave);
     }
     const double way = size * std::sin(2 * std::numbers::pi * phase);
-    result.push_back({mover.point, mover.start + way * mover.direction});
+    Point<D> target = mover.start + way * mover.direction;
+    if (mover.bend != Vector<D>{}) {
+      const double share = way / pulsation_.amplitude;
+      target = target + (share * share) * mover.bend;
+    }
+    result.push_back({mover.point, target});
   }
   return result;
 }

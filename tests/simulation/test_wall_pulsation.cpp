@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls that pulsate, by themselves and in a world.
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/implicit.h>
+#include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 #include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
@@ -129,6 +135,145 @@ TEST(WallPulsation, HoldsTheOuterBoundaryOfTissue) {
     ++at_wall;
   }
   EXPECT_EQ(at_wall, 4u);
+}
+
+/// A cube (2D: a square) of side 2 with one point inside, which lies near a side.
+template <int D>
+Environment<D> lopsided_room() {
+  Simplex_grid_options<D> grid;
+  grid.cells.fill(2);
+  Cell_soup<D> soup;
+  if constexpr (D == 2)
+    soup = triangle_grid(grid);
+  else
+    soup = tetrahedral_grid(grid);
+  for (Point<D>& x : soup.points)
+    if (std::ranges::all_of(x, [](double c) { return c == 1; })) x[D - 1] = 0.0625;
+  return Environment<D>::build(std::move(soup));
+}
+
+/// Three beats of 32 steps.
+/// \return how many moves of points a cell ended
+template <int D>
+std::size_t beat_alone(Environment<D>& environment, const Wall_pulsation<D>& pulsation) {
+  std::size_t ends = 0;
+  std::map<std::uint32_t, Point<D>> before;
+  for (int step = 1; step <= 96; ++step) {
+    Reshaping<D> reshaping(environment, {}, {});
+    const auto moves = pulsation.targets(step / 32.0);
+    const Move_report<D> report = reshaping.move(moves);
+    reshaping.close();
+    for (const Vertex_result<D>& result : report.short_of_target) ends += result.end == Move_end::cell;
+    if (step != 64 && step != 96) continue;
+    for (const Vertex_move<D>& move : moves) {
+      const Point<D>& x = environment.snapshot().point(move.point);
+      if (const auto known = before.find(move.point); known != before.end()) {
+        EXPECT_NEAR(length(x - known->second), 0, ends == 0 ? 1e-12 : 2) << "nothing drifts";
+      }
+      before[move.point] = x;
+    }
+  }
+  EXPECT_NO_THROW(environment.certify());
+  return ends;
+}
+
+template <int D>
+void expect_smoothing_unlocks() {
+  Pulsation<D> motion{.amplitude = 0.25, .period = 1, .wave = {}};
+  Environment<D> locked = lopsided_room<D>(), smooth = lopsided_room<D>();
+  const Wall_pulsation<D> plain(locked.snapshot(), motion, {});
+  motion.smooth = 20;
+  motion.quality_floor = 0.6;
+  const Wall_pulsation<D> better(smooth.snapshot(), motion, {});
+  // Walls go the same way.
+  const auto of_plain = by_point(plain.targets(1.25)), of_better = by_point(better.targets(1.25));
+  for (const auto& [point, x] : of_plain)
+    if (locked.snapshot().point(point)[D - 1] != 0.0625) {
+      EXPECT_EQ(of_better.at(point), x);
+    }
+  EXPECT_GT(beat_alone(locked, plain), 20u);
+  EXPECT_EQ(beat_alone(smooth, better), 0u);
+}
+
+TEST(WallPulsation, GoesOnWithSmoothingWhereItLocksWithout) {
+  expect_smoothing_unlocks<2>();
+  expect_smoothing_unlocks<3>();
+}
+
+/// A ball of radius 1 with a rough surface, cut from a lattice.
+Environment<3> rough_ball() {
+  Implicit_shape ball;
+  ball.depth = [](const Point<3>& p) { return 1 - length(p); };
+  ball.low = {-1, -1, -1}, ball.high = {1, 1, 1};
+  ball.cell_size = 0.25;
+  Cell_soup<3> soup = fill_implicit(ball);
+  Random random(1);
+  for (Point<3>& x : soup.points)
+    if (length(x) > 0.99)
+      for (double& c : x) c += random.real(-0.02, 0.02);
+  return Environment<3>::build(std::move(soup));
+}
+
+TEST(WallPulsation, GoesFurtherWhereDirectionsAreEven) {
+  Pulsation<3> motion{.amplitude = 0.3, .period = 1, .wave = {}};
+  std::array<std::size_t, 2> ends{};
+  for (const std::uint32_t even : {0u, 10u}) {
+    Environment<3> environment = rough_ball();
+    motion.even = even;
+    const Wall_pulsation<3> pulsation(environment.snapshot(), motion, {});
+    for (const Vertex_move<3>& move : pulsation.targets(1.25)) {
+      const Point<3>& x = environment.snapshot().point(move.point);
+      if (length(x) < 0.96) continue;  // inside
+      const Vector<3> way = move.target - x;
+      EXPECT_NEAR(length(way), 0.3, 1e-14) << "as far as without";
+      EXPECT_GT(dot(way, normalized(x - Point<3>{})), 0.2) << "and outwards";
+    }
+    ends[even > 0] = beat_alone(environment, pulsation);
+  }
+  EXPECT_GT(ends[0], 100u);
+  EXPECT_EQ(ends[1], 0u);
+}
+
+TEST(WallPulsation, SmoothsNothingAboveTheFloorOrInFixedParts) {
+  Environment<3> environment = lopsided_room<3>();
+  Pulsation<3> motion{.amplitude = 0.25, .period = 1, .wave = {}};
+  const auto plain = by_point(Wall_pulsation<3>(environment.snapshot(), motion, {}).targets(1.25));
+  motion.smooth = 20;
+  motion.quality_floor = 0;
+  motion.amplitude = 0.01;
+  const auto above = by_point(Wall_pulsation<3>(environment.snapshot(), motion, {}).targets(0));
+  for (const auto& [point, x] : above) EXPECT_EQ(x, environment.snapshot().point(point));
+  motion.quality_floor = 1;
+  const std::vector<Scene_shape<3>> all{Scene_box<3>{{-9, -9, -9}, {9, 9, 9}}};
+  EXPECT_TRUE(Wall_pulsation<3>(environment.snapshot(), motion, all).targets(1.25).empty());
+  EXPECT_FALSE(plain.empty());
+}
+
+TEST(WallPulsation, BeatsInTissueForGoodAndStaysInItsBox) {
+  Vessel_options options;
+  options.generations = 0;
+  options.length = 3;
+  options.cell_size = 0.4;
+  options.tissue = 0.5;
+  Environment<3> environment = Environment<3>::build(branching_vessel(options));
+  const Snapshot<3>& snapshot = environment.snapshot();
+  std::map<std::uint32_t, Point<3>> outer;
+  std::size_t inside = 0;
+  for (std::size_t c = 0; c < snapshot.cell_count(); ++c)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const Half_facet facet = snapshot.half_facet(snapshot.cell(c), f);
+      if (snapshot.neighbour(facet) != Cell::none) continue;
+      EXPECT_TRUE(snapshot.is_solid(snapshot.cell(c))) << "no wall is on the boundary";
+      for (const std::uint32_t v : snapshot.loop(facet)) outer[v] = snapshot.point(v);
+    }
+  const Wall_pulsation<3> pulsation(snapshot, {.amplitude = 0.1, .period = 1, .wave = {}}, {});
+  for (const Vertex_move<3>& move : pulsation.targets(1.25)) {
+    EXPECT_FALSE(outer.contains(move.point));
+    inside += length(move.target - snapshot.point(move.point)) > 0.09;
+  }
+  EXPECT_GT(inside, 100u);
+  EXPECT_EQ(beat_alone(environment, pulsation), 0u);
+  for (const auto& [point, x] : outer) EXPECT_EQ(snapshot.point(point), x);
 }
 
 /// Soft and rigid bodies, a catheter and particles in a room that beats: all is pushed, nothing is lost.

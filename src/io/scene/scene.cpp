@@ -15,6 +15,7 @@ using detail::Json_node;
 constexpr std::uint64_t most_steps = 100'000'000;
 constexpr double default_twist = 10;  // degrees a step
 constexpr std::uint64_t most_spread = 1000;
+constexpr std::uint64_t most_sweeps = 1000;
 
 Environment_source environment_source(const Json_node& node) {
   if (node.is_string()) {
@@ -106,7 +107,7 @@ Scene_shape<D> shape(const Json_node& node) {
 
 template <int D>
 Pulsation<D> pulsation(const Json_node& node) {
-  node.expect_keys({"amplitude", "period", "wave"});
+  node.expect_keys({"amplitude", "period", "wave", "even", "smooth", "quality_floor"});
   Pulsation<D> result;
   result.amplitude = node.at("amplitude").positive();
   result.period = node.at("period").positive();
@@ -114,6 +115,11 @@ Pulsation<D> pulsation(const Json_node& node) {
     result.wave = wave->tuple<D>();
     if (!(dot(*result.wave, *result.wave) > 0)) wave->fail("a direction cannot be zero");
   }
+  if (const auto even = node.find("even"))
+    result.even = static_cast<std::uint32_t>(even->integer_in(0, most_sweeps));
+  if (const auto smooth = node.find("smooth"))
+    result.smooth = static_cast<std::uint32_t>(smooth->integer_in(0, most_sweeps));
+  if (const auto floor = node.find("quality_floor")) result.quality_floor = floor->number_in(0, 1);
   return result;
 }
 

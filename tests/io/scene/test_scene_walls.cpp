@@ -20,7 +20,8 @@ std::string scene_with(const std::string& walls, int dimension = 3) {
 TEST(SceneWalls, Pulsate) {
   const auto scene = std::get<Scene<3>>(parse_scene("s.json", scene_with(R"({"at_contact": "stop",
     "fixed": [{"box": [[0, 0, 0], [1, 2, 3]]}, {"ball": [[4, 5, 6], 7]}],
-    "pulsation": {"amplitude": 0.25, "period": 0.5, "wave": [0, 0, 6]}})")));
+    "pulsation": {"amplitude": 0.25, "period": 0.5, "wave": [0, 0, 6], "even": 5, "smooth": 12,
+                  "quality_floor": 0.3}})")));
   ASSERT_TRUE(scene.walls);
   EXPECT_FALSE(scene.walls->push);
   ASSERT_EQ(scene.walls->fixed.size(), 2u);
@@ -31,6 +32,9 @@ TEST(SceneWalls, Pulsate) {
   EXPECT_EQ(scene.walls->pulsation->amplitude, 0.25);
   EXPECT_EQ(scene.walls->pulsation->period, 0.5);
   EXPECT_EQ(scene.walls->pulsation->wave, (Vector<3>{0, 0, 6}));
+  EXPECT_EQ(scene.walls->pulsation->even, 5u);
+  EXPECT_EQ(scene.walls->pulsation->smooth, 12u);
+  EXPECT_EQ(scene.walls->pulsation->quality_floor, 0.3);
   EXPECT_TRUE(scene.walls->motion.empty());
 }
 
@@ -39,6 +43,9 @@ TEST(SceneWalls, PushUnlessToldOtherwise) {
       parse_scene("s.json", scene_with(R"({"pulsation": {"amplitude": 1, "period": 2}})", 2)));
   EXPECT_TRUE(scene.walls->push);
   EXPECT_FALSE(scene.walls->pulsation->wave);
+  EXPECT_EQ(scene.walls->pulsation->even, 0u);
+  EXPECT_EQ(scene.walls->pulsation->smooth, 0u);
+  EXPECT_EQ(scene.walls->pulsation->quality_floor, 0.2);
   EXPECT_TRUE(scene.walls->fixed.empty());
 }
 
@@ -86,6 +93,12 @@ TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
             "s.json: walls.pulsation.amplitude: expected a number greater than 0, not 0"},
            {R"({"pulsation": {"amplitude": 1, "period": 1, "wave": [0, 0, 0]}})",
             "s.json: walls.pulsation.wave: a direction cannot be zero"},
+           {R"({"pulsation": {"amplitude": 1, "period": 1, "even": -1}})",
+            "s.json: walls.pulsation.even: expected an integer from 0 to 1000, not -1"},
+           {R"({"pulsation": {"amplitude": 1, "period": 1, "smooth": 1001}})",
+            "s.json: walls.pulsation.smooth: expected an integer from 0 to 1000, not 1001"},
+           {R"({"pulsation": {"amplitude": 1, "period": 1, "quality_floor": 2}})",
+            "s.json: walls.pulsation.quality_floor: expected a number from 0 to 1, not 2"},
            {R"({"at_contact": "hold"})", "s.json: walls.at_contact: expected \"push\" or \"stop\""},
            {R"({"fixed": [{}]})", "s.json: walls.fixed[0]: expected either \"box\" or \"ball\""},
            {R"({"fixed": [{"box": [[0, 0, 0]]}]})",
