@@ -64,8 +64,8 @@ inline Point<3> in_space(const Point<3>& p) { return p; }
 template <int D>
 Vtu_grid vtu_of_cells(const Cell_soup<D>& soup);
 
-/// The walls of a soup: its impassable facets and those on its boundary, each once. Cell data: `cell`, the
-/// first cell with that facet.
+/// The walls of a soup at free space, each once: its impassable facets, those on its boundary and those of
+/// solid cells, but none with solid cells only. Cell data: `cell`, the first cell with that facet.
 template <int D>
 Vtu_grid vtu_of_walls(const Cell_soup<D>& soup);
 

@@ -114,7 +114,7 @@ template <int D>
 Vtu_grid vtu_of_walls(const Cell_soup<D>& soup) {
   struct Facet {
     std::size_t first, cell, sides = 0;
-    bool wall = false;
+    bool wall = false, is_at_free = false;
   };
   std::map<Loop, Facet> facets;  // by sorted vertices
   for (std::size_t c = 0; c < soup.cell_count(); ++c)
@@ -123,11 +123,12 @@ Vtu_grid vtu_of_walls(const Cell_soup<D>& soup) {
       std::sort(key.begin(), key.end());
       Facet& facet = facets.try_emplace(std::move(key), Facet{f, c}).first->second;
       ++facet.sides;
-      facet.wall |= soup.impassable[f] != 0;
+      facet.wall |= soup.impassable[f] != 0 || (facet.sides == 2 && soup.solid[c] != soup.solid[facet.cell]);
+      facet.is_at_free |= soup.solid[c] == 0;
     }
   std::vector<Facet> walls;
   for (const auto& [key, facet] : facets)
-    if (facet.wall || facet.sides == 1) walls.push_back(facet);
+    if (facet.is_at_free && (facet.wall || facet.sides == 1)) walls.push_back(facet);
   std::sort(walls.begin(), walls.end(), [](const Facet& a, const Facet& b) { return a.first < b.first; });
   Vtu_grid grid = points_of(soup);
   std::vector<std::int64_t> cells;

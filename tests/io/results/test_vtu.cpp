@@ -54,6 +54,11 @@ TEST(Vtu, WallsAreTheBoundaryAndTheImpassableFacetsOnce) {
   EXPECT_EQ(walls.cell_count(), 10u);
   EXPECT_EQ(std::get<1>(walls.cell_data[0].values),
             (std::vector<std::int64_t>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1}));
+  soup.impassable[1] = 0;
+  soup.solid[1] = 1;  // tissue beside it: the walls of the first cell are left, the one between them too
+  EXPECT_EQ(vtu_of_walls(soup).types, (Byte_list{9, 9, 9, 9, 9, 9}));
+  soup.solid[0] = 1;
+  EXPECT_EQ(vtu_of_walls(soup).cell_count(), 0u);
   Cell_soup<2> plane;
   plane.points = {{0, 0}, {1, 0}, {0, 1}};
   add_polygon(plane, std::vector<std::uint32_t>{0, 1, 2});
