@@ -6,6 +6,7 @@
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -27,7 +28,7 @@ struct Relisted {
   std::vector<std::uint32_t> new_cell;  ///< of each old one
 };
 
-/// Points, cells and facets in another order; loops start elsewhere (3D).
+/// Points, cells and facets in another order; loops start elsewhere (2D: those of cells).
 template <int D>
 Relisted<D> relisted(const Cell_soup<D>& soup, std::uint64_t seed) {
   Random random(seed);
@@ -42,7 +43,13 @@ Relisted<D> relisted(const Cell_soup<D>& soup, std::uint64_t seed) {
   for (std::uint32_t k = 0; k < cells.size(); ++k) {
     const std::uint32_t c = cells[k];
     result.new_cell[c] = k;
-    for (const std::uint32_t i : shuffled(soup.cell_begin[c + 1] - soup.cell_begin[c], random)) {
+    std::vector<std::uint32_t> facets = shuffled(soup.cell_begin[c + 1] - soup.cell_begin[c], random);
+    if (D == 2) {  // where they have an order
+      const std::uint32_t start = facets[0];
+      std::iota(facets.begin(), facets.end(), 0);
+      std::rotate(facets.begin(), facets.begin() + start, facets.end());
+    }
+    for (const std::uint32_t i : facets) {
       const auto loop = soup.facet(soup.cell_begin[c] + i);
       const std::size_t first = D == 2 ? 0 : random.below(loop.size());
       std::vector<std::uint32_t> turned;
