@@ -53,6 +53,20 @@ Row exact(const Point<D>& x) {
   return {x.begin(), x.end()};
 }
 
+template <int D>
+Fraction volume(std::span<const Point<D>> points) {
+  std::array<std::array<Fraction, 3>, 3> m;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) m[i][k] = Fraction(points[i + 1][k]) - Fraction(points[0][k]);
+  Fraction d;
+  if (D == 2)
+    d = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  else
+    for (std::size_t k = 0; k < 3; ++k)
+      d += m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]);
+  return d;
+}
+
 /// True if the hulls of some points of one set and some of the other have exactly one point in common, which
 /// is inside both. By the theorems of Caratheodory and Kirchberger two hulls meet if and only if those of
 /// such subsets do.
@@ -95,11 +109,27 @@ bool boxes_apart(std::span<const Point<D>> a, std::span<const Point<D>> b) {
   return false;
 }
 
+/// The weights of the corners of a simplex of positive volume at x, by volumes.
+template <int D>
+Row weights_in(std::span<const Point<D>> simplex, const Point<D>& x) {
+  std::vector<Point<D>> corners(simplex.begin(), simplex.end());
+  Row weights;
+  Fraction sum = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    corners[k] = x;
+    weights.push_back(volume<D>(corners));
+    corners[k] = simplex[k];
+    sum += weights.back();
+  }
+  for (Fraction& w : weights) w /= sum;
+  return weights;
+}
+
 /// The corners of the part of a set in a simplex, by their weights in the simplex.
 template <int D>
 std::vector<Row> part(std::span<const Point<D>> simplex, std::span<const Point<D>> set) {
   std::vector<Row> corners;
-  for (const Point<D>& x : set) corners.push_back(*weights_of<D>(simplex, exact<D>(x)));
+  for (const Point<D>& x : set) corners.push_back(weights_in<D>(simplex, x));
   for (std::size_t k = 0; k < simplex.size(); ++k) {
     std::vector<Row> kept;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -121,21 +151,19 @@ std::vector<Row> part(std::span<const Point<D>> simplex, std::span<const Point<D
 
 template <int D>
 int volume_sign(std::span<const Point<D>> points) {
-  std::array<std::array<Fraction, 3>, 3> m;
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) m[i][k] = Fraction(points[i + 1][k]) - Fraction(points[0][k]);
-  Fraction d;
-  if (D == 2)
-    d = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-  else
-    for (std::size_t k = 0; k < 3; ++k)
-      d += m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]);
-  return (d > 0) - (d < 0);
+  return volume<D>(points).sign();
 }
 
 template <int D>
 Relation relation(std::span<const Point<D>> simplex, std::span<const Point<D>> set) {
   if (boxes_apart<D>(simplex, set) || !hulls_meet<D>(simplex, set)) return Relation::apart;
+  return first_time<D>(simplex, set) ? Relation::hit : Relation::touch;
+}
+
+template <int D>
+Relation relation_by_clipping(std::span<const Point<D>> simplex, std::span<const Point<D>> set) {
+  if (volume_sign<D>(simplex) == 0) return relation<D>(simplex, set);
+  if (boxes_apart<D>(simplex, set) || part<D>(simplex, set).empty()) return Relation::apart;
   return first_time<D>(simplex, set) ? Relation::hit : Relation::touch;
 }
 
@@ -175,6 +203,7 @@ bool lies_inside(std::span<const Point<D>> facet, const Point<D>& x) {
 
 #define CELLWALK_INSTANTIATE(D)                                                                         \
   template Relation relation<D>(std::span<const Point<D>>, std::span<const Point<D>>);                  \
+  template Relation relation_by_clipping<D>(std::span<const Point<D>>, std::span<const Point<D>>);      \
   template std::optional<Fraction> first_time<D>(std::span<const Point<D>>, std::span<const Point<D>>); \
   template int volume_sign<D>(std::span<const Point<D>>);                                               \
   template bool meets_off_start<D>(std::span<const Point<D>>, std::span<const Point<D>>);               \

@@ -32,6 +32,10 @@ enum class Relation { apart, touch, hit };
 template <int D>
 Relation relation(std::span<const Point<D>> simplex, std::span<const Point<D>> set);
 
+/// The same, much faster: a simplex of positive volume clips the set.
+template <int D>
+Relation relation_by_clipping(std::span<const Point<D>> simplex, std::span<const Point<D>> set);
+
 /// The infimum of the times at which the wall passes a point of the set, if it hits it.
 template <int D>
 std::optional<Fraction> first_time(std::span<const Point<D>> simplex, std::span<const Point<D>> set);

@@ -93,6 +93,7 @@ void compare(bool generic, std::map<std::pair<std::size_t, Relation>, int>& seen
     const Relation expected = test::relation<D>(simplex, set);
     flat += swept.is_flat();
     ++seen[{size, expected}];
+    ASSERT_EQ(test::relation_by_clipping<D>(simplex, set), expected) << "round " << round;
     const Encounter meeting = swept.meet(set, counts);
     ASSERT_EQ(static_cast<int>(meeting), static_cast<int>(expected)) << "round " << round;
     if (expected == Relation::apart) {
