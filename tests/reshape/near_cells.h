@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "edge/integer_scale.h"
 #include "reshape/definition_oracle.h"
 
 namespace cellwalk::test {
@@ -19,10 +23,11 @@ namespace cellwalk::test {
 template <int D>
 using Place = std::array<Fraction, static_cast<std::size_t>(D)>;
 
+/// \param exponent of the power of two by which the place is scaled
 template <int D>
-Place<D> exact_place(const Point<D>& x) {
+Place<D> exact_place(const Point<D>& x, int exponent) {
   Place<D> result;
-  for (int k = 0; k < D; ++k) result[k] = Fraction(x[k]);
+  for (int k = 0; k < D; ++k) result[k] = Fraction(std::ldexp(x[k], exponent));
   return result;
 }
 
@@ -53,11 +58,11 @@ inline void add_root_in_time(std::set<Fraction>& times, const Affine_function& f
 /// A cell with the volumes that p and q span with its facets, opposite to its corners, positive inside.
 template <int D>
 struct Near_cell {
-  Cell cell;
+  Cell cell = Cell::none;
   std::array<Affine_function, static_cast<std::size_t>(D) + 1> at_p, at_q;
   std::array<int, static_cast<std::size_t>(D) + 1>
-      neighbour;  ///< over these facets; -1 if none near, or wall
-  std::array<Half_facet, static_cast<std::size_t>(D) + 1> facet;
+      neighbour{};  ///< over these facets; -1 if none near, or wall
+  std::array<Half_facet, static_cast<std::size_t>(D) + 1> facet{};
 };
 
 struct Interval {
@@ -84,12 +89,19 @@ class Near {
   Near(const Wall_motion<D>& motion, const Point<D>& p, const Point<D>& q) : motion_(motion), p_(p), q_(q) {
     const Snapshot<D>& snapshot = motion.snapshot;
     std::map<Cell, int> numbers;
+    Integer_scale scale;
+    scale.add<static_cast<std::size_t>(D)>(std::array{p, q, motion.from, motion.to});
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
       const Cell c = snapshot.cell(i);
       if (c == Cell::none || snapshot.is_solid(c) || !may_meet(c)) continue;
-      numbers.emplace(c, static_cast<int>(cells.size()));
-      cells.push_back(near_cell(c));
+      const auto number = static_cast<int>(numbers.size());
+      numbers.emplace(c, number);
+      for (const std::uint32_t v : snapshot.view(c).vertices)
+        scale.add<static_cast<std::size_t>(D)>(std::span(&snapshot.point(v), 1));
     }
+    exponent_ = scale.exponent();
+    cells.resize(numbers.size());
+    for (const auto& [c, number] : numbers) cells[static_cast<std::size_t>(number)] = near_cell(c);
     for (Near_cell<D>& cell : cells)
       for (std::size_t k = 0; k <= D; ++k) {
         const Half_facet f = cell.facet[k];
@@ -149,20 +161,21 @@ class Near {
     const auto corners_at = [&](const Point<D>& place) {
       std::array<Place<D>, static_cast<std::size_t>(D) + 1> corners;
       for (std::size_t k = 0; k <= D; ++k)
-        corners[k] =
-            exact_place<D>(view.vertices[k] == motion_.vertex ? place : snapshot.point(view.vertices[k]));
+        corners[k] = exact(view.vertices[k] == motion_.vertex ? place : snapshot.point(view.vertices[k]));
       return corners;
     };
+    const bool moves = std::ranges::find(view.vertices, motion_.vertex) != view.vertices.end();
     const auto before = corners_at(motion_.from), after = corners_at(motion_.to);
+    const int sense = volume(before).sign();
     const auto function = [&](std::size_t k, const Point<D>& x) {
       auto u = before, v = after;
-      u[k] = v[k] = exact_place<D>(x);
-      const int sense = volume(before).sign();
-      return Affine_function{sense * volume(u), sense * volume(v)};
+      u[k] = v[k] = exact(x);
+      const Fraction at_0 = sense * volume(u);
+      return Affine_function{at_0, moves ? Fraction(sense * volume(v)) : at_0};
     };
     for (std::size_t k = 0; k <= D; ++k) {
       result.at_p[k] = function(k, p_);
-      result.at_q[k] = function(k, q_);
+      result.at_q[k] = p_ == q_ ? result.at_p[k] : function(k, q_);
       for (std::size_t i = 0; i < view.facet_count(); ++i) {
         const Half_facet f = Snapshot<D>::half_facet(c, i);
         const auto loop = snapshot.loop(f);
@@ -175,8 +188,7 @@ class Near {
   /// When the line pq passes edges at the vertex (2D: the vertex), or, where all lies in a plane or on a
   /// line, their images in planes and on axes.
   void add_turns(std::set<Fraction>& times) const {
-    const auto v0 = exact_place<D>(motion_.from), v1 = exact_place<D>(motion_.to), p = exact_place<D>(p_),
-               q = exact_place<D>(q_);
+    const auto v0 = exact(motion_.from), v1 = exact(motion_.to), p = exact(p_), q = exact(q_);
     if constexpr (D == 2) {
       add_root_in_time(times, {volume({p, q, v0}), volume({p, q, v1})});
     } else {
@@ -188,7 +200,7 @@ class Near {
       }
       for (const std::uint32_t u : link) {
         if (u == motion_.vertex) continue;
-        const auto a = exact_place<D>(motion_.snapshot.point(u));
+        const auto a = exact(motion_.snapshot.point(u));
         add_root_in_time(times, {volume({p, q, v0, a}), volume({p, q, v1, a})});
         if (volume({p, q, v0, a}).sign() != 0 || volume({p, q, v1, a}).sign() != 0) continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -209,8 +221,11 @@ class Near {
       for (const auto& x : {p, q}) add_root_in_time(times, {v0[k] - x[k], v1[k] - x[k]});
   }
 
+  Place<D> exact(const Point<D>& x) const { return exact_place<D>(x, exponent_); }
+
   const Wall_motion<D>& motion_;
   const Point<D> p_, q_;
+  int exponent_ = 0;  ///< of the power of two that makes all coordinates integers
 };
 
 }  // namespace cellwalk::test
