@@ -61,6 +61,7 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
       vertex.cells = std::move(followed.cells);
       return true;
     }
+    vertex.cells = std::move(followed.cells);
     take(followed.block, met);
   }
   block(std::move(met), vertex.member, Body_feature::vertex);
@@ -113,7 +114,8 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   Star_meeting met;
   if (meets(star, std::array{p.position, q.position}, keeps_at_start, met)) {
     const bool are_ends_free = !is_blocked(moved_p) && !is_blocked(moved_q);
-    if (are_ends_free && (met.meeting == Encounter::touch || (met.touches && !any_))) {
+    // Where an end is blocked, the edge may be so before.
+    if (met.meeting == Encounter::touch || (met.touches && !any_)) {
       ++counts_.followed;
       Followed_edge followed = follow(star, edge, moved_p, moved_q);
       if (followed.is_free) {
@@ -122,7 +124,7 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
       }
       take(followed.block, met);
     }
-    // A blocked end says it all of what is only touched.
+    // A blocked end says it all of what is only touched until then.
     if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, Body_feature::edge);
     return false;
   }

@@ -72,7 +72,8 @@ class Edge_search {
     std::optional<Cut_at<D>> here(std::in_place, still_, times_[0], p_.before.cell);
     std::set<Chain_class> states;
     if (auto start = class_of(here->cut, before)) states.insert(std::move(*start));
-    for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+    const Fraction end = std::min(last_time(p_), last_time(q_));
+    for (std::size_t k = 0; k + 1 < times_.size() && times_[k] < end; ++k) {
       const Fraction middle = time_between(times_[k], times_[k + 1]);
       const Cell first = p_.cells.at(middle), last = q_.cells.at(middle);
       const Cut_at<D> open(still_, middle, first);
@@ -91,6 +92,7 @@ class Edge_search {
       states = std::move(next_states);
       here.emplace(still_, times_[k + 1], first);
     }
+    if (end < Fraction(1)) return result;
     // On a side of walls first, and then on others, as for vertices.
     std::vector<std::pair<std::vector<bool>, Chain>> ends;
     for (const Chain_class& state : states)
@@ -103,6 +105,10 @@ class Edge_search {
   }
 
  private:
+  /// Until which the cells of an end are known.
+  static Fraction last_time(const Followed_end<D>& end) {
+    return end.cells.stays.empty() ? Fraction(0) : end.cells.stays.back().until;
+  }
   /// Adds the times at which the edge passes a ridge that has the vertex.
   void add_ridges() {
     std::set<std::uint32_t> seen;

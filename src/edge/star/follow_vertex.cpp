@@ -31,6 +31,7 @@ class Vertex_search {
         if (clock_.holds(there.cell, p_.position, middle)) now.push_back(there);
       if (now.empty()) {
         result.block = block(linked, times_[k]);
+        result.cells = way_to(linked.front());
         return result;
       }
       layers_.push_back(now);

@@ -24,8 +24,8 @@ struct Cells_of_vertex {
     Cell cell;
     Fraction until;
   };
-  std::vector<Stay> stays;  ///< ascending, the last one until 1
-  Cell end = Cell::none;    ///< after the move
+  std::vector<Stay> stays;  ///< ascending, the last one until 1 or until it is blocked; none if at 0
+  Cell end = Cell::none;    ///< after the move, if it is free
 
   /// \pre a time in (0,1) at which it changes no cell
   Cell at(const Fraction& time) const {
@@ -37,9 +37,9 @@ struct Cells_of_vertex {
 
 struct Followed_vertex {
   bool is_free = false;
-  std::size_t choices = 0;          ///< if it is free: sides on which it may be after the move
-  Cells_of_vertex cells;            ///< if it is free
-  std::optional<Star_block> block;  ///< else
+  std::size_t choices = 0;  ///< if it is free: sides on which it may be after the move
+  Cells_of_vertex cells;
+  std::optional<Star_block> block;  ///< if it is not free
 };
 
 /// Follows a particle through all times at which its side of a wall may change, and all cells in which it may
@@ -61,10 +61,10 @@ struct Followed_edge {
   bool is_free = false;
   std::size_t choices = 0;          ///< if it is free: classes of chains that it may have after the move
   Chain chain;                      ///< if it is free
-  std::optional<Star_block> block;  ///< else; none if its ends are on sides that do not fit
+  std::optional<Star_block> block;  ///< else; none if its ends are on sides that do not fit, or blocked first
 };
 
-/// Follows an edge pq, all classes of equal chains that it may have.
+/// Follows an edge pq, all classes of equal chains that it may have, until the first of its ends is blocked.
 /// \param before its chain
 /// \param choice the number of the class that it is to have, modulo theirs
 /// Cost: exact numbers for each time and class.
