@@ -83,7 +83,7 @@ class Face_sides {
     const Snapshot<3>& snapshot = world_.snapshot;
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
       const Cell c = snapshot.cell(i);
-      if (snapshot.is_solid(c)) continue;
+      if (c == Cell::none || snapshot.is_solid(c)) continue;
       for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
         const Half_facet half = Snapshot<3>::half_facet(c, f);
         auto loop = snapshot.loop(half);

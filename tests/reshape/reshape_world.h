@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "walk/oracle_worlds.h"
@@ -24,7 +25,9 @@ class Reshape_world {
  public:
   /// \param number of the world, see oracle::make_world()
   Reshape_world(std::uint64_t number, bool generic)
-      : world_(oracle::make_world<D>(number)),
+      : Reshape_world(oracle::make_world<D>(number), number, generic) {}
+  Reshape_world(oracle::World<D> world, std::uint64_t number, bool generic)
+      : world_(std::move(world)),
         environment(Environment<D>::build(
             world_.soup,
             {.duplicates = Duplicate_vertices::keep, .simplicial = true, .keep_map = number % 2 == 0})),
@@ -41,6 +44,7 @@ class Reshape_world {
     unit_ = std::ldexp(1.0, std::ilogb(high[0] - low[0]) - 8);
   }
   Reshape_world(const Reshape_world&) = delete;
+  Reshape_world& operator=(const Reshape_world&) = delete;
 
   const std::string& name() const { return world_.name; }
 
@@ -149,9 +153,11 @@ class Reshape_world {
   std::vector<Particle<D>> particles;
   std::vector<std::unique_ptr<Body<D>>> bodies;
 
+ protected:
+  double unit_ = 1;  ///< of the lattice on which targets lie
+
  private:
   bool generic_;
-  double unit_ = 1;
   oracle::Motion_source<D> source_;
 };
 

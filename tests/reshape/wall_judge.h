@@ -40,17 +40,20 @@ class Wall_judge {
     int landed = 0;         ///< moves of walls whose side of a face is known from then on
     int free_touching = 0;  ///< reached, although a wall touched something
     int missed = 0, false_blocks = 0, wrong_times = 0, wrong_sides = 0, wrong_ends = 0;
+    int tunnels = 0;  ///< of the boundary through itself
     Fate_tally fates;
     int wrong() const {
-      return missed + false_blocks + wrong_times + wrong_sides + wrong_ends + fates.wrong();
+      return missed + false_blocks + wrong_times + wrong_sides + wrong_ends + tunnels + fates.wrong();
     }
   };
 
   Wall_judge(World& world, Tally& tally) : world_(world), tally_(tally) {}
 
-  /// Makes a move by At_contact::hold, or asks about it, and judges the answer.
-  void judge(Reshaping<D>& reshaping, std::uint32_t v, const Point<D>& target, bool asks = false) {
+  /// Makes a move by At_contact::hold, or asks about it, and judges the answer, which is returned.
+  Vertex_result<D> judge(Reshaping<D>& reshaping, std::uint32_t v, const Point<D>& target,
+                         bool asks = false) {
     const Expected<D> expected = expect(v, target);
+    const bool tunnels = !expected.inverts_cell && runs_into_boundary(v, target);
     const Point<D> from = world_.snapshot.point(v);
     const std::vector<Particle<D>> before = world_.particles;
     const auto standing = standing_walls(v);
@@ -58,7 +61,7 @@ class Wall_judge {
     if constexpr (D == 3) passes_face = !expected.inverts_cell && faces_.is_passed(v, target);
     fates_.remember([&](std::span<const Point<D>> set) {
       return std::ranges::any_of(expected.swept, [&](const auto& simplex) {
-        return may_meet(simplex, set) && relation<D>(simplex, set) != Relation::apart;
+        return may_meet(simplex, set) && relation_by_clipping<D>(simplex, set) != Relation::apart;
       });
     });
     const Vertex_result<D> result = asks ? reshaping.ask(v, target) : reshaping.move(v, target);
@@ -79,6 +82,7 @@ class Wall_judge {
         ++tally_.reached;
         tally_.missed += expected.first.has_value() || expected.is_passed_at_once || passes_face;
         tally_.free_touching += expected.is_met;
+        tally_.tunnels += tunnels;
         tally_.wrong_ends += result.position != target;
         break;
       case Move_end::contact:
@@ -100,6 +104,7 @@ class Wall_judge {
     }
     if (result.end != Move_end::reached) tally_.wrong_ends += result.position != from;
     judge_sides(before, standing);
+    return result;
   }
 
  private:
@@ -114,6 +119,7 @@ class Wall_judge {
     std::vector<std::vector<Point<D>>>& swept = result.swept;
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
       const Cell c = snapshot.cell(i);
+      if (c == Cell::none) continue;
       const Cell_view<D> view = snapshot.view(c);
       bool has_v = false;
       std::vector<Point<D>> before, after;
@@ -137,7 +143,7 @@ class Wall_judge {
     if (target == from || result.inverts_cell) return result;
     const auto hold_against = [&](std::span<const Point<D>> set) {
       for (const auto& simplex : swept) {
-        const Relation met = relation<D>(simplex, set);
+        const Relation met = relation_by_clipping<D>(simplex, set);
         result.is_met |= met != Relation::apart;
         if (met != Relation::hit) continue;
         const auto time = first_time<D>(simplex, set);
@@ -170,6 +176,33 @@ class Wall_judge {
     return result;
   }
 
+  /// True if a boundary facet at a vertex passes a point of another one that stands still.
+  bool runs_into_boundary(std::uint32_t v, const Point<D>& target) const {
+    const Snapshot<D>& snapshot = world_.snapshot;
+    std::vector<std::vector<Point<D>>> swept, standing;
+    for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
+      const Cell c = snapshot.cell(i);
+      if (c == Cell::none) continue;
+      for (std::size_t k = 0; k < snapshot.facet_count(c); ++k) {
+        const Half_facet f = Snapshot<D>::half_facet(c, k);
+        if (snapshot.opposite(f) != Half_facet::none) continue;
+        std::vector<Point<D>> corners;
+        bool has_v = false;
+        for (const std::uint32_t p : snapshot.loop(f)) {
+          has_v |= p == v;
+          if (p != v) corners.push_back(snapshot.point(p));
+        }
+        if (has_v) corners.insert(corners.begin(), {snapshot.point(v), target});
+        (has_v ? swept : standing).push_back(corners);
+      }
+    }
+    return std::ranges::any_of(swept, [&](const auto& simplex) {
+      return volume_sign<D>(simplex) != 0 && std::ranges::any_of(standing, [&](const auto& facet) {
+               return may_meet(simplex, facet) && meets_off_start<D>(simplex, facet);
+             });
+    });
+  }
+
   static bool may_meet(std::span<const Point<D>> simplex, std::span<const Point<D>> set) {
     detail::Box<D> a, b;
     for (const Point<D>& x : simplex) a.extend(x);
@@ -200,6 +233,7 @@ class Wall_judge {
     const Snapshot<D>& snapshot = world_.snapshot;
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
       const Cell c = snapshot.cell(i);
+      if (c == Cell::none) continue;
       for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
         const Half_facet wall = Snapshot<D>::half_facet(c, f);
         if (!snapshot.is_impassable(wall)) continue;
