@@ -25,7 +25,7 @@ inline std::vector<std::uint32_t> shuffled(std::size_t count, Random& random) {
 template <int D>
 struct Relisted {
   Cell_soup<D> soup;
-  std::vector<std::uint32_t> new_cell;  ///< of each old one
+  std::vector<std::uint32_t> new_cell, new_point;  ///< of each old one
 };
 
 /// Points, cells and facets in another order; loops start elsewhere (2D: those of cells).
@@ -34,7 +34,8 @@ Relisted<D> relisted(const Cell_soup<D>& soup, std::uint64_t seed) {
   Random random(seed);
   Relisted<D> result;
   const auto points = shuffled(soup.points.size(), random), cells = shuffled(soup.cell_count(), random);
-  std::vector<std::uint32_t> new_point(points.size());
+  std::vector<std::uint32_t>& new_point = result.new_point;
+  new_point.resize(points.size());
   for (std::uint32_t k = 0; k < points.size(); ++k) {
     result.soup.points.push_back(soup.points[points[k]]);
     new_point[points[k]] = k;
