@@ -196,6 +196,7 @@ class Moving {
     add(t.wrong_times + f.wrong_times, "blocked at a wrong time");
     add(t.wrong_sides + f.wrong_registrations, "registered on a wrong side");
     add(t.wrong_ends, "ended wrongly");
+    add(t.tunnels, "the boundary passed through itself");
     return text;
   }
 
