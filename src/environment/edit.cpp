@@ -253,7 +253,7 @@ std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& positi
   template void Environment<D>::check_point(std::uint32_t) const;                                      \
   template void Environment<D>::check_move(std::uint32_t, const Point<D>&) const;                      \
   template bool Environment<D>::is_on_boundary(std::uint32_t, const std::vector<Cell>&) const;         \
-  template detail::Star_index<D>& Environment<D>::stars();                                       \
+  template detail::Star_index<D>& Environment<D>::stars();                                             \
   template detail::Boundary_index<D>& Environment<D>::boundary();                                      \
   template std::vector<Cell> Environment<D>::cells_around(std::uint32_t);                              \
   template void Environment<D>::follow_move(std::uint32_t, bool);                                      \

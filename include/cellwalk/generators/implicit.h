@@ -26,9 +26,9 @@ struct Implicit_shape {
 /// smaller than about two cells are lost, or leave holes. With tissue, the surface of the shape consists of
 /// inner facets, and the boundary of the complex lies at the other depth.
 /// \pre for equal bytes on all machines, depth gives equal values on all of them (only + - * / and sqrt)
-/// \throw Error(usage) if the size is not positive, the tissue is neither 0 nor at least 1.25 cell sizes, both
-///        its surfaces cut one tetrahedron of the lattice, the lattice has more than 10^9 points, or the shape
-///        is empty
+/// \throw Error(usage) if the size is not positive, the tissue is neither 0 nor at least 1.25 cell sizes,
+///        both its surfaces cut one tetrahedron of the lattice, the lattice has more than 10^9 points, or
+///        the shape is empty
 /// Cost: two evaluations of depth for each cube of the box, and about five for each lattice edge that the
 /// surface cuts.
 Cell_soup<3> fill_implicit(const Implicit_shape& shape);

@@ -20,11 +20,12 @@ namespace cellwalk {
 /// fixed parts, the motion fades over ten amplitudes; it also grows from nothing during the first period.
 /// Positions are those of the start, moved: they do not drift, whatever walls have met.
 ///
-/// With Pulsation::even, the normals are evened out along the walls before, so that walls beside each other go
-/// alike and flat cells across edges of a wall are not inverted. With Pulsation::smooth, points between walls go on parabolas instead, through three places at which the
-/// least quality of the cells around them is better: those for no motion and for a way of A and of -A. They
-/// are at the first of these from the first step on. The quality is that of docs/moving.md, in doubles;
-/// whether cells stay positive on the way is decided by Reshaping, as always.
+/// With Pulsation::even, the normals are evened out along the walls before, so that walls beside each other
+/// go alike and flat cells across edges of a wall are not inverted. With Pulsation::smooth, points between
+/// walls go on parabolas instead, through three places at which the least quality of the cells around them is
+/// better: those for no motion and for a way of A and of -A. They are at the first of these from the first
+/// step on. The quality is that of docs/moving.md, in doubles; whether cells stay positive on the way is
+/// decided by Reshaping, as always.
 ///
 /// At time t, a point x with the direction d moves by A min(1, t/T) sin(2 pi (t/T - x.w/w.w)) d, for the
 /// amplitude A, the period T and the wave w.
@@ -32,8 +33,8 @@ template <int D>
 class Wall_pulsation {
  public:
   /// Reads where the walls are now.
-  /// Cost: linear, about 10 us a point; with smoothing three times 5 us a sweep more for points at cells below
-  /// the floor.
+  /// Cost: linear, about 10 us a point; with smoothing three times 5 us a sweep more for points at cells
+  /// below the floor.
   Wall_pulsation(const Snapshot<D>& snapshot, const Pulsation<D>& pulsation,
                  std::span<const Scene_shape<D>> fixed);
 
