@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -255,6 +256,16 @@ TEST(BranchingVessel, LiesInTissue) {
     EXPECT_EQ(boundary(part(soup, true)).size(), walls.size() + all.size()) << "no wall is on the boundary";
     EXPECT_GT(smallest_angle(soup), 3);
   }
+  // Thick tissue ends at its distance, too.
+  options.generations = 0;
+  options.tissue = 3;
+  const auto line = vessel_tubes(options)[0].points;
+  for (const auto& facet : boundary(branching_vessel(options)))
+    for (const auto& x : facet) {
+      double nearest = 99;
+      for (const auto& p : line) nearest = std::min(nearest, length(x - p));
+      ASSERT_LT(nearest, 0.5 + 1.5 + 0.05);
+    }
 }
 
 TEST(BulgingTube, IsOneTube) {
