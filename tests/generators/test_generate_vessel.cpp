@@ -166,7 +166,7 @@ TEST(FillImplicit, SurroundsABallByTissue) {
       const auto inside = part(soup, false), outside = part(soup, true);
       expect_solid(inside, 2);
       EXPECT_EQ(inside.cell_count(), alone.cell_count()) << "the shape is filled as without tissue";
-      EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-9);
+      EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-6);
       // Tissue has two boundaries: the surface of the shape, and its own.
       const auto walls = boundary(inside), all = boundary(soup), both = boundary(outside);
       EXPECT_EQ(both.size(), walls.size() + all.size());
@@ -251,7 +251,7 @@ TEST(BranchingVessel, LiesInTissue) {
     const auto inside = part(soup, false);
     expect_solid(inside, 2);
     EXPECT_EQ(inside.cell_count(), alone.cell_count());
-    EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-9);
+    EXPECT_NEAR(test::volume(inside), test::volume(alone), 1e-6);
     const auto walls = boundary(inside), all = boundary(soup);
     EXPECT_EQ(boundary(part(soup, true)).size(), walls.size() + all.size()) << "no wall is on the boundary";
     EXPECT_GT(smallest_angle(soup), 3);

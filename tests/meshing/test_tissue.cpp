@@ -53,6 +53,7 @@ void expect_surrounded(const Cell_soup<3>& cells, const Tissue_options& options)
   EXPECT_EQ(report.added_points, soup.points.size() - cells.points.size());
   for (std::size_t i = 0; i < cells.points.size(); ++i) ASSERT_EQ(soup.points[i], cells.points[i]);
   for (std::size_t i = 0; i < cells.vertices.size(); ++i) ASSERT_EQ(soup.vertices[i], cells.vertices[i]);
+  EXPECT_EQ(std::set<Point<3>>(soup.points.begin(), soup.points.end()).size(), soup.points.size());
   for (std::size_t c = 0; c < soup.cell_count(); ++c) {
     ASSERT_EQ(test::flaw(soup, c), "") << "cell " << c;
     ASSERT_EQ(soup.solid[c], c < cells.cell_count() ? cells.solid[c] : 1);
