@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include "common/processor_time.h"
 #include "judge.h"

@@ -11,7 +11,10 @@
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <regex>
+#include <span>
 #include <string>
 #include <vector>
 

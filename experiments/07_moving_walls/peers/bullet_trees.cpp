@@ -6,6 +6,10 @@
 //   bullet_partial  partialRefitTree: the subtrees of 2 kB that meet the box of what moved
 //   bullet_bodies   the other way round: a hierarchy of the edges of the bodies, refitted in each step as if
 //                   the bodies had moved, and asked for each triangle that moves
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "common/peers/bullet_walls.h"
 #include "tree.h"
 

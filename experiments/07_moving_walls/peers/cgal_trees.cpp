@@ -14,6 +14,8 @@
 #include <CGAL/AABB_traits.h>
 #endif
 
+#include <utility>
+
 #include "tree.h"
 
 namespace cellwalk::moving_walls {

@@ -11,6 +11,8 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <utility>
+
 #include "common/peers/float_box.h"
 #include "tree.h"
 

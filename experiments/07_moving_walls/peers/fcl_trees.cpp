@@ -7,6 +7,8 @@
 #include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/utility.h>
 
+#include <utility>
+
 #include "tree.h"
 
 namespace cellwalk::moving_walls {
