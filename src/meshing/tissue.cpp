@@ -46,20 +46,22 @@ Hull hull_of(const Cell_soup<3>& cells) {
   Hull hull;
   std::vector<std::uint32_t> number(cells.points.size(), no_number);
   for (std::size_t f = 0; f < cells.facet_count(); ++f) {
-    std::vector<std::uint32_t> loop(cells.facet(f).begin(), cells.facet(f).end()), key = loop;
+    const auto facet = cells.facet(f);
+    std::vector<std::uint32_t> key(facet.begin(), facet.end());
     std::sort(key.begin(), key.end());
     if (!open.contains(key)) continue;
-    if (loop.size() != 3)
+    if (facet.size() != 3)
       throw Error(
           Error_code::input,
           "tissue: a facet of the boundary is not a triangle; split all cells into simplices (--simplicial)");
-    for (std::uint32_t& v : loop) {
+    std::vector<std::uint32_t> loop;
+    for (const std::uint32_t v : facet) {
       if (number[v] == no_number) {
         number[v] = static_cast<std::uint32_t>(hull.points.size());
         hull.points.push_back(v);
         hull.surface.points.push_back(cells.points[v]);
       }
-      v = number[v];
+      loop.push_back(number[v]);
     }
     hull.surface.facets.push_back(std::move(loop));
   }

@@ -31,7 +31,8 @@ double quality_of(const std::array<Point<D>, D + 1>& p) {
       const Vector<D> edge = p[i] - p[j];
       squares += dot(edge, edge);
     }
-  const double mean = squares / (D * (D + 1) / 2);
+  constexpr double edge_count = D == 2 ? 3 : 6;
+  const double mean = squares / edge_count;
   if (!(mean > 0)) return 0;
   if constexpr (D == 2)
     return 2 / std::sqrt(3.0) * determinant(p) / mean;
