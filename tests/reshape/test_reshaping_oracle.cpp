@@ -95,8 +95,8 @@ TEST(ReshapingOracle, Level3D) {
   };
   const auto tally = run<3, test::Level_world>("level", oracle::scaled_count(8), make, counts);
   EXPECT_EQ(tally.wrong(), 0);
-  EXPECT_GT(tally.landed, 10);
-  EXPECT_GT(counts.rested, 50u);
+  EXPECT_GT(tally.landed, static_cast<int>(oracle::scaled_count(10)));
+  EXPECT_GT(counts.rested, oracle::scaled_count(50));
 }
 TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 14); }
 
