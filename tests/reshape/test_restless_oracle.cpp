@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -69,7 +70,9 @@ void expect_all_right(bool generic, std::size_t worlds) {
   auto& tally = seen.tally;
   const char* const kind = generic ? "generic" : "degenerate";
   constexpr int phases = 5;
-  const std::size_t count = oracle::scaled_count(worlds), printed_every = D == 2 ? 1000 : 100;
+  // Enough for all kinds of worlds under a sanitizer, too.
+  const std::size_t count = std::max(oracle::scaled_count(worlds), worlds / 4 + 1),
+                    printed_every = D == 2 ? 1000 : 100;
   for (; seen.worlds < count && tally.wrong() == 0; ++seen.worlds) {
     // Others than those of tests without edits.
     test::Restless_world<D> world(1000 + seen.worlds, generic);
