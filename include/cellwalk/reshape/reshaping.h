@@ -153,7 +153,7 @@ class Reshaping {
   ///        Error(input) for a target that is not finite
   /// Degenerate cases: all are decided; where a rim passes a vertex or edge exactly, it may end on either
   /// side, see docs/moving.md, touches. A target equal to the position is reached.
-  /// Cost: about 2 us with nothing near, 3 us in 10^6 cells that are not in the cache; some 20 signs more a
+  /// Cost: about 1 us with nothing near, 2 us in 10^6 cells that are not in the cache; some 20 signs more a
   /// wall that is near something; exact numbers for what is touched; on the boundary of the environment up to
   /// a few us more, and some 50 us near other parts of it. The first move in an environment takes 1 us for
   /// each of its points.
