@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "common/centre_lines.h"
 #include "common/seeds.h"
 #include "walls.h"
 
@@ -26,25 +26,6 @@ constexpr double soft_radius = 0.15;  ///< in radii of the trunk
 constexpr double least_gap = 0.005, most_gap = 0.1;
 constexpr double vessel_amplitude = 0.05;  ///< in distances from the centre line
 constexpr double patch_amplitude = 0.15;   ///< in sizes of cells
-
-struct Place {
-  Point<3> centre;
-  std::size_t tube;
-};
-
-/// The nearest point of the centre lines.
-Place centre_of(const std::vector<Tube>& tubes, const Point<3>& x) {
-  Place place{{}, 0};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < tubes.size(); ++k)
-    for (std::size_t i = 0; i + 1 < tubes[k].points.size(); ++i) {
-      const Point<3>& a = tubes[k].points[i];
-      const Vector<3> axis = tubes[k].points[i + 1] - a;
-      const Point<3> centre = a + std::clamp(dot(axis, x - a) / dot(axis, axis), 0.0, 1.0) * axis;
-      if (const double d = length(x - centre); d < least) least = d, place = {centre, k};
-    }
-  return place;
-}
 
 /// The point of a polyline at a share of its segments.
 Point<3> along(const Tube& tube, double share) {
@@ -152,7 +133,7 @@ void Scene::choose_movers(const Vessel_options& options, const std::vector<Tube>
   const bool is_patch = movers == Movers::one || movers == Movers::hundred;
   const auto points = snapshot().points();
   for (std::uint32_t i = 0; i < points.size() && !is_patch; ++i) {
-    const Place place = centre_of(tubes, points[i]);
+    const experiments::Centre_place place = experiments::centre_of(tubes, points[i]);
     if (movers == Movers::branch && place.tube + 1 != tubes.size()) continue;
     movers_.push_back({i, points[i], vessel_amplitude * (place.centre - points[i])});
   }
@@ -162,7 +143,7 @@ void Scene::choose_movers(const Vessel_options& options, const std::vector<Tube>
   std::ranges::sort(near);
   near.resize(std::min<std::size_t>(near.size(), movers == Movers::one ? 1 : 100));
   for (const auto& [distance, i] : near) {
-    const Vector<3> inward = normalized(centre_of(tubes, points[i]).centre - points[i]);
+    const Vector<3> inward = normalized(experiments::centre_of(tubes, points[i]).centre - points[i]);
     movers_.push_back({i, points[i], patch_amplitude * options.cell_size * inward});
   }
   std::ranges::sort(movers_, {}, &Mover::point);

@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "common/centre_lines.h"
 #include "common/order_statistics.h"
 #include "common/processor_time.h"
 
@@ -86,25 +86,6 @@ void layer(benchmark::State& state) {
   state.counters["vertices"] = static_cast<double>(back.size());
 }
 
-struct Place {
-  Point<3> centre;
-  std::size_t tube;
-};
-
-/// The nearest point of the centre lines.
-Place centre_of(const std::vector<Tube>& tubes, const Point<3>& x) {
-  Place place{{}, 0};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < tubes.size(); ++k)
-    for (std::size_t i = 0; i + 1 < tubes[k].points.size(); ++i) {
-      const Point<3>& a = tubes[k].points[i];
-      const Vector<3> axis = tubes[k].points[i + 1] - a;
-      const Point<3> centre = a + std::clamp(dot(axis, x - a) / dot(axis, axis), 0.0, 1.0) * axis;
-      if (const double d = length(x - centre); d < least) least = d, place = {centre, k};
-    }
-  return place;
-}
-
 constexpr double amplitude = 0.1;
 
 /// A vessel whose points go away from the centre lines and back, by a tenth of their distance. All of them,
@@ -116,7 +97,7 @@ void vessel(benchmark::State& state, bool of_one_branch) {
   std::vector<Vertex_move<3>> moves;
   std::vector<Point<3>> home, centre;
   for (std::uint32_t v = 0; v < snapshot.points().size(); ++v) {
-    const auto [nearest, tube] = centre_of(tubes, snapshot.point(v));
+    const auto [nearest, tube] = experiments::centre_of(tubes, snapshot.point(v));
     if (of_one_branch && tube + 1 != tubes.size()) continue;
     moves.push_back({v, {}});
     home.push_back(snapshot.point(v));

@@ -30,7 +30,8 @@ class Star_index {
 
   /// Sets `cells` to all cells that have a point, part after part; solid ones too. The order depends on the
   /// numbering of cells. They are kept for the next time.
-  /// Cost: at first about 0.4 us, later that of a copy. The first call takes 4 bytes for each point.
+  /// Cost: at first that of a search through these cells, later that of a copy. Memory: 4 bytes for each
+  /// point, and for each cell of the stars asked for.
   void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells);
 
   /// Follows an edit that replaces a cell by cells that cover it and have its vertices, and new ones. Forgets
