@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "resident_groups.h"
-#include "vertex_trial.h"
-#include "wall_hit.h"
+#include "move/vertex_trial.h"
+#include "move/wall_hit.h"
+#include "residents/resident_groups.h"
 
 namespace cellwalk {
 namespace {

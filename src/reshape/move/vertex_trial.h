@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The decision whether a vertex of the environment may move among residents, and how they are registered
 // then.
-#ifndef CELLWALK_RESHAPE_VERTEX_TRIAL_H
-#define CELLWALK_RESHAPE_VERTEX_TRIAL_H
+#ifndef CELLWALK_RESHAPE_MOVE_VERTEX_TRIAL_H
+#define CELLWALK_RESHAPE_MOVE_VERTEX_TRIAL_H
 
 #include <cellwalk/internal/edge/face_at_star.h>
 #include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/moving_star.h>
-#include <cellwalk/reshape/reshaping.h>
+#include <cellwalk/reshape/move.h>
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "resident_groups.h"
+#include "reshape/residents/resident_groups.h"
 
 namespace cellwalk::detail {
 
@@ -91,4 +91,4 @@ extern template class Vertex_trial<3>;
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_RESHAPE_VERTEX_TRIAL_H
+#endif  // CELLWALK_RESHAPE_MOVE_VERTEX_TRIAL_H

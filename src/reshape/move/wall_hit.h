@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The report of a hit.
-#ifndef CELLWALK_RESHAPE_WALL_HIT_H
-#define CELLWALK_RESHAPE_WALL_HIT_H
+#ifndef CELLWALK_RESHAPE_MOVE_WALL_HIT_H
+#define CELLWALK_RESHAPE_MOVE_WALL_HIT_H
 
 #include <cellwalk/internal/edge/moving_star.h>
-#include <cellwalk/reshape/reshaping.h>
+#include <cellwalk/reshape/move.h>
 
-#include "resident_groups.h"
+#include "reshape/residents/resident_groups.h"
 #include "vertex_trial.h"
 
 namespace cellwalk::detail {
@@ -18,4 +18,4 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_RESHAPE_WALL_HIT_H
+#endif  // CELLWALK_RESHAPE_MOVE_WALL_HIT_H

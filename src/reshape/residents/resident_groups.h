@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies and spans of particles alike, and which of their vertices and edges lie in a cell.
-#ifndef CELLWALK_RESHAPE_RESIDENT_GROUPS_H
-#define CELLWALK_RESHAPE_RESIDENT_GROUPS_H
+#ifndef CELLWALK_RESHAPE_RESIDENTS_RESIDENT_GROUPS_H
+#define CELLWALK_RESHAPE_RESIDENTS_RESIDENT_GROUPS_H
 
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/kernel/box.h>
@@ -98,4 +98,4 @@ extern template class Resident_groups<3>;
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_RESHAPE_RESIDENT_GROUPS_H
+#endif  // CELLWALK_RESHAPE_RESIDENTS_RESIDENT_GROUPS_H
