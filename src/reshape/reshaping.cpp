@@ -11,6 +11,7 @@
 #include "move/vertex_trial.h"
 #include "move/wall_hit.h"
 #include "residents/resident_groups.h"
+#include "toggle/toggle.h"
 
 namespace cellwalk {
 namespace {
@@ -28,7 +29,8 @@ struct Reshaping<D>::State {
       : options(given),
         groups(environment.snapshot(), residents),
         mover(environment),
-        trial(groups, counts) {}
+        trial(groups, counts),
+        toggle(environment, groups, counts.walk) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
@@ -39,6 +41,11 @@ struct Reshaping<D>::State {
                         std::vector<Wall_hit<D>>* hits = nullptr);
   bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   detail::Box<D> box_of_star(const Point<D>& target) const;
+  detail::Toggle<D>& restored_toggle();
+  void check_open() const {
+    if (!is_open)
+      throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
+  }
   void close();
 
   Reshape_options options;
@@ -46,6 +53,7 @@ struct Reshaping<D>::State {
   detail::Resident_groups<D> groups;
   detail::Vertex_mover<D> mover;
   detail::Vertex_trial<D> trial;
+  detail::Toggle<D> toggle;
   bool is_open = true;
 };
 
@@ -64,8 +72,7 @@ detail::Box<D> Reshaping<D>::State::box_of_star(const Point<D>& target) const {
 /// Moves the point to the target or leaves it where it is.
 template <int D>
 Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, Attempt kind) {
-  if (!is_open)
-    throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
+  check_open();
   const detail::Star_check check = mover.begin(point, target);
   ++counts.moves;
   counts.cells += mover.star().size();
@@ -171,6 +178,15 @@ bool Reshaping<D>::State::push(const Wall_hit<D>& hit, const Vector<D>& motion) 
   return has_moved;
 }
 
+/// Facets and cells change between moves only: all certificates are made anew, since what is written of the
+/// two cells of a facet must hold for both.
+template <int D>
+detail::Toggle<D>& Reshaping<D>::State::restored_toggle() {
+  check_open();
+  mover.restore();
+  return toggle;
+}
+
 template <int D>
 void Reshaping<D>::State::close() {
   if (!std::exchange(is_open, false)) return;
@@ -243,6 +259,26 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
 template <int D>
 Vertex_result<D> Reshaping<D>::ask(std::uint32_t point, const Point<D>& target) {
   return state_->attempt(point, target, State::Attempt::nothing);
+}
+
+template <int D>
+Change_result Reshaping<D>::open(Half_facet facet) {
+  return state_->restored_toggle().open(facet);
+}
+
+template <int D>
+Change_result Reshaping<D>::close(Half_facet facet) {
+  return state_->restored_toggle().close(facet);
+}
+
+template <int D>
+Change_result Reshaping<D>::excavate(Cell cell) {
+  return state_->restored_toggle().excavate(cell);
+}
+
+template <int D>
+Change_result Reshaping<D>::fill(Cell cell) {
+  return state_->restored_toggle().fill(cell);
 }
 
 template <int D>

@@ -26,6 +26,8 @@ template <int D>
 class Star_index;
 template <int D>
 class Vertex_mover;
+template <int D>
+class Wall_editor;
 }  // namespace detail
 
 /// The treatment of different points with equal coordinates.
@@ -78,7 +80,8 @@ class Environment {
   /// \throw Error(usage) once frozen
   const Map_storage<D>& storage() const;
   bool is_frozen() const { return !storage_; }
-  /// Drops the map: vertices can still be moved, but no facet be opened or closed, and no point inserted.
+  /// Drops the map: vertices can still be moved, but no facet be opened or closed, no cell be filled or
+  /// excavated, and no point inserted.
   void freeze();
 
   /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
@@ -105,6 +108,15 @@ class Environment {
   /// \param wall true: impassable
   /// Cost: constant.
   void set_impassable(Half_facet facet, bool wall);
+
+  /// Makes a solid cell free: its facets to free cells become passable, those to solid ones walls. A cell
+  /// that is free already stays as it is.
+  /// Cost: constant.
+  void excavate(Cell cell);
+  /// Makes a free cell solid: its facets to free cells become walls. A cell that is solid already stays as it
+  /// is. What lies in the cell is not looked at: see Reshaping for that.
+  /// Cost: constant.
+  void fill(Cell cell);
 
   /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar
   /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
@@ -147,6 +159,7 @@ class Environment {
   bool allow_duplicates_ = false;
 
   friend detail::Vertex_mover<D>;
+  friend detail::Wall_editor<D>;
 };
 
 extern template class Environment<2>;

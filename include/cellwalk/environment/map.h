@@ -47,6 +47,7 @@ class Dart_info {
   void set_cell(std::uint32_t cell) { cell_ = cell; }
   void set_half_facet(std::uint32_t half_facet) { half_facet_ = half_facet & (most_half_facets - 1); }
   void set_impassable(bool impassable) { impassable_ = impassable; }
+  void set_solid(bool solid) { solid_ = solid; }
 
   bool operator==(const Dart_info&) const = default;
 

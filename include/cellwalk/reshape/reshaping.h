@@ -7,6 +7,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/reshape/move.h>
 #include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/toggle.h>
 
 #include <cstdint>
 #include <memory>
@@ -51,6 +52,10 @@ struct Reshape_options {
 ///
 /// A move is made whole or not at all: an exact test of each wall at the vertex against each vertex, edge and
 /// face near it. Faces are looked at if the body was last moved with Sweep::faces (3D).
+///
+/// Between moves facets can be opened and closed, and cells filled and excavated, of any shape;
+/// docs/cutting.md has the theory. Each such change is made whole or not at all, and decided exactly: free
+/// space that grows is never refused, and free space that shrinks is refused with all that is in the way.
 template <int D>
 class Reshaping {
  public:
@@ -87,7 +92,39 @@ class Reshaping {
   /// Cost: that of move().
   Vertex_result<D> ask(std::uint32_t point, const Point<D>& target);
 
-  /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved after that.
+  /// Makes a wall between two free cells, or two solid ones, passable. Nothing that lies there can forbid it.
+  /// A facet of the boundary, or between a solid and a free cell, is not opened: that is a result with its
+  /// reason. One that is passable already stays so.
+  /// \throw Error(usage) if there is no such facet, if the environment is frozen, and after close()
+  /// Cost: about 1 us, and certificates as close() if vertices were moved before.
+  Change_result open(Half_facet facet);
+
+  /// Makes a facet a wall, seen from either side; not to be mistaken for close(), which ends all changes.
+  /// Refused if a vertex, an edge or a face would then be parted by it: all that lies on both sides of it for
+  /// good, as an edge that passes through its inside. What only touches the facet is registered on a side of
+  /// it from which the rest of its body can be reached. Of bodies in the plane, a face forbids walls inside
+  /// of it; of those in space, faces count if the body was last moved with Sweep::faces, and may have walls
+  /// between them. One that is a wall already stays so.
+  /// \throw Error as open(), and Error(usage) for a particle near that is not in its cell
+  /// Degenerate cases: all are decided; see docs/cutting.md.
+  /// Cost: about 1 us with nothing near; some signs an edge that passes it inside; exact numbers, up to a
+  /// millisecond, for an edge or face that touches it otherwise.
+  Change_result close(Half_facet facet);
+
+  /// Makes a solid cell free: its facets to free cells become passable, those to solid ones and on the
+  /// boundary stay walls or become such. Nothing can forbid it. A cell that is free already stays so.
+  /// \throw Error(usage) if there is no such cell, if the environment is frozen, and after close()
+  /// Cost: about 2 us.
+  Change_result excavate(Cell cell);
+
+  /// Makes a free cell solid: all its facets to free cells become walls. Refused if something lies in its
+  /// inside, or on its border with no free space beside it that it could be in as well. A cell that is solid
+  /// already stays so.
+  /// \throw Error as excavate(), and Error(usage) for a particle near that is not in its cell
+  /// Degenerate cases and cost: as close(Half_facet), of all its facets.
+  Change_result fill(Cell cell);
+
+  /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved or changed after that.
   /// Cost: about 0.3 us a cell around vertices that moved.
   void close();
 

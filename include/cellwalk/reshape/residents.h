@@ -6,6 +6,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/walk/particle.h>
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,8 @@ struct Resident {
   std::uint32_t owner = 0;  ///< position of the body in Residents::bodies, or of the span in its particles
   Body_feature feature = Body_feature::vertex;  ///< what of the body; a particle is a vertex
   std::uint32_t number = 0;                     ///< of the vertex, edge, face or particle
+
+  auto operator<=>(const Resident&) const = default;
 };
 
 }  // namespace cellwalk

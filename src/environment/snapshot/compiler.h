@@ -30,6 +30,13 @@ class Snapshot_compiler {
   /// Withdraws what planes and convex pairs certify of a cell, before its points move: all of it is decided
   /// exactly until Snapshot::update_geometry(). Also of the other sides of its facets.
   void withdraw(Cell c);
+  /// Makes a cell solid or free. Its facets are left as they are.
+  void set_solid(Cell c, bool solid) {
+    std::uint32_t& word = s_.shape_[to_index(c)];
+    word = solid ? word | Snapshot<D>::solid_bit : word & ~Snapshot<D>::solid_bit;
+    s_.clusters_.forget(c);
+    ++s_.epoch_;
+  }
   /// What the cluster of a cell knows was wrong if it was made since its points began to move.
   void forget_cluster(Cell c) { s_.clusters_.forget(c); }
   /// Raises the epochs, as an edit of points does.
