@@ -24,7 +24,9 @@ namespace cellwalk::detail {
 ///
 /// Rule: is_wrong(chain, end) rejects the beginning of a chain, which leads to the parameter `end`;
 /// limit_of(cell, facet, border) is that parameter if the segment passes the border; is_accepted(chain)
-/// decides about a whole chain; comes_before(cell, cell) orders the cells of sides that are not preferred.
+/// decides about a whole chain; comes_before(cell, cell) orders the cells of sides that are not preferred. It
+/// may have forbids(facet), for facets that are not to be passed although they are no walls, and
+/// admits(cell, t, end): whether the piece of the segment from t to end may lie in a cell that holds it.
 template <int D, class Rule>
 class Chain_search {
  public:
@@ -62,7 +64,8 @@ class Chain_search {
     const bool is_end = t == Fraction(1);
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < places.size(); ++k)
-      if (is_end ? links.cell(k) == q_.cell : places[k].holds_more) order.push_back(k);
+      if (is_end ? links.cell(k) == q_.cell : places[k].holds_more && admits(links.cell(k), t, places[k]))
+        order.push_back(k);
     if (!is_end)
       std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
         if (places[x].is_displaced != places[y].is_displaced) return places[x].is_displaced;
@@ -85,6 +88,20 @@ class Chain_search {
     return from(c, place.end, limit);
   }
 
+  bool admits(Cell c, const Fraction& t, const Place& place) const {
+    if constexpr (requires { rule_.admits(c, t, t); })
+      return rule_.admits(c, t, place.end);
+    else
+      return true;
+  }
+
+  bool may_pass(const Link_search<D>& links, std::size_t i) const {
+    if constexpr (requires { rule_.forbids(Half_facet::none); })
+      return !rule_.forbids(Snapshot<D>::half_facet(links.cell(), i));
+    else
+      return true;
+  }
+
   /// Finds the cells linked with the start of `links` at the point at t.
   std::vector<Place> find_places(Link_search<D>& links, const Fraction& t) {
     std::vector<Place> places;
@@ -104,7 +121,7 @@ class Chain_search {
       const int side_of_q = side<Exact>(cell, i, q_.position, counts_);
       place.holds_more &= side_of_q <= 0;
       place.is_displaced &= side_of_q < 0 || (side_of_q == 0 && displaced_side(cell, i) < 0);
-      return true;
+      return may_pass(links, i);
     };
     while (links.next()) {
       places.emplace_back();

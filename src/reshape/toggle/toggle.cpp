@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "shrinkage.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -70,14 +72,23 @@ template <int D>
 Change_result Toggle<D>::close(Half_facet facet) {
   editor_.check(facet);
   if (snapshot().is_impassable(facet)) return made();
-  return refused("not there yet");
+  if (!snapshot().is_solid(snapshot().cell_of(facet))) {
+    Change_result result = refused("something lies on both sides of the facet");
+    result.held_by = Shrinkage<D>(editor_, groups_, std::array{facet}, Cell::none, counts_).run();
+    return result.held_by.empty() ? made() : result;
+  }
+  editor_.set_wall(facet, true);
+  return made();
 }
 
 template <int D>
 Change_result Toggle<D>::fill(Cell cell) {
   editor_.check(cell);
   if (snapshot().is_solid(cell)) return made();
-  return refused("not there yet");
+  Change_result result = refused("something lies in the cell");
+  const std::vector<Half_facet> walls = editor_.passages(cell, false);
+  result.held_by = Shrinkage<D>(editor_, groups_, walls, cell, counts_).run();
+  return result.held_by.empty() ? made() : result;
 }
 
 template class Toggle<2>;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Whether facets may become walls among residents, and how these are registered then. Theory:
+// docs/cutting.md.
+#ifndef CELLWALK_RESHAPE_TOGGLE_SHRINKAGE_H
+#define CELLWALK_RESHAPE_TOGGLE_SHRINKAGE_H
+
+#include <cellwalk/internal/edge/closing.h>
+#include <cellwalk/internal/edge/closing_face.h>
+#include <cellwalk/internal/environment/wall_editor.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reshape/residents/resident_groups.h"
+#include "side_choice.h"
+
+namespace cellwalk::detail {
+
+/// One change: a facet that is closed, or a cell that is filled.
+template <int D>
+class Shrinkage {
+ public:
+  /// \param walls the facets that become walls, each seen from one side: of a cell to be filled, from there
+  /// \param filled that cell, or none
+  Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Half_facet> walls,
+            Cell filled, Walk_counts& counts);
+
+  /// Makes the change, and registers what is near, or leaves all as it is. Returns what forbids it, sorted;
+  /// nothing if it was made.
+  std::vector<Resident> run();
+
+ private:
+  /// A face near, whose corners are not collinear.
+  struct Near_face {
+    std::uint32_t number;
+    std::array<Point<D>, 3> corners;
+  };
+  struct Group {
+    std::uint32_t number;
+    Side_choice<D> choice;
+    std::vector<std::pair<std::uint32_t, Supporting_walls>> rests;
+  };
+  /// Edges along new walls, and points towards which faces extend from them.
+  using Tips = std::vector<std::pair<std::uint32_t, Point<D>>>;
+  bool touches(std::uint32_t group, std::uint32_t edge, bool& is_parted) const;
+  bool is_near(const std::array<Point<D>, 3>& corners) const;
+  void find_near_faces(std::uint32_t group);
+  bool is_parted(std::uint32_t group, const Near_face& face);
+  void add_sides(std::uint32_t group, const Near_face& face, Side_choice<D>& choice, Tips& tips) const;
+  std::vector<Resident> who_failed(std::uint32_t group, std::uint32_t edge, const Tips& tips) const;
+  void demand(std::uint32_t group, std::size_t choice, Side_choice<D>& of_group) const;
+  void try_group(std::uint32_t group);
+  bool stand(std::uint32_t group, Group& of_group, std::uint32_t& failed);
+  void make();
+  void take_back();
+
+  Wall_editor<D>& editor_;
+  const Snapshot<D>& snapshot_;
+  Resident_groups<D>& groups_;
+  std::span<const Half_facet> walls_;
+  Cell filled_;
+  Walk_counts& counts_;
+  std::vector<Half_facet> both_sides_;
+  Closing closing_;
+  Box<D> box_;
+  std::vector<Member> vertices_, edges_;
+  std::vector<Near_face> faces_;                                ///< of the group that is tried
+  std::vector<std::pair<std::uint32_t, Half_facet>> in_plane_;  ///< of these, with the wall that they overlap
+  std::vector<Group> free_;                                     ///< with what becomes of them
+  std::vector<Resident> held_by_;
+};
+
+extern template class Shrinkage<2>;
+extern template class Shrinkage<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_TOGGLE_SHRINKAGE_H

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The sides of new walls on which the vertices and edges of a body can be together. Theory: docs/cutting.md.
+#ifndef CELLWALK_RESHAPE_TOGGLE_SIDE_CHOICE_H
+#define CELLWALK_RESHAPE_TOGGLE_SIDE_CHOICE_H
+
+#include <cellwalk/internal/edge/closing.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "reshape/residents/resident_groups.h"
+
+namespace cellwalk::detail {
+
+/// Of one group. First all is added that may have to change, then complete() and find_holders(), then
+/// choose().
+template <int D>
+class Side_choice {
+ public:
+  Side_choice(const Snapshot<D>& snapshot, Resident_groups<D>& groups, std::uint32_t group,
+              const Closing& closing, Walk_counts& counts)
+      : snapshot_(snapshot), groups_(groups), group_(group), closing_(closing), counts_(counts) {}
+
+  void add_vertex(std::uint32_t vertex);
+  void add_edge(std::uint32_t edge);
+  /// A face of an edge that was added extends from it towards a point.
+  void add_tip(std::uint32_t edge, const Point<D>& tip);
+  /// Adds the edges of all vertices that may change their side, and so on.
+  void complete();
+  /// Appends the vertices and edges that can be on no side, whatever others do.
+  void find_holders(std::vector<Resident>& held_by);
+
+  /// In one of these closed facets an edge that was added must be on the side of its cell; until
+  /// forget_demands().
+  void demand(std::uint32_t edge, Half_facet at);
+  void forget_demands();
+  /// Finds sides for all. False if there are none, or after so many tries.
+  bool choose();
+  /// An edge that was without a side when the last choice failed.
+  std::uint32_t failed() const { return failed_; }
+
+  // As chosen.
+  const Particle<D>& particle(std::uint32_t vertex) const;
+  const Chain& chain(std::uint32_t edge);
+  void commit();
+
+ private:
+  static constexpr int most_tries = 256;
+  struct Vertex {
+    std::vector<Particle<D>> sides;
+    std::vector<bool> may_be;  ///< on that side, as far as is known
+  };
+  struct Edge {
+    std::vector<Point<D>> tips;
+    std::vector<Half_facet> at;
+    std::map<std::pair<std::size_t, std::size_t>, std::optional<Chain>> chains;  ///< by sides of its ends
+  };
+  using Vertices = std::map<std::uint32_t, Vertex>;
+
+  bool may_change(std::uint32_t vertex) const;
+  const std::optional<Chain>& chain_between(std::uint32_t edge, std::size_t of_u, std::size_t of_v);
+  bool narrow();
+  bool solve();
+  static std::size_t chosen(const Vertex& vertex);
+
+  const Snapshot<D>& snapshot_;
+  Resident_groups<D>& groups_;
+  std::uint32_t group_;
+  const Closing& closing_;
+  Walk_counts& counts_;
+  Vertices vertices_;
+  std::map<std::uint32_t, Edge> edges_;
+  std::uint32_t failed_ = 0;
+  int tries_ = 0;
+};
+
+extern template class Side_choice<2>;
+extern template class Side_choice<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_TOGGLE_SIDE_CHOICE_H
