@@ -4,7 +4,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/boundary_index.h>
-#include <cellwalk/internal/environment/flatten.h>
+#include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "environment/certify/complex.h"
-#include "environment/map/edit_map.h"
 
 namespace cellwalk {
 namespace {
@@ -199,48 +198,33 @@ void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) 
 
 template <int D>
 std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& position) {
-  Map_storage<D>& storage = editable();
-  Map<D>& map = storage.map;
+  editable();
   check_cell_name(cell);
   check_finite<D>(position);
   const Cell_view<D> view = snapshot_.view(cell);
-  std::vector<Dart<D>> facets;
+  const std::uint32_t point = snapshot_.next_point();
+  const bool is_solid = snapshot_.is_solid(cell);
+  Cell_soup<D> soup;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     if (!is_strictly_inside(view, i, position))
       throw Error(Error_code::not_certified, "the new point does not lie strictly inside cell " +
                                                  std::to_string(snapshot_.index(cell)) + ": facet " +
                                                  std::to_string(i) + " is in the way");
-    facets.push_back(storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))]);
+    const std::vector<std::uint32_t> base = snapshot_.loop(Snapshot<D>::half_facet(cell, i));
+    soup.add_facet(base);
+    if constexpr (D == 2) {
+      soup.add_facet({base[1], point});
+      soup.add_facet({point, base[0]});
+    } else {
+      for (std::size_t k = 0; k < base.size(); ++k)
+        soup.add_facet({base[k + 1 == base.size() ? 0 : k + 1], base[k], point});
+    }
+    soup.end_cell(is_solid);
   }
   // A pyramid over a planar convex facet with its apex strictly inside is exactly convex and positive:
   // nothing is left to check.
-  const std::uint32_t point = snapshot_.add_point(position);
-  insert_vertex_in_cell<D>(storage, facets, point, position);
-  const Flat_cells<D> flat = flatten_cells<D>(storage, facets);
-  std::vector<Half_facet> slots;
-  const std::array<Cell, 1> removed{cell};
-  using Boundary = detail::Boundary_index<D>;
-  const std::vector<Half_facet> old_boundary = Boundary::facets(snapshot_, removed);
-  std::vector<Cell> added = snapshot_.replace_cells(removed, flat.soup, flat.gluing, &slots);
-  if (boundary_)
-    follow<D>(boundary_, [&](Boundary& index) {
-      index.replace(snapshot_, old_boundary, Boundary::facets(snapshot_, added));
-    });
-  if (stars_) stars_->replace(snapshot_, cell, added);
-
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    storage.dart_of_half_facet[to_index(snapshot_.half_facet(cell, i))] = Dart<D>{};
-  storage.dart_of_half_facet.resize(snapshot_.half_facet_slots(), Dart<D>{});
-  storage.cell_count = snapshot_.cell_count();
-  for (std::size_t f = 0; f < slots.size(); ++f) {
-    storage.dart_of_half_facet[to_index(slots[f])] = flat.darts[f];
-    const std::uint32_t index = snapshot_.index(snapshot_.cell_of(slots[f]));
-    for_each_dart_of_half_facet<D>(map, flat.darts[f], [&](Dart<D> d) {
-      map.info(d).set_cell(index);
-      map.info(d).set_half_facet(to_index(slots[f]));
-    });
-  }
-  return added;
+  return detail::Cell_patcher<D>(*this).replace(std::array<Cell, 1>{cell}, soup, detail::glue_patch(soup),
+                                                position);
 }
 
 // The class as a whole is instantiated in environment.cpp.

@@ -23,6 +23,8 @@ namespace detail {
 template <int D>
 class Boundary_index;
 template <int D>
+class Cell_patcher;
+template <int D>
 class Star_index;
 template <int D>
 class Vertex_mover;
@@ -158,6 +160,7 @@ class Environment {
   std::unique_ptr<detail::Star_index<D>> stars_;
   bool allow_duplicates_ = false;
 
+  friend detail::Cell_patcher<D>;
   friend detail::Vertex_mover<D>;
   friend detail::Wall_editor<D>;
 };

@@ -99,16 +99,18 @@ struct Map_storage {
 
   Map<D> map;
   std::size_t cell_count = 0;
+  std::size_t cell_slots = 0;  ///< upper bound of the indices of cells, see Snapshot::cell_slots()
   /// First dart of each half-facet of the snapshot; Dart<D>{} for unused slots.
   std::vector<Dart<D>> dart_of_half_facet;
-  /// The vertex of each point: of its lowest cell, if the point is pinched.
+  /// The vertex of each point: of its lowest cell, if the point is pinched; Map_vertex<D>{} of one that an
+  /// edit removed.
   std::vector<Map_vertex<D>> vertex_of_point;
   /// The other vertices of pinched points, sorted by point.
   std::vector<std::pair<std::uint32_t, Map_vertex<D>>> pinched;
 
   /// Index of the point a dart starts from.
   std::uint32_t point_of(Const_dart<D> d) const { return map.template info<0>(d); }
-  /// All vertices of a point: more than one if it is pinched.
+  /// All vertices of a point: more than one if it is pinched, none if it was removed.
   std::vector<Map_vertex<D>> vertices_of(std::uint32_t point) const;
 };
 

@@ -131,6 +131,11 @@ class Snapshot {
   // --- points
   std::span<const Point<D>> points() const { return points_; }
   const Point<D>& point(std::uint32_t index) const { return points_[index]; }
+  /// False for a point that an edit removed: no cell has it, its position means nothing, and a later edit may
+  /// reuse its index.
+  bool is_point(std::uint32_t index) const {
+    return index < points_.size() && (free_points_.empty() || !free_points_.contains(index));
+  }
 
   // --- certificates
   /// The planes of the facets in lanes, and the box in which their error bound holds.
@@ -181,11 +186,14 @@ class Snapshot {
   void set_impassable(Half_facet f, bool wall);
   /// Moves a point; call update_geometry() for all cells that contain it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
-  /// Appends a point and returns its index.
-  std::uint32_t add_point(const Point<D>& position) {
-    points_.push_back(position);
-    return static_cast<std::uint32_t>(points_.size() - 1);
+  /// The index that the next new point gets: that of the lowest point removed, or that after the last one.
+  std::uint32_t next_point() const {
+    return free_points_.empty() ? static_cast<std::uint32_t>(points_.size()) : *free_points_.begin();
   }
+  /// Adds a point and returns its index, next_point().
+  std::uint32_t add_point(const Point<D>& position);
+  /// Gives the index of a point that no cell has to later ones.
+  void remove_point(std::uint32_t index) { free_points_.insert(index); }
   /// Recomputes the data of cells that depend on positions: the starting vertices of loops (the first D
   /// vertices must not be collinear), planes and convex-pair bits. Half-facets keep their names.
   /// \param cells all cells with a moved point
@@ -233,7 +241,7 @@ class Snapshot {
   /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
   Free_runs free_blocks_, free_vertices_;
-  std::set<std::uint32_t> free_indices_;
+  std::set<std::uint32_t> free_indices_, free_points_;
 
   [[noreturn]] static void refuse_edited(const char* what_and_advice);
   Cell add_cell(const Canonical_cell& cell, std::uint32_t index, bool solid);

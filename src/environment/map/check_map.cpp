@@ -34,7 +34,7 @@ class Checker {
     if (storage_.dart_of_half_facet[slot] == Dart<D>{}) return tally;
     const Const_dart<D> first = storage_.dart_of_half_facet[slot];
     const Dart_info& info = map_.info(first);
-    bool good = info.half_facet() == slot && info.cell() < storage_.cell_count;
+    bool good = info.half_facet() == slot && info.cell() < storage_.cell_slots;
     // Links are followed only as long as they are valid, since a damaged loop might not end.
     Const_dart<D> d = first;
     do {
@@ -113,7 +113,8 @@ void check_vertices(const Map_storage<D>& storage) {
     references += map.template get_attribute_ref_counting<0>(v);
     ++vertices;
   };
-  for (std::uint32_t p = 0; p < storage.vertex_of_point.size(); ++p) check(p, storage.vertex_of_point[p]);
+  for (std::uint32_t p = 0; p < storage.vertex_of_point.size(); ++p)
+    if (storage.vertex_of_point[p] != Map_vertex<D>{}) check(p, storage.vertex_of_point[p]);
   for (const auto& [point, vertex] : storage.pinched) check(point, vertex);
   if (vertices != map.template number_of_attributes<0>() || references != map.number_of_darts())
     refuse("there are vertices or darts that no cell knows");

@@ -222,6 +222,7 @@ void create_darts(Map_storage<D>& storage, const Cell_soup<D>& soup, const Gluin
 
 template <int D>
 std::vector<Map_vertex<D>> Map_storage<D>::vertices_of(std::uint32_t point) const {
+  if (vertex_of_point[point] == Map_vertex<D>{}) return {};
   std::vector<Map_vertex<D>> result{vertex_of_point[point]};
   auto it = std::lower_bound(pinched.begin(), pinched.end(), point,
                              [](const auto& entry, std::uint32_t p) { return entry.first < p; });
@@ -235,7 +236,7 @@ std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing
     throw Error(Error_code::input, "more than 2^29 facets of cells: split the environment");
   if constexpr (D == 2) check_chains(soup);
   auto storage = std::make_unique<Map_storage<D>>();
-  storage->cell_count = soup.cell_count();
+  storage->cell_count = storage->cell_slots = soup.cell_count();
   create_darts(*storage, soup, gluing);
   if constexpr (D == 3) link_cells(*storage, soup);
   for_each_parallel(soup.facet_count(), [&](std::size_t f) {

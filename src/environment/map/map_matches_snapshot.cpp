@@ -51,13 +51,14 @@ void check_map_matches_snapshot(const Map_storage<D>& storage, const Snapshot<D>
     throw Error(Error_code::other,
                 "map and snapshot differ " + what + "; edit them through Environment only");
   };
-  if (storage.cell_count != snapshot.cell_count() ||
+  if (storage.cell_count != snapshot.cell_count() || storage.cell_slots != snapshot.cell_slots() ||
       storage.dart_of_half_facet.size() != snapshot.half_facet_slots() ||
       storage.vertex_of_point.size() != snapshot.points().size())
     refuse("in the number of their cells or points");
   std::size_t half_facets = 0;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
+    if (c == Cell::none) continue;
     bool same = snapshot.index(c) == i;
     for (std::size_t k = 0; same && k < snapshot.facet_count(c); ++k, ++half_facets)
       same = is_same_half_facet(storage, snapshot, snapshot.half_facet(c, k));
@@ -67,11 +68,14 @@ void check_map_matches_snapshot(const Map_storage<D>& storage, const Snapshot<D>
   if (half_facets != static_cast<std::size_t>(std::count_if(storage.dart_of_half_facet.begin(),
                                                             storage.dart_of_half_facet.end(), is_used)))
     refuse("in the number of their facets");
-  for (std::uint32_t p = 0; p < storage.vertex_of_point.size(); ++p)
+  for (std::uint32_t p = 0; p < storage.vertex_of_point.size(); ++p) {
+    if (snapshot.is_point(p) == (storage.vertex_of_point[p] == Map_vertex<D>{}))
+      refuse("in whether there is point " + std::to_string(p));
     for (const Map_vertex<D> v : storage.vertices_of(p))
       for (int i = 0; i < D; ++i)
         if (storage.map.point_of_vertex_attribute(v)[i] != snapshot.point(p)[i])
           refuse("in the position of point " + std::to_string(p));
+  }
 }
 
 template void check_map_matches_snapshot(const Map_storage<2>&, const Snapshot<2>&);

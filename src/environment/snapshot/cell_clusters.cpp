@@ -16,6 +16,8 @@ constexpr std::size_t walls_a_cluster = 48;
 constexpr std::size_t least_size = 16, most_size = std::size_t{1} << 14;
 /// So many blocks, at even distances, tell how many walls there are.
 constexpr std::size_t samples = 4096;
+/// The table has room for this share of further names.
+constexpr std::size_t share_of_room = 4;
 
 template <int D>
 std::uint32_t cluster_size(const Snapshot<D>& snapshot) {
@@ -45,12 +47,17 @@ T& publish(std::atomic<T*>& place, std::unique_ptr<T> made) {
 template <int D>
 struct Cell_clusters<D>::Table {
   explicit Table(const Snapshot<D>& snapshot)
-      : size(cluster_size(snapshot)), made(snapshot.half_facet_slots() / 4 / size + 1) {}
+      : size(cluster_size(snapshot)), made(number_of(snapshot) + number_of(snapshot) / share_of_room + 1) {}
   ~Table() {
     for (const auto& cluster : made) delete cluster.load();
   }
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
+
+  /// So many clusters have names that are given out.
+  std::size_t number_of(const Snapshot<D>& snapshot) const {
+    return snapshot.half_facet_slots() / 4 / size + 1;
+  }
 
   const std::uint32_t size;  ///< names of cells a cluster
   std::vector<std::atomic<const Cell_cluster<D>*>> made;
@@ -59,6 +66,11 @@ struct Cell_clusters<D>::Table {
 template <int D>
 void Cell_clusters<D>::clear() {
   delete table_.exchange(nullptr);
+}
+
+template <int D>
+void Cell_clusters<D>::follow_slots(const Snapshot<D>& snapshot) {
+  if (const Table* table = table_.load(); table && table->made.size() < table->number_of(snapshot)) clear();
 }
 
 template <int D>
@@ -74,7 +86,7 @@ const typename Cell_clusters<D>::Table& Cell_clusters<D>::table(const Snapshot<D
 
 template <int D>
 std::uint32_t Cell_clusters<D>::size(const Snapshot<D>& snapshot) const {
-  return static_cast<std::uint32_t>(table(snapshot).made.size());
+  return static_cast<std::uint32_t>(table(snapshot).number_of(snapshot));
 }
 
 template <int D>

@@ -163,6 +163,17 @@ Cell Snapshot<D>::add_cell(const Canonical_cell& cell, std::uint32_t index, bool
 }
 
 template <int D>
+std::uint32_t Snapshot<D>::add_point(const Point<D>& position) {
+  const std::uint32_t index = next_point();
+  if (index == points_.size())
+    points_.push_back(position);
+  else
+    points_[index] = position;
+  free_points_.erase(index);
+  return index;
+}
+
+template <int D>
 std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                              const Gluing& gluing, std::vector<Half_facet>* slots) {
   // All checks of the input come first.
@@ -180,8 +191,14 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     }
   }
   std::vector<bool> open_is_wall;
+  std::vector<std::vector<std::uint32_t>> open_loops;
   open_is_wall.reserve(open.size());
-  for (const Half_facet g : open) open_is_wall.push_back(is_impassable(g));
+  open_loops.reserve(open.size());
+  for (const Half_facet g : open) {
+    open_is_wall.push_back(is_impassable(g));
+    open_loops.push_back(loop(g));
+    clusters_.forget(cell_of(g));
+  }
 
   // The indices of the removed cells in their order, then the lowest free ones, then new ones.
   std::vector<std::uint32_t> indices;
@@ -194,7 +211,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   for (auto next = static_cast<std::uint32_t>(cell_of_index_.size()); indices.size() < cells.size(); ++next)
     indices.push_back(next);
 
-  clusters_.clear();
+  for (const Cell c : removed) clusters_.forget(c);
   Snapshot_compiler<D> compiler(*this);
   Free_runs left_blocks, left_vertices;
   for (const Cell c : removed) {
@@ -212,6 +229,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     for (std::size_t k = 0; k < cells[c].facets.size(); ++k)
       slot[cells[c].facets[k]] = half_facet(added.back(), k);
   }
+  clusters_.follow_slots(*this);
   // Not before: a name removed by this call must not be reused by it.
   free_blocks_.merge(left_blocks);
   free_vertices_.merge(left_vertices);
@@ -226,8 +244,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
     compiler.link_boundary(slot[f]);
     const std::vector<std::uint32_t> own = loop(slot[f]);
     for (std::size_t i = 0; i < open.size(); ++i) {
-      std::vector<std::uint32_t> other = loop(open[i]);
-      if (!std::is_permutation(own.begin(), own.end(), other.begin(), other.end())) continue;
+      if (!std::is_permutation(own.begin(), own.end(), open_loops[i].begin(), open_loops[i].end())) continue;
       compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
       break;
     }

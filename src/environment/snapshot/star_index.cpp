@@ -125,6 +125,7 @@ void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point,
     return;
   }
   append_parts(snapshot, point, cells);
+  cells_.push_back(Cell{point});
   const auto begin = static_cast<std::uint32_t>(cells_.size());
   cells_.insert(cells_.end(), cells.begin(), cells.end());
   cells_.push_back(Cell::none);
@@ -132,17 +133,66 @@ void Star_index<D>::find_cells(const Snapshot<D>& snapshot, std::uint32_t point,
 }
 
 template <int D>
-void Star_index<D>::replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added) {
-  kept_.clear();
-  cells_.clear();
+std::vector<std::pair<std::uint32_t, Cell>>::iterator Star_index<D>::parts_of(std::uint32_t point) {
+  return std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
+}
+
+/// Drops what was kept of a point.
+template <int D>
+void Star_index<D>::forget(std::uint32_t point) {
+  if (point >= kept_.size() || kept_[point] == none) return;
+  std::size_t end = kept_[point];
+  while (cells_[end] != Cell::none) ++end;
+  outdated_ += end - kept_[point] + 2;
+  kept_[point] = none;
+}
+
+/// Makes the room of what was dropped free.
+template <int D>
+void Star_index<D>::compact() {
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < cells_.size();) {
+    const std::uint32_t point = to_index(cells_[i]);
+    const bool is_kept = kept_[point] == i + 1;
+    if (is_kept) kept_[point] = static_cast<std::uint32_t>(end + 1);
+    bool is_end = false;
+    for (; !is_end; ++i) {
+      is_end = cells_[i] == Cell::none;
+      if (is_kept) cells_[end++] = cells_[i];
+    }
+  }
+  cells_.resize(end);
+  outdated_ = 0;
+}
+
+template <int D>
+void Star_index<D>::replace(const Snapshot<D>& snapshot, std::span<const Cell> removed,
+                            std::span<const std::uint32_t> points, std::span<const Cell> added) {
+  const auto is_removed = [&](Cell c) { return std::ranges::find(removed, c) != removed.end(); };
   first_.resize(snapshot.points().size(), Cell::none);
+  for (const std::uint32_t point : points) {
+    forget(point);
+    if (is_removed(first_[point])) first_[point] = Cell::none;
+    for (auto part = parts_of(point); part != other_parts_.end() && part->first == point; ++part)
+      if (is_removed(part->second)) part->second = Cell::none;
+  }
   for (const Cell c : added)
     for (const std::uint32_t point : snapshot.view(c).vertices) {
-      if (first_[point] == Cell::none || first_[point] == removed) first_[point] = c;
-      for (auto part = std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
-           part != other_parts_.end() && part->first == point; ++part)
-        if (part->second == removed) part->second = c;
+      auto part = parts_of(point);
+      while (part != other_parts_.end() && part->first == point && part->second != Cell::none) ++part;
+      if (part != other_parts_.end() && part->first == point)
+        part->second = c;
+      else if (first_[point] == Cell::none)
+        first_[point] = c;
     }
+  // Parts that no new cell has.
+  for (const std::uint32_t point : points)
+    for (auto part = parts_of(point); part != other_parts_.end() && part->first == point;) {
+      if (first_[point] == Cell::none) std::swap(first_[point], part->second);
+      part = part->second == Cell::none ? other_parts_.erase(part) : part + 1;
+    }
+  constexpr std::size_t least = 4096;
+  if (cells_.size() > least && outdated_ > cells_.size() / 2) compact();
 }
 
 template class Star_index<2>;

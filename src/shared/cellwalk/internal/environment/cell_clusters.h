@@ -39,9 +39,10 @@ class Cell_clusters {
   /// The number of a cell's cluster, of the snapshot that has these clusters.
   std::uint32_t cluster_of(const Snapshot<D>& snapshot, Cell cell) const;
   const Cell_cluster<D>& cluster(const Snapshot<D>& snapshot, std::uint32_t number) const;
-  /// A cell changes: its walls, its neighbours, or the positions of its vertices.
+  /// A cell changes: its walls, its neighbours, or the positions of its vertices; or it goes or comes.
   void forget(Cell cell);
-  /// Names of cells are given out or taken back.
+  /// Names may have been given out beyond those that there were.
+  void follow_slots(const Snapshot<D>& snapshot);
   void clear();
 
  private:

@@ -34,18 +34,27 @@ class Star_index {
   /// point, and for each cell of the stars asked for.
   void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells);
 
-  /// Follows an edit that replaces a cell by cells that cover it and have its vertices, and new ones. Forgets
-  /// all that was kept.
-  void replace(const Snapshot<D>& snapshot, Cell removed, std::span<const Cell> added);
+  /// Follows an edit that replaces cells by others that cover the same region.
+  /// \param points those of the removed cells
+  /// \pre the removed cells at a point are linked through facets that have it
+  /// Cost: that of the cells.
+  void replace(const Snapshot<D>& snapshot, std::span<const Cell> removed,
+               std::span<const std::uint32_t> points, std::span<const Cell> added);
 
  private:
+  using Part = std::pair<std::uint32_t, Cell>;
+  std::vector<Part>::iterator parts_of(std::uint32_t point);
+  void forget(std::uint32_t point);
+  void compact();
   void append_parts(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells) const;
 
   static constexpr std::uint32_t none = 0xffffffffu;
-  std::vector<Cell> first_;                                  ///< of each point
-  std::vector<std::pair<std::uint32_t, Cell>> other_parts_;  ///< by point
+  std::vector<Cell> first_;          ///< of each point
+  std::vector<Part> other_parts_;    ///< by point
   std::vector<std::uint32_t> kept_;  ///< of each point: where its cells begin in `cells_`, or none
-  std::vector<Cell> cells_;          ///< of points asked for, each ended by Cell::none
+  /// Of points asked for: the index of the point, its cells, and Cell::none.
+  std::vector<Cell> cells_;
+  std::size_t outdated_ = 0;  ///< entries of `cells_`
 };
 
 extern template class Star_index<2>;
