@@ -194,6 +194,23 @@ bool meets_off_start(std::span<const Point<D>> simplex, std::span<const Point<D>
   return std::any_of(corners.begin(), corners.end(), [](const Row& x) { return x[1] != 0; });
 }
 
+std::optional<Fraction> passing_time(const Point<3>& from, const Point<3>& to,
+                                     std::span<const Point<3>> triangle) {
+  if (boxes_apart<3>(std::array{from, to}, triangle)) return {};
+  // from + s (to - from) is a weighted mean of the corners.
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Row& row = rows.emplace_back(Row{Fraction(from[k]) - Fraction(to[k])});
+    for (const Point<3>& x : triangle) row.emplace_back(x[k]);
+    row.emplace_back(from[k]);
+  }
+  rows.push_back({0, 1, 1, 1, 1});
+  const auto solution = solve(std::move(rows));
+  if (!solution || (*solution)[0] >= 1) return {};
+  if (std::any_of(solution->begin(), solution->end(), [](const Fraction& x) { return x <= 0; })) return {};
+  return solution->front();
+}
+
 template <int D>
 bool lies_inside(std::span<const Point<D>> facet, const Point<D>& x) {
   if (boxes_apart<D>(facet, std::span(&x, 1))) return false;

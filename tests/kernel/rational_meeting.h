@@ -44,6 +44,11 @@ std::optional<Fraction> first_time(std::span<const Point<D>> simplex, std::span<
 template <int D>
 bool meets_off_start(std::span<const Point<D>> simplex, std::span<const Point<D>> set);
 
+/// The time in (0,1) at which a point that moves passes an inner point of a triangle; none if it does not, or
+/// if it moves in the plane of that.
+std::optional<Fraction> passing_time(const Point<3>& from, const Point<3>& to,
+                                     std::span<const Point<3>> triangle);
+
 /// Sign of the volume that D+1 points span.
 template <int D>
 int volume_sign(std::span<const Point<D>> points);

@@ -141,15 +141,20 @@ class Wall_judge {
       }
     }
     if (target == from || result.inverts_cell) return result;
+    const auto note = [&](const Fraction& time, bool is_face) {
+      if (!result.first || time < *result.first) result.first = time;
+      if (is_face && (!result.first_of_faces || time < *result.first_of_faces)) result.first_of_faces = time;
+    };
     const auto hold_against = [&](std::span<const Point<D>> set) {
+      // Walls that all move in their own planes pass a face with the vertex.
+      if constexpr (D == 3)
+        if (set.size() == 3 && !swept.empty())
+          if (const auto time = passing_time(from, target, set)) note(*time, true);
       for (const auto& simplex : swept) {
         const Relation met = relation_by_clipping<D>(simplex, set);
         result.is_met |= met != Relation::apart;
         if (met != Relation::hit) continue;
-        const auto time = first_time<D>(simplex, set);
-        if (!result.first || *time < *result.first) result.first = time;
-        if (set.size() == 3 && (!result.first_of_faces || *time < *result.first_of_faces))
-          result.first_of_faces = time;
+        note(*first_time<D>(simplex, set), set.size() == 3);
       }
     };
     // A wall that starts in a vertex, and moves to the side on which that is.

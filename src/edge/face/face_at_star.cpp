@@ -3,6 +3,8 @@
 #include <cellwalk/internal/kernel/predicates.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "find_supporting_walls.h"
 #include "triangle_in_plane.h"
@@ -68,21 +70,89 @@ class Resting_face {
   Supporting_walls walls_;
 };
 
+/// The vertex on its way through the plane of a face, which it leaves for a side.
+class Passing_vertex {
+ public:
+  Passing_vertex(const Moving_star<3>& star, const std::array<Point<3>, 3>& corners)
+      : star_(star), corners_(corners), to_side_(side(star.to())) {
+    if (to_side_ == 0 || side(star.from()) * to_side_ > 0) return;
+    // Barycentric coordinates of the place, but for a common factor.
+    int least = 1, most = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int s = Exact::orientation(star.counts().predicates, star.from(), star.to(), corners[(k + 1) % 3],
+                                       corners[(k + 2) % 3]);
+      least = std::min(least, s);
+      most = std::max(most, s);
+    }
+    is_in_closed_ = least * most >= 0;
+    is_inside_ = least * most > 0;
+  }
+
+  /// Whether that place is an inner point of the face.
+  bool is_inside() const { return is_inside_; }
+  /// Whether it is one of its points.
+  bool is_in_closed() const { return is_in_closed_; }
+
+  /// Whether a wall goes through the place as soon as the vertex has passed it.
+  bool draws(const Moving_wall<3>& wall) const {
+    const auto& still = wall.swept.corners();
+    return wall.swept.is_flat() && (side(still[2]) * to_side_ < 0 || side(still[3]) * to_side_ < 0);
+  }
+
+  /// \pre is_in_closed()
+  Star_block block(std::size_t wall) const {
+    const auto& [p, q, r] = corners_;
+    const Ring before = Exact_value::orientation(p, q, r, star_.from());
+    const Ring after = Exact_value::orientation(p, q, r, star_.to());
+    std::vector<Ring> weights;
+    for (std::size_t k = 0; k < 3; ++k)
+      weights.push_back(CGAL::abs(
+          Exact_value::orientation(star_.from(), star_.to(), corners_[(k + 1) % 3], corners_[(k + 2) % 3])));
+    return {wall, {Fraction(before, before - after), {Ring(1), Ring(0), Ring(0)}, std::move(weights)}};
+  }
+
+ private:
+  int side(const Point<3>& x) const {
+    return Exact::orientation(star_.counts().predicates, corners_[0], corners_[1], corners_[2], x);
+  }
+
+  const Moving_star<3>& star_;
+  const std::array<Point<3>, 3>& corners_;
+  int to_side_;
+  bool is_inside_ = false, is_in_closed_ = false;
+};
+
 }  // namespace
+
+std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
+                                                const std::array<Point<3>, 3>& corners) {
+  const Passing_vertex vertex(star, corners);
+  if (!vertex.is_inside()) return {};
+  for (std::size_t w = 0; w < star.walls().size(); ++w)
+    if (vertex.draws(star.walls()[w])) return vertex.block(w);
+  return {};
+}
 
 Face_at_star face_at_star(const Moving_star<3>& star, const std::array<Particle<3>, 3>& corners,
                           const Face_chains& chains, const Supporting_walls& before) {
   const auto& [p, q, r] = corners;
   if (are_collinear(p.position, q.position, r.position)) return {true, {}, {}};
-  const Triangle_in_plane triangle({p.position, q.position, r.position}, star.counts());
+  const std::array points{p.position, q.position, r.position};
+  const Triangle_in_plane triangle(points, star.counts());
   Resting_face face(star, triangle, before);
   for (std::size_t w = 0; w < star.walls().size(); ++w)
-    if (!face.follow(star.walls()[w])) return {false, w, {}};
+    if (!face.follow(star.walls()[w]))
+      return {false, Star_block{w, star.walls()[w].swept.first_hit(points)}, {}};
   Face_counts counts;
   const Face_registration found =
       stand_face(star.snapshot(), p, q, r, chains, face.walls(), Known::binding, counts);
   star.counts() += counts.walk;
-  if (found.piercing != Half_facet::none) return {};
+  if (found.piercing != Half_facet::none) {
+    const std::size_t wall = star.wall_of(found.piercing);
+    const Passing_vertex vertex(star, points);
+    if (wall == star.walls().size() || !vertex.is_in_closed() || !vertex.draws(star.walls()[wall])) return {};
+    return {false, vertex.block(wall), {}};
+  }
   return {true, {}, found.supporting_walls};
 }
 

@@ -188,28 +188,29 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     return true;
   }
   if (met.meeting == Encounter::touch) {
-    // Once something is in the way, all that matters is what else is hit.
-    if (obstruction_.meeting != Encounter::apart) return false;
-    Face_at_star result = after(star, face);
+    Face_at_star result = after(star, face, points);
     if (result.is_free) {
       ++counts_.rested;
       rests_.emplace_back(face, std::move(result.supporting_walls));
       return true;
     }
-    if (result.wall) {
-      met.meeting = Encounter::hit;
-      met.wall = *result.wall;
-      if (!any_) met.hit = star.walls()[met.wall].swept.first_hit(points);
-    }
+    // Once something is in the way, all that matters is what else is hit.
+    if (!result.block && obstruction_.meeting != Encounter::apart) return false;
+    take(result.block, met);
   }
   block(std::move(met), face, Body_feature::face);
   return false;
 }
 
-/// A face that walls touch, whose corners and edges are free.
+/// A face that walls touch. If something is in the way already, its corners or edges need not be free, and
+/// what rests on walls is not asked.
 template <int D>
-Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face) {
+Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face,
+                                    std::span<const Point<D>> points) {
   if constexpr (D == 3) {
+    if (auto block = face_passed_by_vertex(star, {points[0], points[1], points[2]}))
+      return {false, std::move(block), {}};
+    if (obstruction_.meeting != Encounter::apart) return {};
     const Resident_group<3>& group = groups_.all()[face.group];
     const auto& at = group.faces[face.number];
     const auto& sides = group.body->sides(face.number);

@@ -64,7 +64,7 @@ class Vertex_trial {
   Followed_edge follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
                        const Moved_vertex* moved_q);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
-  Face_at_star after(const Moving_star<D>& star, Member face);
+  Face_at_star after(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
   void block(Star_meeting met, Member member, Body_feature feature);
   template <class Starts>
   bool meets(const Moving_star<D>& star, std::span<const Point<D>> points, const Starts& keeps_at_start,

@@ -5,10 +5,10 @@
 #define CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 
 #include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/moving_star.h>
 
 #include <array>
-#include <cstddef>
 #include <optional>
 
 namespace cellwalk::detail {
@@ -16,9 +16,16 @@ namespace cellwalk::detail {
 /// A face after the move of the vertex.
 struct Face_at_star {
   bool is_free = false;
-  std::optional<std::size_t> wall;    ///< if it is not free: the wall of the star that starts to pass it
+  std::optional<Star_block> block;    ///< if it is not free: the wall of the star that passes it first
   Supporting_walls supporting_walls;  ///< if it is free
 };
+
+/// Where the vertex itself passes an inner point of a face that no wall hits: all its walls that go through
+/// the face move in their own planes. None if it does not.
+/// \pre the face is registered; the corners are not collinear
+/// Cost: up to five signs; exact numbers if it does.
+std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
+                                                const std::array<Point<3>, 3>& corners);
 
 /// Decides about a face that stands still while the vertex moves.
 /// \param corners registered as they are after the move
