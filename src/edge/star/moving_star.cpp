@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/moving_star.h>
+#include <cellwalk/internal/edge/way_within.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -8,13 +9,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "append_reduced.h"
-#include "edge/exact/rational_segment.h"
-
 namespace cellwalk::detail {
 namespace {
 
-[[noreturn]] void fail() {
+[[noreturn]] void fail_to_register() {
   throw Error(
       Error_code::other,
       "what stands in the environment has no way through the cells around a vertex that moved past it: "
@@ -194,104 +192,28 @@ Particle<D> Moving_star<D>::registered(const Particle<D>& p) const {
     if (in_closure(snapshot_, links.cell(), p.position)) return registered_in(links.cell(), p);
     links.expand([&](const Cell_view<D>& cell, std::size_t i) { return has_point(cell, i, vertex_); });
   }
-  fail();
+  fail_to_register();
 }
 
 template <int D>
 Particle<D> Moving_star<D>::registered_in(Cell c, const Particle<D>& p) const {
-  Particle<D> result = p;
-  result.cell = c;
-  const Cell_view<D> cell = snapshot_.view(c);
-  result.dimension = lowest_dimension(
-      cell, p.position, [&](std::size_t i) { return side<Exact>(cell, i, p.position, counts_) == 0; });
-  if (result.cell != p.cell) result.aimed = 0;
-  return result;
+  return particle_in(snapshot_, c, p, counts_);
 }
 
 template <int D>
 Chain Moving_star<D>::relinked(const Chain& before, Cell first, const Particle<D>& p,
                                const Particle<D>& q) const {
+  const Way_within<D> way(snapshot_, cells_, vertex_, counts_);
   Chain chain;
   Cell old = first, now = p.cell;
   for (auto f = before.begin();;) {
     while (f != before.end() && has(*f)) old = snapshot_.neighbour(*f++);
     const Cell goal = f == before.end() ? q.cell : old;
-    if (now != goal) append_way(chain, now, goal, p, q);
+    if (now != goal) way.append(chain, now, goal, p.position, q.position);
     if (f == before.end()) return chain;
     append_reduced(snapshot_, chain, *f);
     now = old = snapshot_.neighbour(*f++);
   }
-}
-
-/// Appends the facets at the vertex through which the edge pq passes from one cell to another.
-template <int D>
-void Moving_star<D>::append_way(Chain& chain, Cell from, Cell to, const Particle<D>& p,
-                                const Particle<D>& q) const {
-  const std::size_t before = chain.size();
-  if (append_by_signs(chain, from, to, p.position, q.position)) return;
-  chain.resize(before);
-  if (!append_exactly(chain, from, to, p.position, q.position)) fail();
-}
-
-/// Where the edge passes each of these facets in its interior. False if it does not.
-template <int D>
-bool Moving_star<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
-                                     const Point<D>& q) const {
-  const Line<Exact, D> line{p, q, counts_};
-  for (std::size_t steps = 0; from != to; ++steps) {
-    if (steps == cells_.size()) return false;
-    const Cell_view<D> cell = snapshot_.view(from);
-    Half_facet exit = Half_facet::none;
-    for (std::size_t i = 0; i < cell.facet_count() && exit == Half_facet::none; ++i)
-      if (side<Exact>(cell, i, q, counts_) > 0 && exit_through(cell, i, line).kind == Exit::facet)
-        exit = Snapshot<D>::half_facet(from, i);
-    if (exit == Half_facet::none || snapshot_.is_impassable(exit) || !has(exit)) return false;
-    append_reduced(snapshot_, chain, exit);
-    from = snapshot_.neighbour(exit);
-  }
-  return true;
-}
-
-/// The same in every position: each cell is reached as early along the edge as possible. All ways to it
-/// through facets at the vertex are equal, so any will do.
-template <int D>
-bool Moving_star<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p,
-                                    const Point<D>& q) const {
-  struct Reached {
-    Cell cell;
-    Fraction at;
-    std::size_t parent;
-    Half_facet through;
-  };
-  const Rational_segment<D> segment(p, q);
-  const auto met = [&](Half_facet f) {
-    return segment.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-  };
-  Fraction start = 0;
-  for (const Half_facet f : chain)
-    if (const auto span = met(f)) start = std::max<Fraction>(start, span->low);
-  std::vector<Reached> reached{{from, start, 0, Half_facet::none}};
-  std::optional<std::size_t> end;
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    const Reached here = reached[k];
-    if (here.cell == to && (!end || here.at < reached[*end].at)) end = k;
-    for (std::size_t i = 0; i < snapshot_.facet_count(here.cell); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(here.cell, i);
-      if (snapshot_.is_impassable(f) || !has(f)) continue;
-      const auto span = met(f);
-      if (!span || span->high < here.at) continue;
-      const Cell next = snapshot_.neighbour(f);
-      const Fraction at = std::max<Fraction>(here.at, span->low);
-      if (std::none_of(reached.begin(), reached.end(),
-                       [&](const Reached& other) { return other.cell == next && other.at <= at; }))
-        reached.push_back({next, at, k, f});
-    }
-  }
-  if (!end) return false;
-  Chain way;
-  for (std::size_t k = *end; k != 0; k = reached[k].parent) way.push_back(reached[k].through);
-  for (auto f = way.rbegin(); f != way.rend(); ++f) append_reduced(snapshot_, chain, *f);
-  return true;
 }
 
 template class Moving_star<2>;

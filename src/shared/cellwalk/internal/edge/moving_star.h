@@ -88,9 +88,6 @@ class Moving_star {
   int side_at_start(const Cell_view<D>& cell, std::size_t i, const Point<D>& x) const;
   int along_at_start(const Cell_view<D>& cell, std::size_t i, std::size_t k, const Point<D>& p,
                      const Point<D>& q) const;
-  void append_way(Chain& chain, Cell from, Cell to, const Particle<D>& p, const Particle<D>& q) const;
-  bool append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
-  bool append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
 
   const Snapshot<D>& snapshot_;
   std::uint32_t vertex_;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "edge/exact/rational_segment.h"
+
+namespace cellwalk::detail {
+
+template <int D>
+Particle<D> particle_in(const Snapshot<D>& snapshot, Cell c, const Particle<D>& p, Walk_counts& counts) {
+  Particle<D> result = p;
+  result.cell = c;
+  const Cell_view<D> cell = snapshot.view(c);
+  result.dimension = lowest_dimension(
+      cell, p.position, [&](std::size_t i) { return side<Exact>(cell, i, p.position, counts) == 0; });
+  if (result.cell != p.cell) result.aimed = 0;
+  return result;
+}
+
+template <int D>
+bool Way_within<D>::has(Cell cell) const {
+  return std::ranges::binary_search(cells_, cell);
+}
+
+template <int D>
+bool Way_within<D>::may_pass(Half_facet f) const {
+  if (snapshot_.is_impassable(f) || !has(snapshot_.neighbour(f))) return false;
+  const Cell c = snapshot_.cell_of(f);
+  return has(c) && (vertex_ == any_vertex || has_point(snapshot_.view(c), snapshot_.facet_of(f), vertex_));
+}
+
+template <int D>
+void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const {
+  const Chain known = chain;
+  if (append_by_signs(chain, from, to, p, q)) return;
+  chain = known;
+  if (!append_exactly(chain, from, to, p, q))
+    throw Error(Error_code::other,
+                "what stands in the environment has no way through cells that changed: the environment is "
+                "not certified, or it was not listed");
+}
+
+/// Where the edge passes each of these facets in its interior. False if it does not.
+template <int D>
+bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                    const Point<D>& q) const {
+  const Line<Exact, D> line{p, q, counts_};
+  for (std::size_t steps = 0; from != to; ++steps) {
+    if (steps == cells_.size()) return false;
+    const Cell_view<D> cell = snapshot_.view(from);
+    Half_facet exit = Half_facet::none;
+    for (std::size_t i = 0; i < cell.facet_count() && exit == Half_facet::none; ++i)
+      if (side<Exact>(cell, i, q, counts_) > 0 && exit_through(cell, i, line).kind == Exit::facet)
+        exit = Snapshot<D>::half_facet(from, i);
+    if (exit == Half_facet::none || !may_pass(exit)) return false;
+    append_reduced(snapshot_, chain, exit);
+    from = snapshot_.neighbour(exit);
+  }
+  return true;
+}
+
+/// The same in every position: each cell is reached as early along the edge as possible.
+template <int D>
+bool Way_within<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                   const Point<D>& q) const {
+  struct Reached {
+    Cell cell;
+    Fraction at;
+    std::size_t parent;
+    Half_facet through;
+  };
+  const Rational_segment<D> segment(p, q);
+  const auto met = [&](Half_facet f) {
+    return segment.in_facet(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
+  };
+  Fraction start = 0;
+  for (const Half_facet f : chain)
+    if (const auto span = met(f)) start = std::max<Fraction>(start, span->low);
+  std::vector<Reached> reached{{from, start, 0, Half_facet::none}};
+  std::optional<std::size_t> end;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Reached here = reached[k];
+    if (here.cell == to && (!end || here.at < reached[*end].at)) end = k;
+    for (std::size_t i = 0; i < snapshot_.facet_count(here.cell); ++i) {
+      const Half_facet f = Snapshot<D>::half_facet(here.cell, i);
+      if (!may_pass(f)) continue;
+      const auto span = met(f);
+      if (!span || span->high < here.at) continue;
+      const Cell next = snapshot_.neighbour(f);
+      const Fraction at = std::max<Fraction>(here.at, span->low);
+      if (std::none_of(reached.begin(), reached.end(),
+                       [&](const Reached& other) { return other.cell == next && other.at <= at; }))
+        reached.push_back({next, at, k, f});
+    }
+  }
+  if (!end) return false;
+  Chain way;
+  for (std::size_t k = *end; k != 0; k = reached[k].parent) way.push_back(reached[k].through);
+  for (auto f = way.rbegin(); f != way.rend(); ++f) append_reduced(snapshot_, chain, *f);
+  return true;
+}
+
+template Particle<2> particle_in(const Snapshot<2>&, Cell, const Particle<2>&, Walk_counts&);
+template Particle<3> particle_in(const Snapshot<3>&, Cell, const Particle<3>&, Walk_counts&);
+template class Way_within<2>;
+template class Way_within<3>;
+
+}  // namespace cellwalk::detail
