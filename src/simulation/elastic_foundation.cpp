@@ -52,8 +52,9 @@ Elastic_foundation<D>::Elastic_foundation(const Snapshot<D>& snapshot, const Sof
     }
   least_yield_ = least_share * length(upper - lower);
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
+    if (cell == Cell::none) continue;
     if (snapshot.is_solid(cell)) continue;
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);

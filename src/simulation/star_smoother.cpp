@@ -62,8 +62,9 @@ bool corners_of(const Snapshot<D>& snapshot, Cell cell, std::array<std::uint32_t
 template <int D>
 Star_smoother<D>::Star_smoother(const Snapshot<D>& snapshot, std::vector<char> may_move)
     : may_move_(std::move(may_move)) {
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
+    if (cell == Cell::none) continue;
     Simplex simplex;
     if (corners_of(snapshot, cell, simplex)) {
       simplices_.push_back(simplex);

@@ -55,8 +55,9 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
   result.is_at_wall.resize(count, 0);
   result.is_held.resize(count, 0);
   std::vector<Point<D>> corners;
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
+    if (cell == Cell::none) continue;
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);
       const std::vector<std::uint32_t> loop = snapshot.loop(facet);

@@ -23,8 +23,8 @@ constexpr std::size_t most_lines = 40'000;
 /// Free cells in the order of the input.
 template <int D, class Visit>
 void for_free_cells(const Snapshot<D>& snapshot, Visit&& visit) {
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
-    if (const Cell cell = snapshot.cell(i); !snapshot.is_solid(cell)) visit(cell);
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell cell = snapshot.cell(i); cell != Cell::none && !snapshot.is_solid(cell)) visit(cell);
 }
 
 template <int D>
