@@ -79,6 +79,11 @@ const Supporting_walls& Body_access<D>::supporting_walls(std::uint32_t face) con
 }
 
 template <int D>
+bool Body_access<D>::has_supporting_walls() const {
+  return state_->may_have_supporting_walls;
+}
+
+template <int D>
 void Body_access<D>::rest(std::uint32_t face, const Supporting_walls& walls) {
   state_->may_have_supporting_walls |= !walls.empty();
   state_->supporting_walls[face] = walls;

@@ -10,6 +10,7 @@
 
 #include "move/vertex_trial.h"
 #include "move/wall_hit.h"
+#include "replace/relaxer.h"
 #include "residents/resident_groups.h"
 #include "toggle/toggle.h"
 
@@ -25,12 +26,14 @@ constexpr double contact_offset_ulps = 16;
 
 template <int D>
 struct Reshaping<D>::State {
-  State(Environment<D>& environment, const Residents<D>& residents, const Reshape_options& given)
-      : options(given),
+  State(Environment<D>& of, const Residents<D>& residents, const Reshape_options& given)
+      : environment(of),
+        options(given),
         groups(environment.snapshot(), residents),
         mover(environment),
         trial(groups, counts),
-        toggle(environment, groups, counts.walk) {}
+        toggle(environment, groups, counts.walk),
+        replacer(environment, groups, mover, counts) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
@@ -42,18 +45,17 @@ struct Reshaping<D>::State {
   bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   detail::Box<D> box_of_star(const Point<D>& target) const;
   detail::Toggle<D>& restored_toggle();
-  void check_open() const {
-    if (!is_open)
-      throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
-  }
+  void check_open() const;
   void close();
 
+  Environment<D>& environment;
   Reshape_options options;
   Reshape_counts counts;
   detail::Resident_groups<D> groups;
   detail::Vertex_mover<D> mover;
   detail::Vertex_trial<D> trial;
   detail::Toggle<D> toggle;
+  detail::Replacer<D> replacer;
   bool is_open = true;
 };
 
@@ -188,10 +190,16 @@ detail::Toggle<D>& Reshaping<D>::State::restored_toggle() {
 }
 
 template <int D>
+void Reshaping<D>::State::check_open() const {
+  if (!is_open)
+    throw Error(Error_code::usage, "the environment is not open for moves any more: make a new Reshaping");
+}
+
+template <int D>
 void Reshaping<D>::State::close() {
   if (!std::exchange(is_open, false)) return;
   mover.restore();
-  groups.follow_epoch();
+  if (!replacer.is_broken()) groups.follow_epoch();
 }
 
 template <int D>
@@ -279,6 +287,46 @@ Change_result Reshaping<D>::excavate(Cell cell) {
 template <int D>
 Change_result Reshaping<D>::fill(Cell cell) {
   return state_->restored_toggle().fill(cell);
+}
+
+template <int D>
+Replacement Reshaping<D>::insert_point(Cell cell, const Point<D>& position) {
+  state_->check_open();
+  return state_->replacer.insert_point(cell, position);
+}
+
+template <int D>
+Replacement Reshaping<D>::split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position) {
+  state_->check_open();
+  return state_->replacer.split_edge(u, v, position);
+}
+
+template <int D>
+Replacement Reshaping<D>::flip(Half_facet facet) {
+  state_->check_open();
+  return state_->replacer.flip(facet);
+}
+
+template <int D>
+Replacement Reshaping<D>::remove_edge(std::uint32_t u, std::uint32_t v) {
+  state_->check_open();
+  return state_->replacer.remove_edge(u, v);
+}
+
+template <int D>
+Replacement Reshaping<D>::collapse(std::uint32_t u, std::uint32_t onto) {
+  state_->check_open();
+  return state_->replacer.collapse(u, onto);
+}
+
+template <int D>
+Relax_report Reshaping<D>::relax(std::span<const std::uint32_t> points, const Relax_options& options) {
+  state_->check_open();
+  detail::Relaxer<D> relaxer(
+      state_->environment, state_->replacer, options, [&](std::uint32_t point, const Point<D>& target) {
+        return state_->attempt(point, target, State::Attempt::whether).end == Move_end::reached;
+      });
+  return relaxer.run(points);
 }
 
 template <int D>

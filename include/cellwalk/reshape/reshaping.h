@@ -6,6 +6,7 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/reshape/move.h>
+#include <cellwalk/reshape/replacement.h>
 #include <cellwalk/reshape/residents.h>
 #include <cellwalk/reshape/toggle.h>
 
@@ -123,6 +124,44 @@ class Reshaping {
   /// \throw Error as excavate(), and Error(usage) for a particle near that is not in its cell
   /// Degenerate cases and cost: as close(Half_facet), of all its facets.
   Change_result fill(Cell cell);
+
+  // Replacements of cells, all simplices, by others over the same region, between which there is no wall. No
+  // body can be in the way of one: all that lies in the old cells is registered in the new ones, on the same
+  // side of all walls. What the shape of the environment forbids is a result with a reason, and changes
+  // nothing. The names of the old cells and of their half-facets are gone, those in contacts too, and later
+  // ones may be equal. Each throws Error(usage) for what does not exist, for a cell that is not a simplex, in
+  // a frozen environment, for a particle that is not in its cell, and after close(); Error(input) for a
+  // position that is not finite.
+  // Cost: some 20 us, whatever the size of the environment; more where what lies there passes ridges or
+  // vertices of cells exactly.
+
+  /// Replaces a cell by the cells of a new point strictly inside it.
+  Replacement insert_point(Cell cell, const Point<D>& position);
+
+  /// Replaces the cells around an edge by those that a new point joined to both ends makes of them. The
+  /// position need not be on the edge. Refused if a wall or the boundary has the edge.
+  Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
+
+  /// Replaces the two cells of a facet by three around the edge that joins their other vertices (2D: by two
+  /// on both sides of it).
+  Replacement flip(Half_facet facet);
+
+  /// Replaces the cells around an edge by those on the triangles of a triangulation of the points around it:
+  /// that with the best least quality of those whose cells are positive (3D). Refused if a wall or the
+  /// boundary has the edge, and for more than 7 cells.
+  Replacement remove_edge(std::uint32_t u, std::uint32_t v);
+
+  /// Removes a point by moving it along an edge into the other end. Refused if a wall or the boundary has it.
+  /// Later new points may get its index; Snapshot::is_point() says which are in use.
+  Replacement collapse(std::uint32_t u, std::uint32_t onto);
+
+  /// Makes cells around some points better, worst first: flips and removals of edges, moves of vertices that
+  /// have no wall, and where edges are very short or long, collapses and splits, each if it raises the least
+  /// quality of the cells that it touches. Deterministic. Walls stay where they are.
+  /// \throw Error(usage) for a point that does not exist or a cell around one that is not a simplex, and as
+  ///        the replacements above
+  /// Cost: some 20 us an operation, and as much for those that are only considered.
+  Relax_report relax(std::span<const std::uint32_t> points, const Relax_options& options = {});
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved or changed after that.
   /// Cost: about 0.3 us a cell around vertices that moved.

@@ -67,7 +67,7 @@ void keep_environments() {
       &Snapshot<D>::add_point, &Snapshot<D>::update_geometry, &Snapshot<D>::replace_cells,
       &Snapshot<D>::bytes, &Snapshot<D>::cell_slots, &Snapshot<D>::check_epoch,
       &Snapshot<D>::check_geometry_epoch, &Snapshot<D>::epoch, &Snapshot<D>::geometry_epoch,
-      &Snapshot<D>::is_cell);
+      &Snapshot<D>::is_cell, &Snapshot<D>::is_point, &Snapshot<D>::next_point, &Snapshot<D>::remove_point);
 }
 
 template <int D>
@@ -89,7 +89,10 @@ void keep_reshaping() {
       +[](Environment<D>& e, const Residents<D>& r) { return Reshaping<D>(e, r); }, &moved<Reshaping<D>>,
       static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
       static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
-      &Reshaping<D>::ask, &Reshaping<D>::close, &Reshaping<D>::counts);
+      &Reshaping<D>::ask, &Reshaping<D>::close, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
+      &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
+      &Reshaping<D>::relax);
+  keep(&Relax_report::operations);
 }
 
 template <int D>

@@ -39,6 +39,8 @@ class Body_access {
   /// The sides of a face, by edge.
   const std::array<std::uint32_t, 3>& sides(std::uint32_t face) const;
   const Supporting_walls& supporting_walls(std::uint32_t face) const;
+  /// False if no face has any.
+  bool has_supporting_walls() const;
   void rest(std::uint32_t face, const Supporting_walls& walls);
 
   /// Moves a vertex towards a target, as far as walls allow, as a step does; whatever the epoch.

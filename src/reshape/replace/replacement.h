@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Replacements of cells by others over the same region, with what lies in them.
+#ifndef CELLWALK_RESHAPE_REPLACE_REPLACEMENT_H
+#define CELLWALK_RESHAPE_REPLACE_REPLACEMENT_H
+
+#include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/internal/environment/vertex_mover.h>
+#include <cellwalk/reshape/move.h>
+#include <cellwalk/reshape/replacement.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "patch.h"
+#include "relinker.h"
+
+namespace cellwalk::detail {
+
+/// See Reshaping for what the operations do.
+template <int D>
+class Replacer {
+ public:
+  /// \param mover what it has withdrawn is restored before cells are replaced
+  Replacer(Environment<D>& environment, Resident_groups<D>& groups, Vertex_mover<D>& mover,
+           Reshape_counts& counts);
+
+  Replacement insert_point(Cell cell, const Point<D>& position);
+  Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
+  Replacement flip(Half_facet facet);
+  Replacement remove_edge(std::uint32_t u, std::uint32_t v);
+  Replacement collapse(std::uint32_t u, std::uint32_t onto);
+
+  /// What an operation would replace, for whoever wants to know before.
+  /// `reason` is set if it is refused.
+  Patch<D> split(std::uint32_t u, std::uint32_t v, const Point<D>& position, std::string& reason) const;
+  Patch<D> flipped(Half_facet facet, std::string& reason) const;
+  Patch<D> without_edge(std::uint32_t u, std::uint32_t v, std::string& reason) const;
+  Patch<D> collapsed(std::uint32_t u, std::uint32_t onto, std::string& reason) const;
+  Replacement make(const Patch<D>& patch);
+
+  /// \throw Error(usage) if the environment is frozen, if there is no such point, or if a cell around it is
+  ///        not a simplex
+  void check_points(std::span<const std::uint32_t> points) const;
+  /// True once something had no place in the new cells: then bodies must not go on.
+  bool is_broken() const { return is_broken_; }
+  /// True if no wall has a point, nor the boundary.
+  bool is_off_walls(std::uint32_t point) const;
+  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+
+ private:
+  void check_edit() const;
+  void check_simplices(const std::vector<Cell>& cells) const;
+  void check_point(std::uint32_t point) const;
+  std::vector<Cell> cells_at_edge(std::uint32_t u, std::uint32_t v) const;
+  bool has_wall_at_edge(const std::vector<Cell>& cells, std::uint32_t u, std::uint32_t v) const;
+  std::vector<std::uint32_t> ring(const std::vector<Cell>& cells, std::uint32_t u, std::uint32_t v) const;
+
+  Environment<D>& environment_;
+  Resident_groups<D>& groups_;
+  Vertex_mover<D>& mover_;
+  Reshape_counts& counts_;
+  Cell_patcher<D> patcher_;
+  Relinker<D> relinker_;
+  bool is_broken_ = false;
+};
+
+extern template class Replacer<2>;
+extern template class Replacer<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_REPLACE_REPLACEMENT_H
