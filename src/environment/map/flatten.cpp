@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 #include "environment/soup/parallel.h"
 
@@ -83,29 +82,6 @@ void write_facets(const Map_storage<D>& storage, Flat_cells<D>& flat) {
   });
 }
 
-/// The half-facets of the cell of d, breadth first from that of d (3D) or around the cell (2D); `facet_of`
-/// receives the number of the half-facet of each dart, by the address of the dart.
-template <int D>
-void append_cell(Map<D>& map, Dart<D> start, Flat_cells<D>& flat,
-                 std::unordered_map<const void*, std::uint32_t>& facet_of) {
-  const auto append = [&](Dart<D> first) {
-    if (facet_of.contains(&*first)) return;
-    const auto f = static_cast<std::uint32_t>(flat.darts.size());
-    for_each_dart_of_half_facet<D>(map, first, [&](Dart<D> d) { facet_of.emplace(&*d, f); });
-    flat.darts.push_back(first);
-  };
-  std::size_t next = flat.darts.size();
-  append(start);
-  while (next < flat.darts.size()) {
-    const Dart<D> first = flat.darts[next++];
-    if constexpr (D == 2)
-      append(map.template beta<1>(first));
-    else
-      for_each_dart_of_half_facet<D>(map, first, [&](Dart<D> d) { append(map.template beta<2>(d)); });
-  }
-  flat.soup.cell_begin.push_back(static_cast<std::uint32_t>(flat.darts.size()));
-}
-
 }  // namespace
 
 template <int D>
@@ -134,25 +110,7 @@ Flat_cells<D> flatten(const Map_storage<D>& storage) {
   return flat;
 }
 
-template <int D>
-Flat_cells<D> flatten_cells(Map_storage<D>& storage, std::span<const Dart<D>> cells) {
-  Map<D>& map = storage.map;
-  Flat_cells<D> flat;
-  std::unordered_map<const void*, std::uint32_t> facet_of;
-  for (const Dart<D> d : cells) append_cell<D>(map, d, flat, facet_of);
-  write_facets(storage, flat);
-  flat.gluing.opposite.assign(flat.darts.size(), no_facet);
-  for (std::size_t f = 0; f < flat.darts.size(); ++f) {
-    if (map.template is_free<D>(flat.darts[f])) continue;
-    const auto it = facet_of.find(&*map.template beta<D>(flat.darts[f]));
-    if (it != facet_of.end()) flat.gluing.opposite[f] = it->second;
-  }
-  return flat;
-}
-
 template Flat_cells<2> flatten(const Map_storage<2>&);
 template Flat_cells<3> flatten(const Map_storage<3>&);
-template Flat_cells<2> flatten_cells<2>(Map_storage<2>&, std::span<const Dart<2>>);
-template Flat_cells<3> flatten_cells<3>(Map_storage<3>&, std::span<const Dart<3>>);
 
 }  // namespace cellwalk

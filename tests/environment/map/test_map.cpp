@@ -82,45 +82,6 @@ void expect_renumbering_kept() {
 TEST(Map, KeepsItsCellsWhenHalfFacetsAreRenumbered2) { expect_renumbering_kept<2>(); }
 TEST(Map, KeepsItsCellsWhenHalfFacetsAreRenumbered3) { expect_renumbering_kept<3>(); }
 
-template <int D>
-void expect_some_cells_flattened() {
-  for (auto& [name, soup] : test::sample_soups<D>()) {
-    SCOPED_TRACE(name);
-    const auto storage = build_map(soup, glue(soup));
-    const Flat_cells<D> all = flatten(*storage);
-    std::vector<std::uint32_t> cells;
-    std::vector<Dart<D>> darts;
-    for (std::uint32_t c = 0; c < soup.cell_count(); c += 1 + c % 2) {
-      cells.push_back(c);
-      darts.push_back(all.darts[soup.cell_begin[c]]);
-    }
-    const Flat_cells<D> some = flatten_cells<D>(*storage, darts);
-    ASSERT_EQ(some.soup.cell_count(), cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::uint32_t c = cells[i];
-      ASSERT_EQ(some.soup.cell_begin[i + 1] - some.soup.cell_begin[i],
-                soup.cell_begin[c + 1] - soup.cell_begin[c]);
-      EXPECT_EQ(some.soup.solid[i], soup.solid[c]);
-      for (std::uint32_t f = some.soup.cell_begin[i]; f < some.soup.cell_begin[i + 1]; ++f) {
-        const std::uint32_t whole = storage->map.info(some.darts[f]).half_facet();
-        const auto loop = some.soup.facet(f), same = all.soup.facet(whole);
-        ASSERT_TRUE(std::is_permutation(loop.begin(), loop.end(), same.begin(), same.end()));
-        EXPECT_EQ(some.soup.impassable[f], all.soup.impassable[whole]);
-        const std::uint32_t g = all.gluing.opposite[whole];
-        const bool inside = g != no_facet && std::binary_search(cells.begin(), cells.end(),
-                                                                storage->map.info(all.darts[g]).cell());
-        ASSERT_EQ(some.gluing.opposite[f] != no_facet, inside);
-        if (inside) {
-          EXPECT_EQ(storage->map.info(some.darts[some.gluing.opposite[f]]).half_facet(), g);
-        }
-      }
-    }
-  }
-}
-
-TEST(Map, FlattensChosenCells2) { expect_some_cells_flattened<2>(); }
-TEST(Map, FlattensChosenCells3) { expect_some_cells_flattened<3>(); }
-
 TEST(Map, GivesAPinchedPointSeveralVertices) {
   const Cell_soup<3> soup = test::pinched_tetrahedra();
   const auto storage = build_map(soup, glue(soup));

@@ -7,7 +7,6 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/records/cell_soup.h>
 
-#include <span>
 #include <vector>
 
 namespace cellwalk {
@@ -27,12 +26,6 @@ struct Flat_cells {
 /// Cost: about 0.4 us a tetrahedron on one core; parallel.
 template <int D>
 Flat_cells<D> flatten(const Map_storage<D>& storage);
-
-/// The cells of the given darts, one dart a cell, in that order. Facets are in breadth-first order from the
-/// dart (3D) or around the cell (2D). The gluing covers the given cells only; soup.points stays empty, and
-/// vertices are the indices of points.
-template <int D>
-Flat_cells<D> flatten_cells(Map_storage<D>& storage, std::span<const Dart<D>> cells);
 
 }  // namespace cellwalk
 
