@@ -4,6 +4,8 @@
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/internal/environment/star_index.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -16,11 +18,15 @@ template <int D>
 Gluing glue_patch(const Cell_soup<D>& soup) {
   Gluing gluing;
   gluing.opposite.assign(soup.facet_count(), no_facet);
-  std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> keys;
+  // The points of each facet, ascending, and its number.
+  std::vector<std::pair<boost::container::small_vector<std::uint32_t, 8>, std::uint32_t>> keys;
   keys.reserve(soup.facet_count());
   for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
-    keys.emplace_back(std::vector(soup.facet(f).begin(), soup.facet(f).end()), f);
-    std::sort(keys.back().first.begin(), keys.back().first.end());
+    keys.emplace_back();
+    auto& [key, number] = keys.back();
+    key.assign(soup.facet(f).begin(), soup.facet(f).end());
+    std::sort(key.begin(), key.end());
+    number = f;
   }
   std::sort(keys.begin(), keys.end());
   for (std::size_t k = 1; k < keys.size(); ++k) {

@@ -14,6 +14,8 @@ void reserve_at_least(std::vector<T>& v, std::size_t size) {
   if (v.capacity() < size) v.reserve(std::max(size, 2 * v.capacity()));
 }
 
+constexpr auto point_of_vertex = [](const auto& vertex) { return vertex.first; };
+
 }  // namespace
 
 template <int D>
@@ -49,8 +51,8 @@ Map_patch<D>::~Map_patch() {
 }
 
 template <int D>
-std::vector<std::uint32_t> Map_patch<D>::key_of(std::span<const std::uint32_t> loop) const {
-  std::vector<std::uint32_t> key(loop.begin(), loop.end());
+typename Map_patch<D>::Key Map_patch<D>::key_of(std::span<const std::uint32_t> loop) {
+  Key key(loop.begin(), loop.end());
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -61,14 +63,17 @@ void Map_patch<D>::find_outside(std::span<const Half_facet> removed) {
   const Map<D>& map = storage_.map;
   std::vector<std::uint32_t> cells, loop;
   for (const Half_facet f : removed)
-    cells.push_back(map.info(storage_.dart_of_half_facet[to_index(f)]).cell());
+    if (const std::uint32_t c = map.info(storage_.dart_of_half_facet[to_index(f)]).cell();
+        cells.empty() || cells.back() != c)
+      cells.push_back(c);
   for (const Half_facet f : removed) {
     const Dart<D> first = storage_.dart_of_half_facet[to_index(f)];
     loop.clear();
     for_each_dart_of_half_facet<D>(storage_.map, first, [&](Dart<D> d) {
       old_darts_.push_back(d);
       loop.push_back(storage_.point_of(d));
-      vertices_.emplace_back(loop.back(), storage_.map.template attribute<0>(d));
+      if (std::ranges::find(vertices_, loop.back(), point_of_vertex) == vertices_.end())
+        vertices_.emplace_back(loop.back(), storage_.map.template attribute<0>(d));
     });
     if (map.template is_free<D>(first)) continue;
     if (D == 2) loop.push_back(storage_.point_of(map.template beta<1>(first)));
@@ -76,10 +81,6 @@ void Map_patch<D>::find_outside(std::span<const Half_facet> removed) {
     if (std::ranges::find(cells, map.info(Const_dart<D>(outside)).cell()) == cells.end())
       open_.push_back({key_of(loop), outside});
   }
-  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
-  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
-  std::stable_sort(vertices_.begin(), vertices_.end(), before);
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end(), same), vertices_.end());
 }
 
 template <int D>
@@ -174,9 +175,9 @@ void Map_patch<D>::set_vertices(const Snapshot<D>& snapshot) {
   }
   for (std::size_t i = 0; i < new_darts_.size(); ++i) {
     const std::uint32_t point = soup_.vertices[D == 2 ? 2 * i : i];
-    const auto known = std::ranges::lower_bound(vertices_, point, {}, [](const auto& v) { return v.first; });
-    map.template set_dart_attribute<0>(
-        new_darts_[i], known != vertices_.end() && known->first == point ? known->second : added_vertex_);
+    const auto known = std::ranges::find(vertices_, point, point_of_vertex);
+    map.template set_dart_attribute<0>(new_darts_[i],
+                                       known != vertices_.end() ? known->second : added_vertex_);
   }
 }
 

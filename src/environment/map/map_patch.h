@@ -5,6 +5,8 @@
 
 #include <cellwalk/environment/map.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -34,13 +36,14 @@ class Map_patch {
   static constexpr std::uint32_t no_point = 0xffffffffu;
 
  private:
+  using Key = boost::container::small_vector<std::uint32_t, 8>;
   /// A facet that joins a removed cell and one that stays: its points, sorted, and its first dart there.
   struct Open_facet {
-    std::vector<std::uint32_t> key;
+    Key key;
     Dart<D> outside;
   };
 
-  std::vector<std::uint32_t> key_of(std::span<const std::uint32_t> loop) const;
+  static Key key_of(std::span<const std::uint32_t> loop);
   void find_outside(std::span<const Half_facet> removed);
   void make_darts();
   void link_cells();

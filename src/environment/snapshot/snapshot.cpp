@@ -242,9 +242,11 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
       continue;
     }
     compiler.link_boundary(slot[f]);
-    const std::vector<std::uint32_t> own = loop(slot[f]);
+    const auto own = soup.facet(f);
     for (std::size_t i = 0; i < open.size(); ++i) {
-      if (!std::is_permutation(own.begin(), own.end(), open_loops[i].begin(), open_loops[i].end())) continue;
+      if (own.size() != open_loops[i].size() ||
+          !std::is_permutation(own.begin(), own.end(), open_loops[i].begin()))
+        continue;
       compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
       break;
     }

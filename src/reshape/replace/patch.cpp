@@ -32,14 +32,26 @@ void add_simplex(Cell_soup<3>& soup, const Patch<3>::Simplex& x, bool is_solid) 
 }
 
 /// A facet with its sense: in 3D from its lowest point on.
-std::vector<std::uint32_t> turned(std::vector<std::uint32_t> loop) {
-  if (loop.size() > 2) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+template <int D>
+using Loop = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
+
+template <int D>
+Loop<D> turned(Loop<D> loop) {
+  if (D == 3) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   return loop;
 }
 
-std::vector<std::uint32_t> reversed(std::vector<std::uint32_t> loop) {
+template <int D>
+Loop<D> reversed(Loop<D> loop) {
   std::reverse(loop.begin(), loop.end());
-  return turned(std::move(loop));
+  return turned<D>(loop);
+}
+
+template <int D>
+Loop<D> loop_of(const Cell_view<D>& cell, std::size_t facet) {
+  Loop<D> loop;
+  for (std::size_t k = 0; k < loop.size(); ++k) loop[k] = cell.point_index(cell.loop(facet)[k]);
+  return turned<D>(loop);
 }
 
 }  // namespace
@@ -69,12 +81,12 @@ template <int D>
 std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup) {
   const bool is_solid = snapshot.is_solid(patch.removed.front());
   // Facets that only one cell has, or the other side of none.
-  std::vector<std::vector<std::uint32_t>> old_open, new_open;
+  std::vector<Loop<D>> old_open, new_open;
   for (const Cell c : patch.removed)
     for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       if (std::ranges::find(patch.removed, snapshot.neighbour(f)) == patch.removed.end())
-        old_open.push_back(turned(snapshot.loop(f)));
+        old_open.push_back(loop_of(snapshot.view(c), i));
       else if (snapshot.is_impassable(f))
         return "a wall lies between the cells";
     }
@@ -83,11 +95,14 @@ std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell
     if (volume_sign(counts, patch.corners(snapshot, cell)) <= 0) return "a cell would be flat or inverted";
     add_simplex(soup, cell, is_solid);
   }
-  for (std::size_t f = 0; f < soup.facet_count(); ++f)
-    new_open.push_back(turned({soup.facet(f).begin(), soup.facet(f).end()}));
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
+    Loop<D> loop;
+    std::copy_n(soup.facet(f).begin(), loop.size(), loop.begin());
+    new_open.push_back(turned<D>(loop));
+  }
   std::sort(new_open.begin(), new_open.end());
   std::erase_if(new_open, [all = new_open](const auto& loop) {
-    return std::ranges::binary_search(all, reversed(loop));
+    return std::ranges::binary_search(all, reversed<D>(loop));
   });
   std::sort(old_open.begin(), old_open.end());
   return old_open == new_open ? "" : "the cells would not cover the same region";

@@ -37,13 +37,16 @@ void Relinker<D>::note(std::span<const Cell> removed) {
   std::sort(removed_.begin(), removed_.end());
   sides_.clear();
   faces_.clear();
+  vertices_.clear();
+  edges_.clear();
+  if (!groups_.has_open()) return;
   groups_.find(removed_, vertices_, edges_);
   for (const Cell c : removed_)
     for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       sides_.push_back({f, std::ranges::binary_search(removed_, snapshot_.neighbour(f)), key_of(f)});
     }
-  if (D == 2 || !groups_.has_open()) return;
+  if (D == 2) return;
   for (std::uint32_t g = 0; g < groups_.all().size(); ++g) {
     const Resident_group<D>& group = groups_.all()[g];
     if (!group.is_open || !group.body || !group.body->has_supporting_walls()) continue;
@@ -115,6 +118,10 @@ template <int D>
 std::size_t Relinker<D>::relink(std::span<const Cell> added) {
   moved_.clear();
   chains_.clear();
+  if (vertices_.empty() && edges_.empty() && faces_.empty()) {
+    groups_.forget(removed_);
+    return 0;
+  }
   name_sides(added);
   std::vector<Cell> sorted(added.begin(), added.end());
   std::sort(sorted.begin(), sorted.end());
@@ -135,8 +142,9 @@ std::size_t Relinker<D>::relink(std::span<const Cell> added) {
     std::sort(walls.begin(), walls.end());
     groups_.rest(face, walls);
   }
+  groups_.forget(removed_);
+  for (const auto& [edge, chain] : chains_) groups_.enter_edge(edge, sorted);
   for (const Moved& moved : moved_) groups_.enter_vertex(moved.member);
-  for (const auto& [edge, chain] : chains_) groups_.enter_edge(edge);
   return chains_.size();
 }
 

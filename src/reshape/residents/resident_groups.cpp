@@ -152,6 +152,12 @@ void Resident_groups<D>::enter(Cell cell, Member member, bool is_edge) {
 template <int D>
 void Resident_groups<D>::enter_vertex(Member vertex) {
   enter(particle(vertex).cell, vertex, false);
+  drop_outdated();
+}
+
+/// Once most entries are outdated, all are made anew.
+template <int D>
+void Resident_groups<D>::drop_outdated() {
   if (entries_.size() < most_entries_ || most_entries_ == 0) return;
   most_entries_ = 0;
   first_.clear();
@@ -166,6 +172,22 @@ void Resident_groups<D>::enter_edge(Member edge) {
   const auto [u, v] = groups_[edge.group].edges[edge.number];
   enter(particle({edge.group, u}).cell, edge, true);
   for (const Half_facet f : chain(edge)) enter(snapshot_.neighbour(f), edge, true);
+}
+
+template <int D>
+void Resident_groups<D>::enter_edge(Member edge, std::span<const Cell> among) {
+  const auto [u, v] = groups_[edge.group].edges[edge.number];
+  const auto enter_in = [&](Cell c) {
+    if (std::ranges::binary_search(among, c)) enter(c, edge, true);
+  };
+  enter_in(particle({edge.group, u}).cell);
+  for (const Half_facet f : chain(edge)) enter_in(snapshot_.neighbour(f));
+  drop_outdated();
+}
+
+template <int D>
+void Resident_groups<D>::forget(std::span<const Cell> cells) {
+  for (const Cell c : cells) first_.erase(to_index(c));
 }
 
 template <int D>

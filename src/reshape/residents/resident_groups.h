@@ -70,6 +70,10 @@ class Resident_groups {
   /// Enters a vertex into the table of cells, or an edge, after it was registered anew. Old entries stay.
   void enter_vertex(Member vertex);
   void enter_edge(Member edge);
+  /// The same, into those of its cells that are among some, which are ascending.
+  void enter_edge(Member edge, std::span<const Cell> among);
+  /// Drops the entries of cells that are gone.
+  void forget(std::span<const Cell> cells);
 
   /// Bodies go on in the environment as it is now.
   void follow_epoch();
@@ -83,6 +87,7 @@ class Resident_groups {
   };
   void enter(Cell cell, Member member, bool is_edge);
   void enter_all(std::uint32_t group);
+  void drop_outdated();
   std::size_t body_count() const;
 
   const Snapshot<D>& snapshot_;
