@@ -290,5 +290,50 @@ TEST(Replacement, KeepsSidesOfAMembrane) {
   EXPECT_NO_THROW(environment.certify());
 }
 
+/// An edge of a membrane is split where it is, if nothing lies beside it.
+template <int D>
+void split_a_membrane() {
+  Environment<D> environment = test::simplex_grid<D>(4);
+  test::add_membrane<D>(environment, 2);
+  const Snapshot<D>& snapshot = environment.snapshot();
+  Point<D> u, v, middle, far;
+  u.fill(2);
+  v.fill(2);
+  u[0] = 1;
+  middle = v;
+  middle[0] = 1.5;
+  far.fill(0.75);
+  std::vector<Particle<D>> particles = Locator<D>(snapshot).particles_at(middle);
+  ASSERT_EQ(particles.size(), 2u);
+  const std::uint32_t from = test::point_at<D>(environment, u), to = test::point_at<D>(environment, v);
+  const Certificate before = environment.certify();
+  Reshaping<D> busy(environment, {{}, {particles}});
+  EXPECT_EQ(busy.split_edge(from, to, middle).reason,
+            "a wall has the edge, and something lies in the cells around it");
+  busy.close();
+  EXPECT_EQ(environment.certify().cells, before.cells);
+  std::vector<Particle<D>> aside = Locator<D>(snapshot).particles_at(far);
+  Reshaping<D> reshaping(environment, {{}, {aside}});
+  Point<D> off = middle;
+  off[1] += 0x1p-40;
+  EXPECT_EQ(reshaping.split_edge(from, to, off).reason,
+            "a wall has the edge, and the position is not exactly on it");
+  EXPECT_FALSE(reshaping.split_edge(from, to, v).is_made);
+  const Replacement split = reshaping.split_edge(from, to, middle);
+  ASSERT_TRUE(split.is_made) << split.reason;
+  EXPECT_EQ(split.cells.size(), D == 2 ? 4u : 12u);
+  reshaping.close();
+  const Certificate after = environment.certify();
+  EXPECT_EQ(after.membranes, before.membranes + (D == 2 ? 1 : 2));
+  EXPECT_EQ(after.components, before.components);
+  EXPECT_EQ(after.volume, before.volume);
+  EXPECT_EQ(Locator<D>(snapshot).particles_at(middle).size(), 2u);
+}
+
+TEST(Replacement, SplitsAnEdgeOfAMembrane) {
+  split_a_membrane<2>();
+  split_a_membrane<3>();
+}
+
 }  // namespace
 }  // namespace cellwalk

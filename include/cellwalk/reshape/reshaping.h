@@ -132,14 +132,16 @@ class Reshaping {
   // ones may be equal. Each throws Error(usage) for what does not exist, for a cell that is not a simplex, in
   // a frozen environment, for a particle that is not in its cell, and after close(); Error(input) for a
   // position that is not finite.
-  // Cost: some 20 us, whatever the size of the environment; more where what lies there passes ridges or
-  // vertices of cells exactly.
+  // Cost: 3 to 5 us a new cell, whatever the size of the environment; more where what lies there passes
+  // ridges or vertices of cells exactly.
 
   /// Replaces a cell by the cells of a new point strictly inside it.
   Replacement insert_point(Cell cell, const Point<D>& position);
 
   /// Replaces the cells around an edge by those that a new point joined to both ends makes of them. The
-  /// position need not be on the edge. Refused if a wall or the boundary has the edge.
+  /// position need not be on the edge. If a wall has the edge, it must lie on it exactly, and nothing may lie
+  /// in these cells, nor rest on their walls: then walls stay where they are. Refused otherwise, and if the
+  /// boundary has the edge.
   Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
 
   /// Replaces the two cells of a facet by three around the edge that joins their other vertices (2D: by two
@@ -160,7 +162,7 @@ class Reshaping {
   /// quality of the cells that it touches. Deterministic. Walls stay where they are.
   /// \throw Error(usage) for a point that does not exist or a cell around one that is not a simplex, and as
   ///        the replacements above
-  /// Cost: some 20 us an operation, and as much for those that are only considered.
+  /// Cost: that of the operations, and some us for each that is only considered.
   Relax_report relax(std::span<const std::uint32_t> points, const Relax_options& options = {});
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved or changed after that.

@@ -115,6 +115,15 @@ void Relinker<D>::write_chain(Member edge, std::span<const Cell> sorted, Chain& 
 }
 
 template <int D>
+bool Relinker<D>::has_any() const {
+  // An edge without a vertex there enters and leaves: a letter of it is of one of the cells.
+  const auto passes = [&](Member edge) {
+    return std::ranges::any_of(groups_.chain(edge), [&](Half_facet f) { return find(f) != nullptr; });
+  };
+  return !vertices_.empty() || !faces_.empty() || std::ranges::any_of(edges_, passes);
+}
+
+template <int D>
 std::size_t Relinker<D>::relink(std::span<const Cell> added) {
   moved_.clear();
   chains_.clear();

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "wall_edge.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -204,9 +206,20 @@ Replacement Replacer<D>::make(const Patch<D>& patch) {
   Cell_soup<D> soup;
   if (std::string reason = check_patch(snapshot(), patch, soup); !reason.empty())
     return refused(std::move(reason));
+  prepare(patch);
+  return replace(patch, soup);
+}
+
+/// Before cells are replaced.
+template <int D>
+void Replacer<D>::prepare(const Patch<D>& patch) {
   mover_.restore();
   counts_.opened += groups_.open(box_of<D>(snapshot(), patch.removed));
   relinker_.note(patch.removed);
+}
+
+template <int D>
+Replacement Replacer<D>::replace(const Patch<D>& patch, const Cell_soup<D>& soup) {
   Replacement result;
   if (patch.added) result.point = snapshot().next_point();
   is_broken_ = true;
@@ -313,7 +326,14 @@ template <int D>
 Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position) {
   std::string reason;
   const Patch<D> patch = split(u, v, position, reason);
-  return reason.empty() ? make(patch) : refused(std::move(reason));
+  if (reason.empty()) return make(patch);
+  if (D == 3 && ring(patch.removed, u, v).empty()) return refused("the boundary has the edge");
+  Cell_soup<D> soup;
+  reason = check_wall_edge<D>(snapshot(), patch.removed, {u, v}, position, soup);
+  if (!reason.empty()) return refused(std::move(reason));
+  prepare(patch);
+  if (relinker_.has_any()) return refused("a wall has the edge, and something lies in the cells around it");
+  return replace(patch, soup);
 }
 
 template <int D>

@@ -48,6 +48,8 @@ class Replacer {
   const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
 
  private:
+  void prepare(const Patch<D>& patch);
+  Replacement replace(const Patch<D>& patch, const Cell_soup<D>& soup);
   void check_edit() const;
   void check_simplices(const std::vector<Cell>& cells) const;
   void check_point(std::uint32_t point) const;
