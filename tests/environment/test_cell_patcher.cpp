@@ -147,6 +147,10 @@ TEST(CellPatcher, ClustersOfCellsFollow) {
   const Snapshot<2>& snapshot = environment.snapshot();
   const auto& clusters = snapshot.clusters();
   Random random(3);
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
+    if (const Half_facet f = Snapshot<2>::half_facet(snapshot.cell(i), i % 3);
+        snapshot.neighbour(f) != Cell::none && random.chance(0.4))
+      environment.set_impassable(f, true);
   std::size_t compared = 0, added = 0;
   for (int k = 0; k < 60; ++k) {
     std::uint32_t size = 0;  // of a cluster
@@ -164,10 +168,11 @@ TEST(CellPatcher, ClustersOfCellsFollow) {
       flip(environment, Snapshot<2>::half_facet(c, static_cast<std::size_t>(random.below(3))));
     }
     // More names than there were.
-    const Cell_view<2> view = snapshot.view(snapshot.cell(0));
+    const Cell grown = snapshot.cell(random.below(snapshot.cell_slots()));
+    const Cell_view<2> view = snapshot.view(grown);
     const Point<2> x =
         view.point(0) + 0.25 * (view.point(1) - view.point(0)) + 0.25 * (view.point(2) - view.point(0));
-    added += environment.insert_point(snapshot.cell(0), x).size();
+    added += environment.insert_point(grown, x).size();
   }
   EXPECT_EQ(added, 180u);
   EXPECT_GT(compared, 200u);

@@ -185,8 +185,9 @@ void Map_patch<D>::set_vertices(const Snapshot<D>& snapshot) {
 template <int D>
 void Map_patch<D>::forget_vertices() {
   auto& pinched = storage_.pinched;
-  for (const auto& [point, vertex] : vertices_) {
-    const std::uint32_t own = point;
+  for (const auto& entry_of_vertex : vertices_) {
+    const std::uint32_t own = entry_of_vertex.first;
+    const Map_vertex<D> vertex = entry_of_vertex.second;
     if (storage_.map.template get_attribute_ref_counting<0>(vertex) !=
         static_cast<std::size_t>(std::ranges::count_if(
             old_darts_, [&](Dart<D> d) { return storage_.map.template attribute<0>(d) == vertex; })))
