@@ -125,7 +125,7 @@ void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector
 
 template <int D>
 void Environment<D>::check_point(std::uint32_t point) const {
-  if (point >= snapshot_.points().size())
+  if (!snapshot_.is_point(point))
     throw Error(Error_code::usage, "there is no point " + std::to_string(point));
 }
 
