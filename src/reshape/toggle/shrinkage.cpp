@@ -13,36 +13,13 @@ namespace {
 /// side, then all on the other.
 constexpr std::size_t most_free_faces = 4;
 
-/// A convex set in the plane: its corners, and lines that have it on their left or in them.
-struct Convex_set {
-  std::vector<Point<2>> corners;
-  std::vector<std::array<Point<2>, 2>> lines;
-};
-
-/// True if no point of an open triangle lies in a segment, or inside of a cell: then a line along a side of
-/// one of them parts them.
-bool are_apart(const std::array<Point<2>, 3>& triangle, const Convex_set& set, Walk_counts& counts) {
-  const auto sign = [&](const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-    ++counts.side_tests;
-    return Exact::orientation(counts.predicates, a, b, c);
-  };
-  const int sense = sign(triangle[0], triangle[1], triangle[2]);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::all_of(set.corners.begin(), set.corners.end(), [&](const Point<2>& x) {
-          return sense * sign(triangle[k], triangle[(k + 1) % 3], x) <= 0;
-        }))
-      return true;
-  return std::any_of(set.lines.begin(), set.lines.end(), [&](const auto& line) {
-    return std::all_of(triangle.begin(), triangle.end(),
-                       [&](const Point<2>& x) { return sign(line[0], line[1], x) <= 0; });
-  });
+template <int D>
+bool are_in_line(const Point<D>& p, const Point<D>& q, const Point<D>& r) {
+  if constexpr (D == 3)
+    return are_collinear(p, q, r);
+  else
+    return false;
 }
-
-bool are_in_line(const std::array<Point<2>, 3>& p) {
-  Predicate_counts uncounted;
-  return Exact::orientation(uncounted, p[0], p[1], p[2]) == 0;
-}
-bool are_in_line(const std::array<Point<3>, 3>& p) { return are_collinear(p[0], p[1], p[2]); }
 
 }  // namespace
 
@@ -146,33 +123,19 @@ void Shrinkage<D>::find_near_faces(std::uint32_t group) {
   faces_.clear();
   in_plane_.clear();
   const Resident_group<D>& of = groups_.all()[group];
-  if (!of.body || (D == 3 && !of.body->keeps_faces())) return;
+  if (D == 2 || !of.body || !of.body->keeps_faces()) return;  // in the plane bodies keep no faces
   for (std::uint32_t f = 0; f < of.faces.size(); ++f) {
     Near_face face{f, {}};
     for (std::size_t k = 0; k < 3; ++k) face.corners[k] = of.particles[of.faces[f][k]].position;
-    if (is_near(face.corners) && !are_in_line(face.corners)) faces_.push_back(face);
+    const auto& [p, q, r] = face.corners;
+    if (is_near(face.corners) && !are_in_line<D>(p, q, r)) faces_.push_back(face);
   }
 }
 
 /// True if a face forbids the change by itself. Else notes the walls in its plane that it overlaps.
 template <int D>
 bool Shrinkage<D>::is_parted(std::uint32_t group, const Near_face& face) {
-  if constexpr (D == 2) {
-    Convex_set set;
-    const auto add = [&](Half_facet f) {
-      const std::vector<std::uint32_t> loop = snapshot_.loop(f);
-      const Point<2>&from = snapshot_.point(loop[0]), &to = snapshot_.point(loop[1]);
-      set.corners.insert(set.corners.end(), {from, to});
-      set.lines.push_back({from, to});
-      if (filled_ == Cell::none) set.lines.push_back({to, from});
-    };
-    if (filled_ == Cell::none)
-      add(walls_.front());
-    else
-      for (std::size_t i = 0; i < snapshot_.facet_count(filled_); ++i)
-        add(Snapshot<2>::half_facet(filled_, i));
-    return !are_apart(face.corners, set, counts_);
-  } else {
+  if constexpr (D == 3) {
     for (const Half_facet rest : groups_.all()[group].body->supporting_walls(face.number))
       if (filled_ != Cell::none && snapshot_.cell_of(rest) == filled_) return true;
     for (const Half_facet wall : walls_) {
@@ -180,8 +143,8 @@ bool Shrinkage<D>::is_parted(std::uint32_t group, const Near_face& face) {
       if (place == Face_at_facet::pierced) return true;
       if (place == Face_at_facet::in_plane) in_plane_.emplace_back(face.number, wall);
     }
-    return false;
   }
+  return false;
 }
 
 /// Adds the sides of a face that lie along new walls, and notes whereto the face extends from there.
