@@ -101,6 +101,38 @@ TEST(Toggle, VertexInTheFacetGoesToTheSideOfItsEdges) {
   EXPECT_TRUE(body.move_vertex(0, {0.5, 0.5}, {}, counts)) << "there is a wall now";
 }
 
+TEST(Toggle, EdgeKeepsTheSideOfAMembraneBeside) {
+  for (const bool is_above : {true, false}) {
+    Environment<2> environment = test::simplex_grid<2>(4);
+    const Snapshot<2>& snapshot = environment.snapshot();
+    environment.set_impassable(level_facets<2>(environment, 2, {1, 0}).at(0), true);
+    const double start = is_above ? 2.5 : 1.5;
+    Body<2> body = body_at<2>(environment, {{0.5, start}, {3.5, start}});
+    Body_counts counts;
+    Step_report<2> report;
+    body.step(std::vector<Point<2>>{{0.5, 2}, {3.5, 2}}, {}, report, counts);
+    body.refresh(counts);
+    ASSERT_TRUE(report.contacts.empty());
+    // From the end of the membrane upwards: what is above the membrane is cut off from what is behind.
+    Half_facet f = Half_facet::none;
+    const std::uint32_t low = test::point_at<2>(environment, {2, 2}),
+                        high = test::point_at<2>(environment, {2, 3});
+    for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Half_facet g = Snapshot<2>::half_facet(snapshot.cell(i), k);
+        if (snapshot.loop(g) == std::vector<std::uint32_t>{low, high}) f = g;
+      }
+    ASSERT_NE(f, Half_facet::none);
+    {
+      Reshaping<2> reshaping(environment, {{&body}, {}});
+      const Change_result result = reshaping.close(f);
+      EXPECT_EQ(result.is_made, !is_above);
+      EXPECT_EQ(result.held_by.size(), is_above ? 1u : 0u) << "a chain below would be another one";
+    }
+    expect_sound(environment, body);
+  }
+}
+
 TEST(Toggle, EdgesInTheFacetOfAFaceGoWithIt) {
   // A face that stands on the facet, and reaches further; its edge there passed below when it came.
   for (const double tip : {3.5, 0.5}) {

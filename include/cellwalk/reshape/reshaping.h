@@ -101,11 +101,10 @@ class Reshaping {
   Change_result open(Half_facet facet);
 
   /// Makes a facet a wall, seen from either side; not to be mistaken for close(), which ends all changes.
-  /// Refused if a vertex, an edge or a face would then be parted by it: all that lies on both sides of it for
-  /// good, as an edge that passes through its inside. What only touches the facet is registered on a side of
-  /// it from which the rest of its body can be reached. Of bodies in the plane, a face forbids walls inside
-  /// of it; of those in space, faces count if the body was last moved with Sweep::faces, and may have walls
-  /// between them. One that is a wall already stays so.
+  /// Refused if a vertex, an edge or a face would then be on both sides of it, as an edge that passes through
+  /// its inside. What only touches the facet is registered on a side of it on which the rest of its body can
+  /// be as well. Faces count if the body was last moved with Sweep::faces (3D); walls may appear inside of a
+  /// closed surface, and of a body in the plane, which has no faces. A facet that is a wall already stays so.
   /// \throw Error as open(), and Error(usage) for a particle near that is not in its cell
   /// Degenerate cases: all are decided; see docs/cutting.md.
   /// Cost: about 1 us with nothing near; some signs an edge that passes it inside; exact numbers, up to a

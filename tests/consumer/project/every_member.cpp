@@ -48,7 +48,7 @@ void keep_environments() {
 
   keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
        &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::soup,
-       &Environment<D>::set_impassable, &Environment<D>::move_vertex, &Environment<D>::insert_point,
+       &Environment<D>::set_impassable, &Environment<D>::excavate, &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
        &Environment<D>::certify, &Environment<D>::cells_around);
 
   keep(
@@ -89,7 +89,9 @@ void keep_reshaping() {
       +[](Environment<D>& e, const Residents<D>& r) { return Reshaping<D>(e, r); }, &moved<Reshaping<D>>,
       static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
       static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
-      &Reshaping<D>::ask, &Reshaping<D>::close, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
+      &Reshaping<D>::ask, static_cast<void (Reshaping<D>::*)()>(&Reshaping<D>::close),
+      static_cast<Change_result (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
+      &Reshaping<D>::excavate, &Reshaping<D>::fill, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
       &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
       &Reshaping<D>::relax);
   keep(&Relax_report::operations);
