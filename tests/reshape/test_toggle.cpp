@@ -217,9 +217,9 @@ Body<3> big_face(const Environment<3>& environment, double height) {
   return body_at<3>(environment, {{0.25, 0.25, height}, {3.75, 0.25, height}, {2, 3.75, height}}, true);
 }
 
-/// A face that comes from above, and comes to lie on a membrane inside of it.
-Body<3> resting_face(const Environment<3>& environment) {
-  Body<3> body = big_face(environment, 2.5);
+/// A face that comes from a height, and comes to lie on a membrane inside of it.
+Body<3> resting_face(const Environment<3>& environment, double from = 2.5) {
+  Body<3> body = big_face(environment, from);
   Body_counts counts;
   Step_report<3> report;
   Body_options options;
@@ -254,28 +254,31 @@ TEST(Toggle, FaceBetweenAMembraneAndWhatIsFilled) {
 }
 
 TEST(Toggle, FaceKeepsTheSideOfWhatItRestsOn) {
-  Environment<3> environment = test::simplex_grid<3>(4);
-  const std::vector<Half_facet> square = level_facets<3>(environment, 2, {1, 1});
-  ASSERT_EQ(square.size(), 2u);
-  environment.set_impassable(square[0], true);
-  Body<3> body = resting_face(environment);
-  const Snapshot<3>& snapshot = environment.snapshot();
-  {
-    Reshaping<3> reshaping(environment, {{&body}, {}});
-    EXPECT_TRUE(reshaping.close(square[1]).is_made);
-    // It is above both, so that nothing can be filled there.
+  for (const double from : {2.5, 1.5}) {
+    Environment<3> environment = test::simplex_grid<3>(4);
+    const std::vector<Half_facet> square = level_facets<3>(environment, 2, {1, 1});
+    ASSERT_EQ(square.size(), 2u);
+    environment.set_impassable(square[0], true);
+    Body<3> body = resting_face(environment, from);
+    const Snapshot<3>& snapshot = environment.snapshot();
+    const auto beside = [&](Half_facet f) { return from > 2 ? snapshot.neighbour(f) : snapshot.cell_of(f); };
     const auto expect_held_by_face = [&](const Change_result& result) {
-      EXPECT_FALSE(result.is_made);
+      ASSERT_FALSE(result.is_made);
       EXPECT_EQ(result.held_by.back(), (Resident{false, 0, Body_feature::face, 0}));
     };
-    for (const Half_facet f : square) expect_held_by_face(reshaping.fill(snapshot.neighbour(f)));
-    // Nothing holds walls open that are opened, nor what was behind them.
-    EXPECT_TRUE(reshaping.open(square[0]).is_made);
-    expect_held_by_face(reshaping.fill(snapshot.neighbour(square[1])));
-    EXPECT_TRUE(reshaping.open(square[1]).is_made);
-    EXPECT_TRUE(reshaping.fill(snapshot.neighbour(square[1])).is_made);
+    {
+      Reshaping<3> reshaping(environment, {{&body}, {}});
+      EXPECT_TRUE(reshaping.close(square[1]).is_made);
+      // It is on one side of both, so that nothing can be filled there.
+      for (const Half_facet f : square) expect_held_by_face(reshaping.fill(beside(f)));
+      // Nothing holds walls that are opened, nor what was behind them.
+      EXPECT_TRUE(reshaping.open(square[0]).is_made);
+      expect_held_by_face(reshaping.fill(beside(square[1])));
+      EXPECT_TRUE(reshaping.open(square[1]).is_made);
+      EXPECT_TRUE(reshaping.fill(beside(square[1])).is_made);
+    }
+    expect_sound(environment, body);
   }
-  expect_sound(environment, body);
 }
 
 TEST(Toggle, FaceHoldsWhatWouldPierceIt) {
@@ -335,6 +338,25 @@ TEST(Toggle, CertificatesAreThoseOfAnEnvironmentBuiltSo) {
       EXPECT_EQ(snapshot.is_impassable(g), built.snapshot().is_impassable(g));
     }
   EXPECT_NO_THROW(environment.certify());
+}
+
+TEST(Toggle, NothingStaleCertifiesBetweenMoves) {
+  Environment<2> environment = test::simplex_grid<2>(4);
+  const Snapshot<2>& snapshot = environment.snapshot();
+  const std::uint32_t v = test::point_at<2>(environment, {2, 2});
+  const std::vector<Cell> star = environment.cells_around(v);
+  Reshaping<2> reshaping(environment, {});
+  ASSERT_EQ(reshaping.move(v, {2.125, 2}).end, Move_end::reached);
+  for (const Cell c : star)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Half_facet f = Snapshot<2>::half_facet(c, k);
+      EXPECT_TRUE(reshaping.close(f).is_made);
+      EXPECT_TRUE(reshaping.open(f).is_made);
+    }
+  ASSERT_EQ(reshaping.move(v, {2, 2.125}).end, Move_end::reached);
+  for (const Cell c : star)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_FALSE(snapshot.is_convex_pair(Snapshot<2>::half_facet(c, k))) << "as it was before the move";
 }
 
 TEST(Toggle, ChangesWithoutResidents) {
