@@ -1,64 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/reshape/reshaping.h>
-#include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <vector>
 
-#include "reshape/grids.h"
+#include "reshape/toggle_cases.h"
 
 namespace cellwalk {
 namespace {
 
-/// The facets on the level `height` of a unit square (2D: edge) whose lowest corner is x, seen from below.
-template <int D>
-std::vector<Half_facet> level_facets(const Environment<D>& environment, double height,
-                                     std::array<double, 2> x) {
-  const Snapshot<D>& snapshot = environment.snapshot();
-  std::vector<Half_facet> result;
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
-    const Cell c = snapshot.cell(i);
-    for (std::size_t k = 0; k < snapshot.facet_count(c); ++k) {
-      const Half_facet f = Snapshot<D>::half_facet(c, k);
-      const auto loop = snapshot.loop(f);
-      const auto lies_there = [&](std::uint32_t v) {
-        const Point<D>& p = snapshot.point(v);
-        for (std::size_t a = 0; a + 1 < D; ++a)
-          if (p[a] < x[a] || p[a] > x[a] + 1) return false;
-        return p[D - 1] == height;
-      };
-      const Cell_view<D> view = snapshot.view(c);
-      bool is_below = false;
-      for (std::size_t v = 0; v < view.vertex_count(); ++v) is_below |= view.point(v)[D - 1] < height;
-      if (is_below && std::all_of(loop.begin(), loop.end(), lies_there)) result.push_back(f);
-    }
-  }
-  return result;
-}
-
-template <int D>
-Body<D> body_at(const Environment<D>& environment, std::vector<Point<D>> points, bool has_face = false) {
-  Body_soup<D> soup{std::move(points), {{0, 1}}, {}};
-  if (soup.points.size() == 3) soup.edges = {{0, 1}, {0, 2}, {1, 2}};
-  if (has_face) soup.faces = {{0, 1, 2}};
-  return {environment.snapshot(), Locator<D>(environment.snapshot()), soup};
-}
-
-template <int D>
-void expect_held(const Change_result& result, std::vector<Resident> by) {
-  EXPECT_FALSE(result.is_made);
-  EXPECT_FALSE(result.reason.empty());
-  EXPECT_EQ(result.held_by, by);
-}
-
-template <int D>
-void expect_sound(const Environment<D>& environment, const Body<D>& body) {
-  EXPECT_NO_THROW(environment.certify());
-  EXPECT_NO_THROW(body.validate());
-}
+using test::body_at, test::expect_held, test::expect_sound, test::level_facets;
 
 TEST(Toggle, ValveClosesOnAnEdge) {
   Environment<2> environment = test::simplex_grid<2>(2);
@@ -133,34 +85,6 @@ TEST(Toggle, EdgeKeepsTheSideOfAMembraneBeside) {
   }
 }
 
-TEST(Toggle, EdgesInTheFacetOfAFaceGoWithIt) {
-  // A face that stands on the facet, and reaches further; its edge there passed below when it came.
-  for (const double tip : {3.5, 0.5}) {
-    Environment<3> environment = test::simplex_grid<3>(4);
-    Body<3> body = body_at<3>(environment, {{0.5, 1.75, 2}, {3.5, 1.75, 2}, {2, 1.75, tip}}, true);
-    const std::vector<Half_facet> square = level_facets<3>(environment, 2, {1, 1});
-    {
-      Reshaping<3> reshaping(environment, {{&body}, {}});
-      for (const Half_facet f : square) EXPECT_TRUE(reshaping.close(f).is_made);
-    }
-    expect_sound(environment, body);
-    Body_counts counts;
-    Step_report<3> report;
-    body.step(std::vector<Point<3>>{{0.5, 1.75, 2}, {3.5, 1.75, 2}, {2, 1.75, 4 - tip}}, {}, report, counts);
-    EXPECT_FALSE(report.contacts.empty()) << "the edge in the facet is on the side of the tip";
-  }
-  // Two faces, one on each side: the facet would come to lie between them.
-  Environment<3> environment = test::simplex_grid<3>(4);
-  Body<3> kite(environment.snapshot(), Locator<3>(environment.snapshot()),
-               {{{0.5, 1.75, 2}, {3.5, 1.75, 2}, {2, 1.75, 3.5}, {2, 1.75, 0.5}},
-                {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}},
-                {{0, 1, 2}, {0, 3, 1}}});
-  Reshaping<3> reshaping(environment, {{&kite}, {}});
-  for (const Half_facet f : level_facets<3>(environment, 2, {1, 1}))
-    expect_held<3>(reshaping.close(f),
-                   {{false, 0, Body_feature::face, 0}, {false, 0, Body_feature::face, 1}});
-}
-
 TEST(Toggle, CellsOfAnyShape) {
   Environment<3> environment = Environment<3>::build(hex_grid({.cells = {3, 3, 3}}));
   Body<3> body = body_at<3>(environment, {{0.25, 1.5, 1.5}, {2.75, 1.5, 1.5}});
@@ -212,91 +136,6 @@ void fill_beside_a_particle() {
 
 TEST(Toggle, FilledBesideAParticle2D) { fill_beside_a_particle<2>(); }
 TEST(Toggle, FilledBesideAParticle3D) { fill_beside_a_particle<3>(); }
-
-Body<3> big_face(const Environment<3>& environment, double height) {
-  return body_at<3>(environment, {{0.25, 0.25, height}, {3.75, 0.25, height}, {2, 3.75, height}}, true);
-}
-
-/// A face that comes from a height, and comes to lie on a membrane inside of it.
-Body<3> resting_face(const Environment<3>& environment, double from = 2.5) {
-  Body<3> body = big_face(environment, from);
-  Body_counts counts;
-  Step_report<3> report;
-  Body_options options;
-  options.sweep.sweep = Sweep::faces;
-  body.step(big_face(environment, 2).positions(), options, report, counts);
-  EXPECT_TRUE(report.contacts.empty());
-  body.refresh(counts);
-  return body;
-}
-
-TEST(Toggle, FaceBetweenAMembraneAndWhatIsFilled) {
-  Environment<3> environment = test::simplex_grid<3>(4);
-  const Half_facet w = level_facets<3>(environment, 2, {1, 1}).at(0);
-  environment.set_impassable(w, true);
-  const Snapshot<3>& snapshot = environment.snapshot();
-  Body<3> body = resting_face(environment);
-  const Cell below = snapshot.cell_of(w), above = snapshot.neighbour(w);
-  {
-    Reshaping<3> reshaping(environment, {{&body}, {}});
-    expect_held<3>(reshaping.fill(above), {{false, 0, Body_feature::face, 0}});
-    EXPECT_FALSE(snapshot.is_solid(above));
-    EXPECT_TRUE(reshaping.fill(below).is_made);
-    EXPECT_TRUE(reshaping.excavate(below).is_made) << "its facets become passable, the membrane as well";
-    EXPECT_FALSE(snapshot.is_impassable(w));
-  }
-  expect_sound(environment, body);
-  {
-    Reshaping<3> reshaping(environment, {{&body}, {}});
-    EXPECT_TRUE(reshaping.fill(above).is_made) << "it is beside the face, on which nothing else lies";
-  }
-  expect_sound(environment, body);
-}
-
-TEST(Toggle, FaceKeepsTheSideOfWhatItRestsOn) {
-  for (const double from : {2.5, 1.5}) {
-    Environment<3> environment = test::simplex_grid<3>(4);
-    const std::vector<Half_facet> square = level_facets<3>(environment, 2, {1, 1});
-    ASSERT_EQ(square.size(), 2u);
-    environment.set_impassable(square[0], true);
-    Body<3> body = resting_face(environment, from);
-    const Snapshot<3>& snapshot = environment.snapshot();
-    const auto beside = [&](Half_facet f) { return from > 2 ? snapshot.neighbour(f) : snapshot.cell_of(f); };
-    const auto expect_held_by_face = [&](const Change_result& result) {
-      ASSERT_FALSE(result.is_made);
-      EXPECT_EQ(result.held_by.back(), (Resident{false, 0, Body_feature::face, 0}));
-    };
-    {
-      Reshaping<3> reshaping(environment, {{&body}, {}});
-      EXPECT_TRUE(reshaping.close(square[1]).is_made);
-      // It is on one side of both, so that nothing can be filled there.
-      for (const Half_facet f : square) expect_held_by_face(reshaping.fill(beside(f)));
-      // Nothing holds walls that are opened, nor what was behind them.
-      EXPECT_TRUE(reshaping.open(square[0]).is_made);
-      expect_held_by_face(reshaping.fill(beside(square[1])));
-      EXPECT_TRUE(reshaping.open(square[1]).is_made);
-      EXPECT_TRUE(reshaping.fill(beside(square[1])).is_made);
-    }
-    expect_sound(environment, body);
-  }
-}
-
-TEST(Toggle, FaceHoldsWhatWouldPierceIt) {
-  Environment<3> environment = test::simplex_grid<3>(4);
-  Body<3> body = big_face(environment, 1.5);
-  const Snapshot<3>& snapshot = environment.snapshot();
-  Reshaping<3> reshaping(environment, {{&body}, {}});
-  const Cell inside = Locator<3>(snapshot).particles_at({2.1, 1.7, 1.5}).at(0).cell;
-  std::size_t held = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Change_result result = reshaping.close(Snapshot<3>::half_facet(inside, k));
-    if (result.is_made) continue;
-    ++held;
-    EXPECT_EQ(result.held_by, (std::vector<Resident>{{false, 0, Body_feature::face, 0}}));
-  }
-  EXPECT_GE(held, 3u) << "those that its plane cuts";
-  expect_held<3>(reshaping.fill(inside), {{false, 0, Body_feature::face, 0}});
-}
 
 TEST(Toggle, RegionsEndWhereAWallAppears) {
   Environment<2> environment = test::simplex_grid<2>(8);
