@@ -21,7 +21,7 @@ Face_registration stand_among_walls(const Snapshot<3>& snapshot, const std::arra
                                     Walk_counts& counts) {
   Face_counts face_counts;
   const auto& [p, q, r] = corners;
-  const Face_registration result = stand_face(snapshot, p, q, r, chains, known, Known::binding, face_counts);
+  Face_registration result = stand_face(snapshot, p, q, r, chains, known, Known::binding, face_counts);
   counts += face_counts.walk;
   return result;
 }
