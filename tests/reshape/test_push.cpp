@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "reshape/grids.h"
+#include "reshape/star_scene.h"
 #include "reshape/wall_judge.h"
 #include "walk/oracle_trial.h"
 
@@ -179,6 +180,30 @@ TYPED_TEST(PushTest, NothingMovesWhereOneOnlyAsks) {
   EXPECT_TRUE(std::ranges::equal(before, body.positions()));
   EXPECT_NO_THROW(body.validate());
   EXPECT_THROW(reshaping.ask(room.vertex, from), Error);
+}
+
+// Two cells are a convex pair until the tip between them comes in. An edge that is pushed in one of them must
+// not pass that tip.
+TYPED_TEST(PushTest, PairsOfCellsThatWereConvexCertifyNothing) {
+  constexpr int D = TypeParam::value;
+  test::Flat_soup<D> soup({{0, 0.5}, {-4, 0}, {0, -4}, {4, 0}, {0, 6}});
+  soup.add_fan(4);
+  soup.add_wall(0, 1);
+  soup.add_wall(0, 3);
+  test::Star_scene<D> scene(soup.soup);
+  Body<D>& body = scene.add_body({test::at<D>(-2, -1.5, 0.25), test::at<D>(2, -1.5, 0.25)});
+  ASSERT_NE(scene.snapshot.convex_passage(body.particles()[0].cell, body.particles()[1].cell),
+            Half_facet::none);
+  Reshaping<D> reshaping(scene.environment, scene.residents(), push);
+  ASSERT_EQ(reshaping.move(0, test::at<D>(0, -1)).end, Move_end::reached);
+  ASSERT_EQ(reshaping.counts().pushes, 0u);
+  reshaping.move(2, test::at<D>(0, -1.25));
+  EXPECT_GT(reshaping.counts().pushes, 0u);
+  reshaping.close();
+  EXPECT_NO_THROW(body.validate());
+  const auto x = body.positions();
+  const double share = -x[0][0] / (x[1][0] - x[0][0]);
+  EXPECT_LE(x[0][1] + share * (x[1][1] - x[0][1]), D == 2 ? -1 + 1e-12 : -0.96) << "below the tip";
 }
 
 TEST(PushFaces, AFaceIsPushedAndKeptFree) {

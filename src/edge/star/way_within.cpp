@@ -46,7 +46,10 @@ void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, 
                 "not certified, or it was not listed");
 }
 
-/// Where the edge passes each of these facets in its interior. False if it does not.
+/// Where the edge passes each of these facets in its interior. False if it does not. Around a vertex that
+/// moves, may_pass() asks for the vertex only to give up early: between the two cells the edge stays in the
+/// star, so that it passes a facet without the vertex in its interior only behind the second cell, which it
+/// does not reach any more.
 template <int D>
 bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
                                     const Point<D>& q) const {
