@@ -38,9 +38,9 @@ struct Reshaping<D>::State {
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
   enum class Attempt : std::uint8_t { move, whether, nothing };
-  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind);
+  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind, bool is_first = false);
   bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);
-  Vertex_result<D> move(std::uint32_t point, const Point<D>& target,
+  Vertex_result<D> move(std::uint32_t point, const Point<D>& target, bool is_first,
                         std::vector<Wall_hit<D>>* hits = nullptr);
   bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   detail::Box<D> box_of_star(const Point<D>& target) const;
@@ -72,8 +72,10 @@ detail::Box<D> Reshaping<D>::State::box_of_star(const Point<D>& target) const {
 }
 
 /// Moves the point to the target or leaves it where it is.
+/// \param is_first whether a call asks for this move for the first time
 template <int D>
-Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, Attempt kind) {
+Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D>& target, Attempt kind,
+                                              bool is_first) {
   check_open();
   const detail::Star_check check = mover.begin(point, target);
   ++counts.moves;
@@ -93,6 +95,10 @@ Vertex_result<D> Reshaping<D>::State::attempt(std::uint32_t point, const Point<D
   bool is_free = false;
   try {
     is_free = decide(mover.from(), point, kind == Attempt::whether, result);
+    if (is_first && groups.has_open()) {
+      counts.near += trial.near();
+      counts.certified += trial.certified();
+    }
   } catch (...) {
     mover.take_back();
     throw;
@@ -128,10 +134,10 @@ bool Reshaping<D>::State::decide(const Point<D>& from, std::uint32_t point, bool
 
 /// \param hits if not null, all that the point meets is added
 template <int D>
-Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& target,
+Vertex_result<D> Reshaping<D>::State::move(std::uint32_t point, const Point<D>& target, bool is_first,
                                            std::vector<Wall_hit<D>>* hits) {
   const auto go = [&] {
-    Vertex_result<D> result = attempt(point, target, Attempt::move);
+    Vertex_result<D> result = attempt(point, target, Attempt::move, std::exchange(is_first, false));
     if (hits && result.hit) hits->push_back(*result.hit);
     return result;
   };
@@ -226,7 +232,7 @@ Reshaping<D>& Reshaping<D>::operator=(Reshaping&& other) noexcept {
 
 template <int D>
 Vertex_result<D> Reshaping<D>::move(std::uint32_t point, const Point<D>& target) {
-  return state_->move(point, target);
+  return state_->move(point, target, true);
 }
 
 template <int D>
@@ -243,7 +249,7 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
     for (const std::size_t i : left) {
       const auto& [point, target] = moves[i];
       Vertex_result<D>& result = last[i];
-      result = state_->move(point, target, &report.hits);
+      result = state_->move(point, target, report.rounds == 1, &report.hits);
       if (result.end == Move_end::reached) {
         gets_on = true;
         continue;
@@ -252,7 +258,7 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
       const Point<D> from = result.position;
       if (result.end != Move_end::cell || !(result.share > 0)) continue;
       const Vertex_result<D> part =
-          state_->move(point, from + 0.5 * result.share * (target - from), &report.hits);
+          state_->move(point, from + 0.5 * result.share * (target - from), false, &report.hits);
       gets_on |= part.position != from;
       result.position = part.position;
     }
@@ -266,7 +272,7 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
 
 template <int D>
 Vertex_result<D> Reshaping<D>::ask(std::uint32_t point, const Point<D>& target) {
-  return state_->attempt(point, target, State::Attempt::nothing);
+  return state_->attempt(point, target, State::Attempt::nothing, true);
 }
 
 template <int D>

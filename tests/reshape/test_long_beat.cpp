@@ -126,6 +126,13 @@ TEST(LongBeat, EverythingStaysValidAndNothingIsStuckOnceWallsRetreat) {
       "%zu beats of %zu points among 21 bodies: %llu moves made, %zu hits, %zu stopped, %llu pushes\n", beats,
       vessel.snapshot.points().size(), static_cast<unsigned long long>(vessel.counts.made), vessel.hits,
       stopped, static_cast<unsigned long long>(vessel.counts.pushes));
+  std::printf("of %llu vertices, edges and faces near at first attempts, certificates decided %llu\n",
+              static_cast<unsigned long long>(vessel.counts.near),
+              static_cast<unsigned long long>(vessel.counts.certified));
+  // The others are what walls meet, which is much here: the vessel narrows to a half.
+  EXPECT_GT(vessel.counts.certified, vessel.counts.near / 10 * 9);
+  const Reshape_counts& c = vessel.counts;
+  EXPECT_LE(c.near - c.certified, c.hits + c.touches + c.left + c.followed + c.rested);
   EXPECT_GT(vessel.counts.made, beats * steps * 300);
   EXPECT_GT(vessel.hits, 0u);
   EXPECT_GT(stopped, 0u);

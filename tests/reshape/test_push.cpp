@@ -158,6 +158,25 @@ TYPED_TEST(PushTest, ParticlesArePushed) {
   }
 }
 
+TYPED_TEST(PushTest, FirstAttemptsAreCountedOnce) {
+  constexpr int D = TypeParam::value;
+  Room<D> room;
+  Body<D> body = room.body({room.beside(1.5, 2.125), room.beside(2.5, 2.125)}, {{0, 1}});
+  Reshaping<D> asking(room.environment, {{&body}, {}}, push);
+  ASSERT_EQ(asking.ask(room.vertex, room.at(2, 2.5)).end, Move_end::contact);
+  asking.close();
+  const Reshape_counts asked = asking.counts();
+  EXPECT_EQ(asked.near, asked.vertices + asked.edges);
+  EXPECT_EQ(asked.certified, asked.same_cell + asked.same_chain + asked.apart);
+  EXPECT_LT(asked.certified, asked.near) << "the edge is hit";
+  Reshaping<D> pushing(room.environment, {{&body}, {}}, push);
+  const std::vector<Vertex_move<D>> moves{{room.vertex, room.at(2, 2.5)}};
+  ASSERT_TRUE(pushing.move(moves).short_of_target.empty());
+  EXPECT_EQ(pushing.counts().near, asked.near);
+  EXPECT_EQ(pushing.counts().certified, asked.certified);
+  EXPECT_GT(pushing.counts().vertices + pushing.counts().edges, asked.near) << "it tried again";
+}
+
 TYPED_TEST(PushTest, NothingMovesWhereOneOnlyAsks) {
   constexpr int D = TypeParam::value;
   Room<D> room;

@@ -67,7 +67,9 @@ struct Move_report {
   std::uint32_t rounds = 0;                       ///< in which moves were tried
 };
 
-/// The counts of moves. They are machine-independent.
+/// The counts of moves. They are machine-independent. Each attempt counts all it looks at anew: at candidates
+/// to stop at, after pushes, in each round, and for each choice of sides. Only `near` and `certified` are
+/// those of first attempts: of each pair of a vertex moved, or asked about, and something near it, once.
 struct Reshape_counts {
   std::uint64_t moves = 0;  ///< of vertices of the environment tried, those of candidates to stop at included
   std::uint64_t made = 0;
@@ -87,11 +89,16 @@ struct Reshape_counts {
   std::uint64_t followed = 0;    ///< vertices and edges that walls touch, followed by definition
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
   std::uint64_t pushes = 0;      ///< residents' features pushed out of the way
-  Walk_counts walk;              ///< of all signs
+  /// Vertices, edges and faces looked at when a vertex was tried for the first time by a call of move() or
+  /// ask(), before anything was pushed.
+  std::uint64_t near = 0;
+  std::uint64_t certified = 0;  ///< of these, decided by their cell, their chain, or as apart from all walls
+  Walk_counts walk;             ///< of all signs
 
-  static constexpr std::array<std::string_view, 18> names{
-      "moves", "made",  "cells", "walls", "opened",  "vertices", "same_cell", "edges",  "same_chain",
-      "faces", "apart", "left",  "hits",  "touches", "relinked", "followed",  "rested", "pushes"};
+  static constexpr std::array<std::string_view, 20> names{
+      "moves",    "made",       "cells",  "walls",  "opened", "vertices", "same_cell",
+      "edges",    "same_chain", "faces",  "apart",  "left",   "hits",     "touches",
+      "relinked", "followed",   "rested", "pushes", "near",   "certified"};
 };
 static_assert(names_all_before<Reshape_counts>(offsetof(Reshape_counts, walk)));
 

@@ -10,16 +10,26 @@ template <int D>
 Obstruction Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
   any_ = any;
   groups_.find(cells, vertices_, edges_);
+  const Reshape_counts before = counts_;
   std::optional<Obstruction> first;
   for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
     obstruction_ = {};
     clear();
     const bool goes_on = try_vertices(star) && try_edges(star);
     if (D == 3 && goes_on && !star.walls().empty()) try_faces(star);
+    if (choice_ == 0) note_first_choice(before);
     if (obstruction_.meeting == Encounter::apart) return {};
     if (!first) first = std::move(obstruction_);
   }
   return std::move(*first);
+}
+
+template <int D>
+void Vertex_trial<D>::note_first_choice(const Reshape_counts& before) {
+  const auto grew = [&](std::uint64_t Reshape_counts::*count) { return counts_.*count - before.*count; };
+  near_ = grew(&Reshape_counts::vertices) + grew(&Reshape_counts::edges) + grew(&Reshape_counts::faces);
+  certified_ =
+      grew(&Reshape_counts::same_cell) + grew(&Reshape_counts::same_chain) + grew(&Reshape_counts::apart);
 }
 
 /// False if nothing else needs to be looked at.

@@ -39,6 +39,9 @@ class Vertex_trial {
   /// \param cells the cells around it
   /// \param any if true, the first obstruction found will do
   Obstruction run(const Moving_star<D>& star, std::span<const Cell> cells, bool any);
+  /// What run() looked at by the first choice of sides, and how much of that certificates decided.
+  std::uint64_t near() const { return near_; }
+  std::uint64_t certified() const { return certified_; }
   /// Registers the residents near.
   /// \pre run() found no obstruction, or clear() was called
   void commit();
@@ -56,6 +59,7 @@ class Vertex_trial {
     Cells_of_vertex cells;  ///< if it was followed
     bool keeps_cell, is_free;
   };
+  void note_first_choice(const Reshape_counts& before);
   bool try_vertices(const Moving_star<D>& star);
   bool try_vertex(const Moving_star<D>& star, Moved_vertex& vertex);
   bool try_edges(const Moving_star<D>& star);
@@ -79,6 +83,7 @@ class Vertex_trial {
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
   bool any_ = false;
+  std::uint64_t near_ = 0, certified_ = 0;
   Obstruction obstruction_;
   std::vector<Member> vertices_, edges_;
   std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
