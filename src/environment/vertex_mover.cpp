@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "environment/snapshot/compiler.h"
 
@@ -143,7 +144,6 @@ void Vertex_mover<D>::place() {
     is_withdrawn_[to_index(c)] = true;
     compiler.withdraw(c);
   }
-  compiler.raise_epochs();
   snapshot.move_point(point_, target_);
 }
 
@@ -154,6 +154,8 @@ void Vertex_mover<D>::take_back() {
 
 template <int D>
 void Vertex_mover<D>::commit() {
+  Snapshot_compiler<D>(environment_.snapshot_).raise_epochs();
+  has_made_ = true;
   environment_.follow_move(point_, is_on_boundary_);
 }
 
@@ -167,7 +169,10 @@ void Vertex_mover<D>::restore() {
     for (std::size_t i = 0; i < is_withdrawn_.size(); ++i)
       if (is_withdrawn_[i]) withdrawn_.push_back(Cell{static_cast<std::uint32_t>(i)});
   }
-  environment_.snapshot_.update_geometry(withdrawn_);
+  if (std::exchange(has_made_, false))
+    environment_.snapshot_.update_geometry(withdrawn_);
+  else
+    Snapshot_compiler<D>(environment_.snapshot_).certify_again(withdrawn_);
   for (const Cell c : withdrawn_) is_withdrawn_[to_index(c)] = false;
   withdrawn_.clear();
 }

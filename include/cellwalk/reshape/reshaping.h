@@ -47,9 +47,9 @@ struct Reshape_options {
 /// An environment that is open for moves of its vertices, with all that lies in it. Vertices move one after
 /// the other along straight lines, and the bodies and particles listed stand still meanwhile, or are pushed
 /// out of the way before; after each move they are registered as if the environment had always been so.
-/// Nothing else reads or changes the environment until close(), and bodies are not moved. A body that is not
-/// listed throws Error(usage) at its next use instead of missing a wall; particles that are not listed must
-/// be located again.
+/// Nothing else reads or changes the environment until close(), and bodies are not moved. Once a move was
+/// made, a body that is not listed throws Error(usage) at its next use instead of missing a wall, and
+/// particles that are not listed must be located again. What is asked, or not made, changes nothing for them.
 ///
 /// A move is made whole or not at all: an exact test of each wall at the vertex against each vertex, edge and
 /// face near it. Faces are looked at if the body was last moved with Sweep::faces (3D).

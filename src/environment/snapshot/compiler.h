@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "canonical_shape.h"
@@ -41,6 +42,14 @@ class Snapshot_compiler {
   void forget_cluster(Cell c) { s_.clusters_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
+  /// Makes certificates of cells anew whose points are where they were when these were withdrawn: all is as
+  /// it was, and no epoch rises.
+  void certify_again(std::span<const Cell> cells) {
+    const std::uint64_t epoch = s_.epoch_, geometry_epoch = s_.geometry_epoch_;
+    s_.update_geometry(cells);
+    s_.epoch_ = epoch;
+    s_.geometry_epoch_ = geometry_epoch;
+  }
   /// Recomputes the planes of a cell. Returns the number of those that could not be certified.
   std::size_t write_planes(Cell c);
   /// The number of current planes of a cell that certify nothing; 0 for a cell just written, which has no

@@ -55,7 +55,7 @@ class Vertex_mover {
   void place();
   /// Puts it back.
   void take_back();
-  /// Makes the move, after place().
+  /// Makes the move, after place(). Epochs rise with it.
   void commit();
   /// Makes certificates anew. If memory runs out, some stay withdrawn, and walks there slow.
   /// Cost: about 0.3 us a cell around the points moved.
@@ -69,7 +69,7 @@ class Vertex_mover {
   std::uint32_t point_ = 0;
   Point<D> from_{}, target_{};
   std::vector<Cell> star_;
-  bool is_on_boundary_ = false;
+  bool is_on_boundary_ = false, has_made_ = false;
   std::vector<Cell> withdrawn_;     ///< cells, in any order
   std::vector<bool> is_withdrawn_;  ///< by the name of a cell
 };
