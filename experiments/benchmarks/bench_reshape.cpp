@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls that move with nothing near: vertices of a membrane in grids of tetrahedra, and a vessel that beats.
-// Nanoseconds of processor time a vertex, of its moves and of its share of close().
+// Nanoseconds of processor time a vertex, of its moves and of its share of close(). And a vertex that moves
+// among edges of a body: nanoseconds an edge, of those that keep their chains and those that get new ones.
+#include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <benchmark/benchmark.h>
@@ -115,6 +118,60 @@ void vessel(benchmark::State& state, bool of_one_branch) {
   state.counters["vertices"] = static_cast<double>(moves.size());
 }
 
+/// A vertex in the middle of a grid goes up and down, by thousandths of a cell, among edges through
+/// its cells. With a wall, they lie above the middle layer, which is a membrane.
+void edges(benchmark::State& state, bool has_wall) {
+  Simplex_grid_options<3> options;
+  options.cells = {8, 8, 8};
+  Environment<3> environment = Environment<3>::build(tetrahedral_grid(options), {});
+  const Snapshot<3>& snapshot = environment.snapshot();
+  const Point<3> home{4, 4, 4};
+  const auto points = snapshot.points();
+  const auto vertex = static_cast<std::uint32_t>(std::ranges::find(points, home) - points.begin());
+  for (std::size_t i = 0; has_wall && i < snapshot.cell_slots(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Half_facet f = Snapshot<3>::half_facet(snapshot.cell(i), k);
+      if (std::ranges::all_of(snapshot.loop(f), [&](std::uint32_t v) { return points[v][2] == 4; }))
+        environment.set_impassable(f, true);
+    }
+  Random random(1);
+  Body_soup<3> soup;
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  for (std::uint32_t e = 0; e < count; ++e) {
+    const Point<3> middle{random.real(3.6, 4.4), random.real(3.6, 4.4),
+                          has_wall ? random.real(4.2, 4.6) : random.real(3.6, 4.4)};
+    const double angle = random.real(0, 2 * std::numbers::pi);
+    const double rise = has_wall ? random.real(-0.05, 0.05) : random.real(-0.7, 0.7);
+    const Vector<3> along{std::cos(angle), std::sin(angle), rise};
+    soup.points.push_back(middle + (-1.9) * along);
+    soup.points.push_back(middle + 1.9 * along);
+    soup.edges.push_back({2 * e, 2 * e + 1});
+  }
+  const Point<3> up = home + Vector<3>{0, 0, 1e-3 * static_cast<double>(state.range(1))};
+  const auto beat = [&](Reshaping<3>& reshaping) {
+    const double start = experiments::processor_seconds();
+    for (const Point<3>& target : {up, home})
+      if (reshaping.move(vertex, target).end != Move_end::reached) state.SkipWithError("blocked");
+    return experiments::processor_seconds() - start;
+  };
+  double alone = 1, among = 1;
+  {
+    Reshaping<3> nothing(environment, {{}, {}});
+    for (int k = 0; k < 200; ++k) alone = std::min(alone, beat(nothing));
+  }
+  Body<3> body(snapshot, Locator<3>(snapshot), soup);
+  Reshaping<3> reshaping(environment, {{&body}, {}});
+  beat(reshaping);
+  const Reshape_counts before = reshaping.counts();
+  for (auto _ : state) among = std::min(among, beat(reshaping));
+  const Reshape_counts& after = reshaping.counts();
+  const auto edges = static_cast<double>(after.edges - before.edges);
+  state.counters["edges"] = edges / static_cast<double>(2 * state.iterations());
+  state.counters["kept"] = static_cast<double>(after.same_chain - before.same_chain) / edges;
+  state.counters["relinked"] = static_cast<double>(after.relinked - before.relinked) / edges;
+  state.counters["ns_edge"] = 1e9 * (among - alone) / edges * static_cast<double>(state.iterations());
+}
+
 // So many steps each: the medians are of these.
 BENCHMARK(layer)
     ->Args({1'000, 10})
@@ -127,5 +184,16 @@ BENCHMARK(layer)->Args({1'000'000, 50})->Iterations(20)->Unit(benchmark::kMicros
 // A beat in so many steps.
 BENCHMARK_CAPTURE(vessel, all, false)->Arg(16)->Arg(64)->Iterations(128)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(vessel, branch, true)->Arg(16)->Arg(64)->Iterations(512)->Unit(benchmark::kMillisecond);
+// The least of so many rounds.
+BENCHMARK_CAPTURE(edges, far_from_walls, false)
+    ->Args({1000, 1})
+    ->Args({1000, 200})
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(edges, above_a_wall, true)
+    ->Args({1000, 1})
+    ->Args({1000, 100})
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

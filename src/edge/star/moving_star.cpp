@@ -37,6 +37,7 @@ Moving_star<D>::Moving_star(const Snapshot<D>& snapshot, std::uint32_t vertex, c
     : snapshot_(snapshot), vertex_(vertex), from_(from), cells_(cells.begin(), cells.end()), counts_(counts) {
   std::sort(cells_.begin(), cells_.end());
   for (const Cell c : cells_) {
+    some_.set(to_index(c) % some_.size());
     if (snapshot.is_solid(c)) continue;
     const Cell_view<D> view = snapshot.view(c);
     for (std::size_t i = 0; i < view.facet_count(); ++i) {
@@ -85,7 +86,7 @@ std::size_t Moving_star<D>::wall_of(Half_facet facet) const {
 
 template <int D>
 bool Moving_star<D>::has(Cell cell) const {
-  return std::binary_search(cells_.begin(), cells_.end(), cell);
+  return some_[to_index(cell) % some_.size()] && std::binary_search(cells_.begin(), cells_.end(), cell);
 }
 
 template <int D>
@@ -127,11 +128,8 @@ bool Moving_star<D>::keeps_cell(const Particle<D>& p) const {
 }
 
 template <int D>
-bool Moving_star<D>::keeps_chain(const Chain& chain, const Point<D>& p, const Point<D>& q) const {
-  Chain moved;
-  for (const Half_facet f : chain)
-    if (has(f)) moved.push_back(f);
-  return passes(snapshot_, moved, p, q, counts_);
+bool Moving_star<D>::keeps_facets(const Chain& facets, const Point<D>& p, const Point<D>& q) const {
+  return passes(snapshot_, facets, p, q, counts_);
 }
 
 template <int D>

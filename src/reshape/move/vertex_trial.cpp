@@ -108,11 +108,14 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   const Particle<D>&p = groups_.particle(first), &q = groups_.particle(second);
   const Chain& chain = groups_.chain(edge);
   const Moved_vertex *moved_p = find(first), *moved_q = find(second);
-  const bool passes_star = std::any_of(chain.begin(), chain.end(), [&](Half_facet f) { return star.has(f); });
+  in_star_.clear();
+  for (const Half_facet f : chain)
+    if (star.has(f)) in_star_.push_back(f);
+  const bool passes_star = !in_star_.empty();
   if (!moved_p && !moved_q && !passes_star) return true;
   ++counts_.edges;
   const bool keeps_ends = (!moved_p || moved_p->keeps_cell) && (!moved_q || moved_q->keeps_cell);
-  if (keeps_ends && (!passes_star || star.keeps_chain(chain, p.position, q.position))) {
+  if (keeps_ends && (!passes_star || star.keeps_facets(in_star_, p.position, q.position))) {
     ++counts_.same_chain;
     return true;
   }
@@ -277,8 +280,8 @@ void Vertex_trial<D>::commit() {
     if (!moved.keeps_cell) groups_.enter_vertex(moved.member);
   }
   for (auto& [edge, chain] : chains_) {
-    groups_.chain(edge) = std::move(chain);
-    groups_.enter_edge(edge);
+    std::swap(groups_.chain(edge), chain);
+    groups_.enter_edge(edge, chain);
   }
   for (const auto& [face, walls] : rests_) groups_.rest(face, walls);
 }

@@ -86,6 +86,7 @@ class Vertex_trial {
   std::uint64_t near_ = 0, certified_ = 0;
   Obstruction obstruction_;
   std::vector<Member> vertices_, edges_;
+  Chain in_star_;                    ///< facets of a chain that have the vertex
   std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
   std::vector<std::pair<Member, Chain>> chains_;
   std::vector<std::pair<Member, Supporting_walls>> rests_;

@@ -152,7 +152,7 @@ std::size_t Relinker<D>::relink(std::span<const Cell> added) {
     groups_.rest(face, walls);
   }
   groups_.forget(removed_);
-  for (const auto& [edge, chain] : chains_) groups_.enter_edge(edge, sorted);
+  for (const auto& [edge, chain] : chains_) groups_.enter_edge_among(edge, sorted);
   for (const Moved& moved : moved_) groups_.enter_vertex(moved.member);
   return chains_.size();
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace cellwalk::detail {
 namespace {
@@ -35,6 +36,12 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
     group.particles = particles;
     for (const Particle<D>& p : particles) group.reach.extend(p.position);
   }
+  std::size_t edges = 0;
+  for (const Resident_group<D>& group : groups_) {
+    first_edge_.push_back(edges);
+    edges += group.edges.size();
+  }
+  seen_.resize(edges);
 }
 
 template <int D>
@@ -68,7 +75,7 @@ template <int D>
 void Resident_groups<D>::enter_all(std::uint32_t group) {
   const Resident_group<D>& of = groups_[group];
   for (std::uint32_t v = 0; v < of.particles.size(); ++v) enter_vertex({group, v});
-  for (std::uint32_t e = 0; e < of.edges.size(); ++e) enter_edge({group, e});
+  for (std::uint32_t e = 0; e < of.edges.size(); ++e) enter_edge({group, e}, {});
 }
 
 template <int D>
@@ -111,7 +118,7 @@ bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_opt
   if (group.body)
     for (std::uint32_t e = 0; e < group.edges.size(); ++e)
       if (group.edges[e][0] == vertex.number || group.edges[e][1] == vertex.number)
-        enter_edge({vertex.group, e});
+        enter_edge({vertex.group, e}, {});
   return true;
 }
 
@@ -124,22 +131,26 @@ Resident Resident_groups<D>::at(Member member, Body_feature feature) const {
 
 template <int D>
 void Resident_groups<D>::find(std::span<const Cell> cells, std::vector<Member>& vertices,
-                              std::vector<Member>& edges) const {
+                              std::vector<Member>& edges) {
   vertices.clear();
   edges.clear();
+  ++searches_;
   for (const Cell c : cells) {
     const auto first = first_.find(to_index(c));
     if (first == first_.end()) continue;
     for (std::uint32_t e = first->second; e != none; e = entries_[e].next) {
       const Entry& entry = entries_[e];
-      if (entry.is_edge)
-        edges.push_back(entry.member);
-      else if (groups_[entry.member.group].particles[entry.member.number].cell == c)
+      if (entry.is_edge) {
+        if (std::exchange(seen_[first_edge_[entry.member.group] + entry.member.number], searches_) !=
+            searches_)
+          edges.push_back(entry.member);
+      } else if (groups_[entry.member.group].particles[entry.member.number].cell == c) {
         vertices.push_back(entry.member);
+      }
     }
   }
   sort_unique(vertices);
-  sort_unique(edges);
+  std::sort(edges.begin(), edges.end());
 }
 
 template <int D>
@@ -155,7 +166,20 @@ void Resident_groups<D>::enter_vertex(Member vertex) {
   drop_outdated();
 }
 
-/// Once most entries are outdated, all are made anew.
+/// It is known in the cells behind facets with which its chains begin and end alike.
+template <int D>
+void Resident_groups<D>::enter_edge(Member edge, const Chain& before) {
+  const auto [u, v] = groups_[edge.group].edges[edge.number];
+  enter(particle({edge.group, u}).cell, edge, true);
+  const Chain& now = chain(edge);
+  const auto [first, of_before] = std::ranges::mismatch(now, before);
+  auto last = now.end();
+  for (auto old = before.end(); last != first && old != of_before && *(old - 1) == *(last - 1); --old) --last;
+  for (auto f = first; f != last; ++f) enter(snapshot_.neighbour(*f), edge, true);
+  drop_outdated();
+}
+
+/// Enters all anew, once most of what is entered may be outdated.
 template <int D>
 void Resident_groups<D>::drop_outdated() {
   if (entries_.size() < most_entries_ || most_entries_ == 0) return;
@@ -168,14 +192,7 @@ void Resident_groups<D>::drop_outdated() {
 }
 
 template <int D>
-void Resident_groups<D>::enter_edge(Member edge) {
-  const auto [u, v] = groups_[edge.group].edges[edge.number];
-  enter(particle({edge.group, u}).cell, edge, true);
-  for (const Half_facet f : chain(edge)) enter(snapshot_.neighbour(f), edge, true);
-}
-
-template <int D>
-void Resident_groups<D>::enter_edge(Member edge, std::span<const Cell> among) {
+void Resident_groups<D>::enter_edge_among(Member edge, std::span<const Cell> among) {
   const auto [u, v] = groups_[edge.group].edges[edge.number];
   const auto enter_in = [&](Cell c) {
     if (std::ranges::binary_search(among, c)) enter(c, edge, true);

@@ -65,13 +65,14 @@ class Resident_groups {
   bool push(Member vertex, const Vector<D>& by, const Body_options& options);
 
   /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
-  void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges) const;
+  void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges);
 
   /// Enters a vertex into the table of cells, or an edge, after it was registered anew. Old entries stay.
   void enter_vertex(Member vertex);
-  void enter_edge(Member edge);
+  /// \param before its chain at the last time
+  void enter_edge(Member edge, const Chain& before);
   /// The same, into those of its cells that are among some, which are ascending.
-  void enter_edge(Member edge, std::span<const Cell> among);
+  void enter_edge_among(Member edge, std::span<const Cell> among);
   /// Drops the entries of cells that are gone.
   void forget(std::span<const Cell> cells);
 
@@ -95,7 +96,10 @@ class Resident_groups {
   std::size_t open_ = 0;
   std::unordered_map<std::uint32_t, std::uint32_t> first_;  ///< entry of each cell
   std::vector<Entry> entries_;
-  std::size_t most_entries_ = 0;  ///< before outdated ones are dropped
+  std::size_t most_entries_ = 0;         ///< before outdated ones are dropped
+  std::vector<std::size_t> first_edge_;  ///< of each group, when all edges are numbered
+  std::vector<std::uint64_t> seen_;      ///< of each edge, the last search that found it
+  std::uint64_t searches_ = 0;
 };
 
 extern template class Resident_groups<2>;

@@ -187,7 +187,7 @@ void Side_choice<D>::commit() {
     Chain& now = groups_.chain({group_, e});
     if (now == chain) continue;
     now = std::move(chain);
-    groups_.enter_edge({group_, e});
+    groups_.enter_edge({group_, e}, {});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <cellwalk/walk/walk.h>
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -67,7 +68,8 @@ class Moving_star {
   /// True if a particle still lies in its cell: then it did so all the time, and met no wall.
   bool keeps_cell(const Particle<D>& p) const;
   /// True proves that an edge whose ends kept their cells is free and keeps its chain.
-  bool keeps_chain(const Chain& chain, const Point<D>& p, const Point<D>& q) const;
+  /// \param facets those of its chain that have the vertex
+  bool keeps_facets(const Chain& facets, const Point<D>& p, const Point<D>& q) const;
   /// The same just after the vertex began to move.
   bool keeps_cell_at_start(const Particle<D>& p) const;
   bool keeps_chain_at_start(const Chain& chain, const Point<D>& p, const Point<D>& q) const;
@@ -93,6 +95,7 @@ class Moving_star {
   std::uint32_t vertex_;
   Point<D> from_;
   std::vector<Cell> cells_;  ///< ascending
+  std::bitset<256> some_;    ///< of the last bits of their names
   std::vector<Moving_wall<D>> walls_;
   Box<D> box_;
   Walk_counts& counts_;
