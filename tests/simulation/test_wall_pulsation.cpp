@@ -200,6 +200,37 @@ TEST(WallPulsation, GoesOnWithSmoothingWhereItLocksWithout) {
   expect_smoothing_unlocks<3>();
 }
 
+// The point inside goes on the parabola through its places for no motion and for both ends of the motion.
+template <int D>
+void expect_parabola() {
+  const Environment<D> environment = lopsided_room<D>();
+  Pulsation<D> motion{.amplitude = 0.25, .period = 1, .wave = {}};
+  motion.smooth = 20;
+  motion.quality_floor = 0.9;
+  // One side stands, so that the others do not only scale the room.
+  Scene_box<D> side;
+  side.lower.fill(-9);
+  side.upper.fill(9);
+  side.upper[D - 1] = 0.03125;
+  const std::vector<Scene_shape<D>> fixed{side};
+  const Wall_pulsation<D> pulsation(environment.snapshot(), motion, fixed);
+  const auto at = [&](double time) { return by_point(pulsation.targets(time)); };
+  const auto rest = at(2), out = at(1.25), in = at(1.75), half = at(1 + 1.0 / 12);
+  double most = 0;
+  for (const auto& [point, x] : rest) {
+    const Vector<D> bend = 0.5 * ((out.at(point) - x) + (in.at(point) - x));
+    const Vector<D> way = 0.5 * (out.at(point) - in.at(point));
+    EXPECT_NEAR(length(half.at(point) - (x + 0.5 * way + 0.25 * bend)), 0, 1e-12);
+    most = std::max(most, length(bend));
+  }
+  EXPECT_GT(most, 1e-3) << "it is no line";
+}
+
+TEST(WallPulsation, SmoothedPointsGoOnParabolas) {
+  expect_parabola<2>();
+  expect_parabola<3>();
+}
+
 /// A ball of radius 1 with a rough surface, cut from a lattice.
 Environment<3> rough_ball() {
   Implicit_shape ball;
