@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "contact_yield.h"
 #include "scene_shape.h"
 
 namespace cellwalk {
@@ -13,26 +14,6 @@ namespace {
 
 /// A yield that is a smaller share of the environment's diagonal is recovered at once.
 constexpr double least_share = 0x1p-24;
-
-/// The weights of the corners of a facet at a place near it, none of them negative, of sum 1.
-std::array<double, 2> weights_at(const std::array<Point<2>, 2>& corners, const Point<2>& x) {
-  const Vector<2> along = corners[1] - corners[0];
-  const double share = std::clamp(dot(x - corners[0], along) / dot(along, along), 0.0, 1.0);
-  return {1 - share, share};
-}
-
-std::array<double, 3> weights_at(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
-  const Vector<3> normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  std::array<double, 3> result;
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector<3> to_next = corners[(k + 1) % 3] - x, to_last = corners[(k + 2) % 3] - x;
-    result[k] = std::max(0.0, dot(cross(to_next, to_last), normal));
-    sum += result[k];
-  }
-  for (double& w : result) w /= sum;
-  return result;
-}
 
 }  // namespace
 
@@ -78,28 +59,6 @@ Elastic_foundation<D>::Elastic_foundation(const Snapshot<D>& snapshot, const Sof
   for (std::size_t i = 0; i < starts_.size(); ++i) first_[i + 1] += first_[i];
 }
 
-/// What a contact asks of the corners of the wall.
-template <int D>
-void Elastic_foundation<D>::add_contact(const Run_contact<D>& met, const World<D>& world,
-                                        Increments& increments) const {
-  const Contact<D>& contact = met.contact;
-  if (!met.body || contact.facet == Half_facet::none) return;
-  const Moving_body<D>& body = world.bodies()[*met.body];
-  const Vector<D> left = body.targets()[contact.vertex] - body.body().positions()[contact.vertex];
-  const double depth = -dot(left, contact.normal);
-  const std::vector<std::uint32_t> loop = snapshot_->loop(contact.facet);
-  if (!(depth > 0) || loop.size() != D) return;
-  std::array<Point<D>, static_cast<std::size_t>(D)> corners;
-  for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = snapshot_->point(loop[k]);
-  const auto weights = weights_at(corners, contact.point);
-  double squares = 0;
-  for (const double w : weights) squares += w * w;
-  if (!(squares > 0)) return;
-  const double share = soft_.compliance / (1 + soft_.compliance);
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    increments.emplace_back(loop[k], (-share * depth * weights[k] / squares) * contact.normal);
-}
-
 /// Each vertex keeps half of what is asked of it, and its neighbours get the other half.
 template <int D>
 void Elastic_foundation<D>::spread(Increments& increments) const {
@@ -128,7 +87,9 @@ void Elastic_foundation<D>::press(const World<D>& world) {
     active.push_back(point);
   }
   Increments increments;
-  for (const Run_contact<D>& met : world.contacts()) add_contact(met, world, increments);
+  const double share = soft_.compliance / (1 + soft_.compliance);
+  for (const Run_contact<D>& met : world.contacts())
+    detail::add_yields(*snapshot_, world, met, share, increments);
   spread(increments);
   for (const auto& [point, by] : increments) {
     if (!may_yield_[point]) continue;

@@ -54,7 +54,6 @@ class Elastic_foundation {
 
  private:
   using Increments = std::vector<std::pair<std::uint32_t, Vector<D>>>;
-  void add_contact(const Run_contact<D>& met, const World<D>& world, Increments& increments) const;
   void spread(Increments& increments) const;
 
   const Snapshot<D>* snapshot_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk deform ENV MOVES.csv -o OUT.ovm: moves points of an environment one after the other, as far as the
 // bodies in it allow.
-#include <cellwalk/internal/io/csv.h>
-#include <cellwalk/io/body_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/reshape/reshaping.h>
 
@@ -18,6 +16,7 @@
 #include "cli/common/moves_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
+#include "cli/common/standing_bodies.h"
 #include "results.h"
 
 namespace cellwalk::cli {
@@ -64,43 +63,6 @@ struct Deform_files {
   }
 };
 
-/// Reads the bodies and registers them where they stand.
-template <int D>
-std::vector<Body<D>> place_bodies(const std::vector<std::string>& files, const Snapshot<D>& snapshot,
-                                  Standing_bodies& standing) {
-  std::vector<Body<D>> bodies;
-  if (files.empty()) return bodies;
-  const Locator<D> locator(snapshot);
-  for (const std::string& file : files) {
-    const io::Body_file<D> read = io::read_body<D>(file);
-    const Body<D>& body =
-        naming(file, [&]() -> Body<D>& { return bodies.emplace_back(snapshot, locator, read.body); });
-    ++standing.count;
-    standing.vertices += body.vertex_count();
-    standing.edges += body.edges().size();
-    standing.faces += body.faces().size();
-    for (const std::string& note : read.report.notes) standing.notes.push_back(file + ": " + note);
-  }
-  return bodies;
-}
-
-/// Writes where the vertices of all bodies are.
-template <int D>
-void write_positions(io::Atomic_file* file, const std::vector<Body<D>>& bodies) {
-  if (file == nullptr) return;
-  std::vector<std::string> columns{"body", "vertex", "x", "y", "z"};
-  columns.resize(2 + D);
-  io::Csv_writer table(*file, columns);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const auto all = bodies[b].positions();
-    for (std::size_t v = 0; v < all.size(); ++v)
-      if constexpr (D == 2)
-        table.row(b, v, all[v][0], all[v][1]);
-      else
-        table.row(b, v, all[v][0], all[v][1], all[v][2]);
-  }
-}
-
 /// Moves the points, or asks where they would go.
 template <int D>
 void move_points(const std::vector<Vertex_move<D>>& moves, bool ask, Reshaping<D>& reshaping,
@@ -127,16 +89,12 @@ At_contact reshape_rule(Contact_rule rule) {
 template <int D>
 void deform_environment(const Deform_options& options, Deform_files& files, Environment<D>& environment) {
   const std::vector<Vertex_move<D>> moves = read_moves(options.moves, environment);
-  Standing_bodies standing;
-  std::vector<Body<D>> bodies = place_bodies(options.bodies, environment.snapshot(), standing);
-  Residents<D> residents;
-  for (Body<D>& body : bodies) residents.bodies.push_back(&body);
-
+  Standing_bodies<D> bodies(options.bodies, environment.snapshot());
   const bool asks = options.at_contact == Contact_rule::ask;
-  Reshaping<D> reshaping(environment, residents, {.at_contact = reshape_rule(options.at_contact)});
+  Reshaping<D> reshaping(environment, bodies.residents(), {.at_contact = reshape_rule(options.at_contact)});
   Move_results<D> results(files.report, environment.snapshot());
   move_points(moves, asks, reshaping, results);
-  write_positions(files.positions, bodies);
+  bodies.write_positions(files.positions);
 
   // What nobody moved is certified as it was read.
   const std::string& name = asks ? options.environment : options.output;
@@ -146,10 +104,10 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
   }();
   if (!asks) io::write_ovm(*files.environment, environment.soup());
   nlohmann::ordered_json json{{"environment", name}, {"certificate", to_json(certificate, D)}};
-  json.update(moves_json(results, standing, reshaping.counts()));
+  json.update(moves_json(results, bodies, reshaping.counts()));
   write_json(files.json, json);
   files.all.commit(fmt::format("{}: certified, {}D\n{}{}", name, D, describe(certificate, D),
-                               describe_moves(results, standing, reshaping.counts())));
+                               describe_moves(results, bodies, reshaping.counts())));
 }
 
 void deform(const Deform_options& options) {

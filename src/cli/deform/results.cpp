@@ -80,7 +80,7 @@ void Move_results<D>::add(const Vertex_result<D>& result) {
 }
 
 template <int D>
-std::string describe_moves(const Move_results<D>& results, const Standing_bodies& bodies,
+std::string describe_moves(const Move_results<D>& results, const Standing_bodies<D>& bodies,
                            const Reshape_counts& counts) {
   std::string text;
   const auto line = [&text](const char* name, const std::string& value) {
@@ -92,30 +92,25 @@ std::string describe_moves(const Move_results<D>& results, const Standing_bodies
       ends += fmt::format("{} {} {}", ends.empty() ? ":" : ",", results.ends()[e], move_end_names[e]);
   line("moves", fmt::format("{}{}", results.count(), ends));
   line("work", fmt::format("{} moves tried, with {} cells around their points", counts.moves, counts.cells));
-  if (bodies.count == 0) return text;
-  line("bodies", fmt::format("{} with {} vertices, {} edges, {} faces", bodies.count, bodies.vertices,
-                             bodies.edges, bodies.faces));
+  if (bodies.empty()) return text;
+  line("bodies", bodies.describe());
   line("near",
        fmt::format("{} walls; {} vertices, {} edges, {} faces: {} in the same cell, {} along the same chain, "
                    "{} apart from the walls, {} let go by them, {} hit, {} touched",
                    counts.walls, counts.vertices, counts.edges, counts.faces, counts.same_cell,
                    counts.same_chain, counts.apart, counts.left, counts.hits, counts.touches));
   if (counts.pushes != 0) line("pushes", std::to_string(counts.pushes));
-  for (const std::string& note : bodies.notes) line("note", note);
+  for (const std::string& note : bodies.notes()) line("note", note);
   return text;
 }
 
 template <int D>
-nlohmann::ordered_json moves_json(const Move_results<D>& results, const Standing_bodies& bodies,
+nlohmann::ordered_json moves_json(const Move_results<D>& results, const Standing_bodies<D>& bodies,
                                   const Reshape_counts& counts) {
   nlohmann::ordered_json json{{"moves", results.count()}};
   for (std::size_t e = 0; e < results.ends().size(); ++e)
     json["status"][move_end_names[e]] = results.ends()[e];
-  json["bodies"] = {{"count", bodies.count},
-                    {"vertices", bodies.vertices},
-                    {"edges", bodies.edges},
-                    {"faces", bodies.faces}};
-  if (!bodies.notes.empty()) json["bodies"]["notes"] = bodies.notes;
+  json["bodies"] = bodies.to_json();
   json["counts"] = to_json(counts);
   json["counts"]["walk"] = to_json(counts.walk);
   return json;
@@ -123,11 +118,11 @@ nlohmann::ordered_json moves_json(const Move_results<D>& results, const Standing
 
 template class Move_results<2>;
 template class Move_results<3>;
-template std::string describe_moves(const Move_results<2>&, const Standing_bodies&, const Reshape_counts&);
-template std::string describe_moves(const Move_results<3>&, const Standing_bodies&, const Reshape_counts&);
-template nlohmann::ordered_json moves_json(const Move_results<2>&, const Standing_bodies&,
+template std::string describe_moves(const Move_results<2>&, const Standing_bodies<2>&, const Reshape_counts&);
+template std::string describe_moves(const Move_results<3>&, const Standing_bodies<3>&, const Reshape_counts&);
+template nlohmann::ordered_json moves_json(const Move_results<2>&, const Standing_bodies<2>&,
                                            const Reshape_counts&);
-template nlohmann::ordered_json moves_json(const Move_results<3>&, const Standing_bodies&,
+template nlohmann::ordered_json moves_json(const Move_results<3>&, const Standing_bodies<3>&,
                                            const Reshape_counts&);
 
 }  // namespace cellwalk::cli

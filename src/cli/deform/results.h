@@ -15,14 +15,9 @@
 #include <vector>
 
 #include "cli/common/move_end_names.h"
+#include "cli/common/standing_bodies.h"
 
 namespace cellwalk::cli {
-
-/// The bodies that stand in the environment.
-struct Standing_bodies {
-  std::size_t count = 0, vertices = 0, edges = 0, faces = 0;
-  std::vector<std::string> notes;  ///< what the readers left out or interpreted, with the file
-};
 
 /// The results of moves, written row by row, and counted.
 template <int D>
@@ -46,21 +41,21 @@ class Move_results {
 
 /// The lines of the summary about moves, bodies and work.
 template <int D>
-std::string describe_moves(const Move_results<D>& results, const Standing_bodies& bodies,
+std::string describe_moves(const Move_results<D>& results, const Standing_bodies<D>& bodies,
                            const Reshape_counts& counts);
 template <int D>
-nlohmann::ordered_json moves_json(const Move_results<D>& results, const Standing_bodies& bodies,
+nlohmann::ordered_json moves_json(const Move_results<D>& results, const Standing_bodies<D>& bodies,
                                   const Reshape_counts& counts);
 
 extern template class Move_results<2>;
 extern template class Move_results<3>;
-extern template std::string describe_moves(const Move_results<2>&, const Standing_bodies&,
+extern template std::string describe_moves(const Move_results<2>&, const Standing_bodies<2>&,
                                            const Reshape_counts&);
-extern template std::string describe_moves(const Move_results<3>&, const Standing_bodies&,
+extern template std::string describe_moves(const Move_results<3>&, const Standing_bodies<3>&,
                                            const Reshape_counts&);
-extern template nlohmann::ordered_json moves_json(const Move_results<2>&, const Standing_bodies&,
+extern template nlohmann::ordered_json moves_json(const Move_results<2>&, const Standing_bodies<2>&,
                                                   const Reshape_counts&);
-extern template nlohmann::ordered_json moves_json(const Move_results<3>&, const Standing_bodies&,
+extern template nlohmann::ordered_json moves_json(const Move_results<3>&, const Standing_bodies<3>&,
                                                   const Reshape_counts&);
 
 }  // namespace cellwalk::cli
