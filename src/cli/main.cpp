@@ -125,6 +125,7 @@ int main(int argc, char** argv) {
   add_replay(app, action);
   add_run(app, action);
   add_deform(app, action);
+  add_edit(app, action);
   add_view(app, action);
   add_completion(app, action);
 

@@ -21,9 +21,11 @@ void World<D>::step() {
   step_bodies();
 }
 
+/// Opens the environment with all that moves in it, and calls use(reshaping).
 template <int D>
-Move_report<D> World<D>::move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
-                                    Reshape_options options, Reshape_counts& counts) {
+template <class Use>
+auto World<D>::reshape(Environment<D>& environment, Reshape_options options, Reshape_counts& counts,
+                       const Use& use) {
   if (&environment.snapshot() != snapshot_)
     throw Error(Error_code::usage, "this World lies in another environment");
   check_epoch();
@@ -32,11 +34,25 @@ Move_report<D> World<D>::move_walls(Environment<D>& environment, std::span<const
   if (!particles_.empty()) residents.particles.emplace_back(particles_);
   options.body = conditions_.body;
   Reshaping<D> reshaping(environment, residents, options);
-  Move_report<D> report = reshaping.move(moves);
+  auto result = use(reshaping);
   reshaping.close();
   epoch_ = snapshot_->epoch();
   counts += reshaping.counts();
-  return report;
+  return result;
+}
+
+template <int D>
+Move_report<D> World<D>::move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
+                                    Reshape_options options, Reshape_counts& counts) {
+  return reshape(environment, options, counts, [&](Reshaping<D>& open) { return open.move(moves); });
+}
+
+template <int D>
+std::vector<Change_outcome> World<D>::change(Environment<D>& environment, Change_schedule<D>& schedule,
+                                             Reshape_counts& counts) {
+  if (!schedule.is_due(steps_done_ + 1)) return {};
+  return reshape(environment, {}, counts,
+                 [&](Reshaping<D>& open) { return schedule.apply(*snapshot_, open, steps_done_ + 1); });
 }
 
 template <int D>

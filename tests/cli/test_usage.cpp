@@ -50,13 +50,14 @@ TEST_F(Usage, VersionIsToldToProgramsToo) {
 
 TEST_F(Usage, HelpNamesEveryCommandAndExitCode) {
   const std::string help = succeed({"--help"});
-  for (const char* text : {"import", "check", "generate", "query", "replay", "run", "deform", "view",
+  for (const char* text : {"import", "check", "generate", "query", "replay", "run", "deform", "edit", "view",
                            "4 environment not certified", "--version", "--json [FILE]"})
     EXPECT_NE(help.find(text), std::string::npos) << help;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"import", "check", "generate", "query", "replay", "run", "deform", "view"})
+  for (const char* command :
+       {"import", "check", "generate", "query", "replay", "run", "deform", "edit", "view"})
     EXPECT_NE(succeed({command, "--help"}).find("Usage: cellwalk " + std::string(command)),
               std::string::npos);
 }
@@ -122,7 +123,7 @@ TEST_F(Usage, AFullDeviceIsAnError) {
 
 TEST_F(Usage, HelpEndsWithExamples) {
   for (const char* command :
-       {"import", "check", "generate", "query", "replay", "run", "deform", "view", "completion"}) {
+       {"import", "check", "generate", "query", "replay", "run", "deform", "edit", "view", "completion"}) {
     const std::string help = succeed({command, "--help"});
     const std::size_t at = help.find("Examples:\n  ");
     ASSERT_NE(at, std::string::npos) << help;

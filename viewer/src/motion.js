@@ -44,6 +44,8 @@ export function parseMotion(buffer) {
   const places = new Uint16Array(head.records * values);
   const cells = new Uint32Array(head.records * moving);
   const decisions = new Uint8Array(head.records * head.bodies.length);
+  const changing = (head.changing_walls ?? 0) + (head.changing_floor ?? 0);
+  const there = new Uint8Array(head.records * changing);
   for (let r = 0, p = 0; r < head.records; ++r) {
     const now = r * values, last = now - values, before = last - values;
     for (let i = 0; i < values; ++i) {
@@ -59,6 +61,8 @@ export function parseMotion(buffer) {
     p += 4 * moving;
     decisions.set(packed.subarray(p, p + head.bodies.length), r * head.bodies.length);
     p += head.bodies.length;
+    there.set(packed.subarray(p, p + changing), r * changing);
+    p += changing;
   }
   const unit = [0, 1, 2].map(axis => (head.upper[axis] - head.lower[axis]) / 65535);
   return {
@@ -74,6 +78,9 @@ export function parseMotion(buffer) {
           out[3 * i + axis] = axis < axes ? head.lower[axis] + unit[axis] * places[begin + i] : 0;
       }
     },
+    changing,
+    /** Of each wall that comes and goes (they are the last ones), then of each such cell of the floor: 1 if it is there. */
+    thereAt: record => there.subarray(record * changing, (record + 1) * changing),
     cellsOf: record => cells.subarray(record * moving, (record + 1) * moving),
     decisionsOf: record => decisions.subarray(record * head.bodies.length, (record + 1) * head.bodies.length),
   };

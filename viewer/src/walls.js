@@ -3,13 +3,17 @@
 import * as THREE from 'three';
 import { fatLines } from './lines.js';
 
-const loopsToMesh = (points, loops) => {
+const trianglesOf = loops => {
   const index = [];
   for (const loop of loops)
     for (let i = 2; i < loop.length; ++i) index.push(loop[0], loop[i - 1], loop[i]);
+  return index;
+};
+
+const loopsToMesh = (points, loops) => {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(points, 3));
-  geometry.setIndex(index);
+  geometry.setIndex(trianglesOf(loops));
   return geometry;
 };
 
@@ -22,7 +26,8 @@ function creases(points, loops) {
 
 /** Walls seen from free space are drawn; those seen through from outside only hinted at, so that one looks in. */
 function wallsInSpace(motion, points) {
-  const indexed = loopsToMesh(points, motion.walls);
+  const staying = motion.walls.slice(0, motion.walls.length - (motion.changing_walls ?? 0));
+  let indexed = loopsToMesh(points, staying);
   const geometry = indexed.toNonIndexed();
   geometry.computeVertexNormals();
   const material = (side, opacity) => new THREE.MeshLambertMaterial(
@@ -33,7 +38,7 @@ function wallsInSpace(motion, points) {
   inside.renderOrder = 1;
   outside.renderOrder = 3;
   group.add(inside, outside);
-  const edges = motion.walls_move ? null : creases(points, motion.walls);
+  const edges = motion.walls_move ? null : creases(points, staying);
   if (edges) {
     const lines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial(
       { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
@@ -49,7 +54,13 @@ function wallsInSpace(motion, points) {
     geometry.computeVertexNormals();
     geometry.computeBoundingSphere();
   };
-  return { group, lines: [], follow };
+  /** Draws these walls instead. */
+  const choose = walls => {
+    indexed = loopsToMesh(points, walls);
+    geometry.setAttribute('position', indexed.toNonIndexed().getAttribute('position'));
+    follow();
+  };
+  return { group, lines: [], follow, choose };
 }
 
 function wallsInPlane(motion, points) {
@@ -62,7 +73,8 @@ function wallsInPlane(motion, points) {
     group.add(mesh);
     return mesh;
   };
-  flat(motion.floor, '#ffffff').renderOrder = -3;
+  const floor = flat(motion.floor, '#ffffff');
+  floor.renderOrder = -3;
   const thin = new THREE.BufferGeometry();
   thin.setAttribute('position', new THREE.BufferAttribute(points, 3));
   thin.setIndex(Array.from(motion.lines));
@@ -70,7 +82,8 @@ function wallsInPlane(motion, points) {
   const grid = new THREE.LineSegments(thin, new THREE.LineBasicMaterial({ color: '#e3e8ef', depthWrite: false }));
   grid.renderOrder = -2;
   const walls = fatLines(motion.walls.length, { width: 2.5, colour: '#334155', depth: false });
-  const setEnds = () => walls.setEnds((i, end) => 3 * motion.walls[i][end], points);
+  let shown = motion.walls;
+  const setEnds = () => walls.setEnds((i, end) => i < shown.length ? 3 * shown[i][end] : 0, points);
   setEnds();
   walls.object.renderOrder = -1;
   group.add(grid, walls.object);
@@ -81,15 +94,35 @@ function wallsInPlane(motion, points) {
     }
     setEnds();
   };
-  return { group, lines: [walls], follow };
+  const choose = (chosen, cells) => {
+    shown = chosen;
+    walls.showPart(0, shown.length);
+    floor.geometry.setIndex(trianglesOf(cells));
+    setEnds();
+  };
+  return { group, lines: [walls], follow, choose };
 }
 
 export function makeWalls(motion) {
   const points = Float32Array.from(motion.points);
   const walls = motion.dimension === 2 ? wallsInPlane(motion, points) : wallsInSpace(motion, points);
+  let last = null;
+  /** Draws the walls and the cells of the floor that are there, if others are than before. */
+  const showChanging = record => {
+    const there = motion.thereAt(record), state = there.join('');
+    if (motion.changing === 0 || state === last) return;
+    last = state;
+    const present = (loops, changing, first) => loops.filter((_, i) => {
+      const number = i - (loops.length - changing);
+      return number < 0 || there[first + number] === 1;
+    });
+    walls.choose(present(motion.walls, motion.changing_walls, 0),
+                 present(motion.floor, motion.changing_floor, motion.changing_walls));
+  };
   return {
     ...walls,
     show(record) {
+      showChanging(record);
       if (!motion.walls_move) return;
       motion.copyPlaces(record, motion.moving, points.length / 3, points);
       walls.follow();

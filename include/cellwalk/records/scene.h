@@ -6,6 +6,7 @@
 
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/body_shape.h>
+#include <cellwalk/records/environment_change.h>
 #include <cellwalk/records/material.h>
 
 #include <array>
@@ -93,21 +94,6 @@ struct Catheter {
   double twist = 0;       ///< degrees by which the base is turned in a step; the maximum with Steering::twist
 };
 
-template <int D>
-struct Scene_box {
-  Point<D> lower{}, upper{};
-};
-
-template <int D>
-struct Scene_ball {
-  Point<D> centre{};
-  double radius = 1;
-};
-
-/// A closed part of space.
-template <int D>
-using Scene_shape = std::variant<Scene_box<D>, Scene_ball<D>>;
-
 /// A periodic motion of all walls along their normals.
 template <int D>
 struct Pulsation {
@@ -164,6 +150,7 @@ struct Scene {
   std::vector<Body_start<D>> bodies;
   std::optional<Catheter<D>> catheter;
   std::optional<Scene_walls<D>> walls;  ///< none: they stand still
+  Environment_changes<D> changes;       ///< of facets and cells, in the order of the file
   Vector<D> gravity{};
   double restitution = 1;  ///< fraction of the normal speed that a free particle keeps when it bounces
   double friction = 0;     ///< fraction of the tangential speed that it loses

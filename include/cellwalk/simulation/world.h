@@ -10,6 +10,7 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
+#include <cellwalk/simulation/change_schedule.h>
 #include <cellwalk/simulation/moving_body.h>
 #include <cellwalk/simulation/run_contact.h>
 #include <cellwalk/walk/locate.h>
@@ -27,7 +28,7 @@
 namespace cellwalk {
 
 /// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
-/// snapshot, which must outlive it and is edited by move_walls() only.
+/// snapshot, which must outlive it and is edited by move_walls() and change() only.
 template <int D>
 class World {
  public:
@@ -58,6 +59,14 @@ class World {
   /// Cost: that of Reshaping::move().
   Move_report<D> move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
                             Reshape_options options, Reshape_counts& counts);
+
+  /// Makes the changes of facets and cells that are due before the step that is next, with everything that
+  /// moves in the environment; what is held stays as it is.
+  /// \pre `environment` is that of the snapshot and of the schedule
+  /// \throw Error(usage) if it is not, is frozen, or was edited since the world was made
+  /// Cost: reading all positions if something is due, and that of Reshaping::open() and the like.
+  std::vector<Change_outcome> change(Environment<D>& environment, Change_schedule<D>& schedule,
+                                     Reshape_counts& counts);
 
   std::uint32_t steps_done() const { return steps_done_; }
   /// Free particles in the order of the scene.
@@ -95,6 +104,8 @@ class World {
   void record_contacts(std::size_t particle);
 
   void check_epoch() const;
+  template <class Use>
+  auto reshape(Environment<D>& environment, Reshape_options options, Reshape_counts& counts, const Use& use);
 
   const Snapshot<D>* snapshot_;
   std::uint64_t epoch_;  ///< of the snapshot, when the world was made

@@ -28,6 +28,7 @@ void add_query(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
 void add_deform(CLI::App& app, Action& chosen);
+void add_edit(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);
 
 /// Prints a script with which a shell completes command lines of `app`.

@@ -27,12 +27,12 @@ Run_files<D>::Run_files(std::filesystem::path folder, const Environment<D>& envi
       environment_(environment),
       every_(scene.output.frame_every),
       time_step_(scene.time_step),
-      walls_move_(scene.walls.has_value()),
+      walls_change_(scene.walls.has_value() || !scene.changes.list.empty()),
       table_(folder_ / "contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
                                         "cell", "body", "vertex", "feature", "number"}) {
   if (every_ == 0) return;
   std::filesystem::create_directory(folder_ / "frames");
-  if (!walls_move_) io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(environment_.soup()));
+  if (!walls_change_) io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(environment_.soup()));
   write_frame(world);
   before_ = body_positions(world);
 }
@@ -72,7 +72,7 @@ void Run_files<D>::write_frame(const World<D>& world) {
   if (!has_bodies || !world.particles().empty()) add("particles", particles_grid(world, since_frame_));
   if (has_bodies) add("bodies", bodies_grid(world, since_frame_, before_, time_step_));
   add("contacts", contacts_grid(since_frame_));
-  if (walls_move_)
+  if (walls_change_)
     add("walls", io::vtu_of_walls(environment_.soup()));
   else
     entries_.push_back({time, "walls", "walls.vtu"});

@@ -22,7 +22,7 @@ using Body_contacts = std::array<std::array<std::uint64_t, 3>, 3>;
 template <int D>
 class Run_files {
  public:
-  /// Writes walls.vtu, unless walls move, and the frame of the start into `folder`, if there are to be frames
+  /// Writes walls.vtu, unless walls change, and the frame of the start into `folder`, if there are to be frames
   /// at all.
   Run_files(std::filesystem::path folder, const Environment<D>& environment, const World<D>& world,
             const Scene<D>& scene);
@@ -46,7 +46,7 @@ class Run_files {
   const Environment<D>& environment_;
   std::uint32_t every_;
   double time_step_;
-  bool walls_move_;
+  bool walls_change_;
   io::Csv_writer table_;
   std::vector<io::Pvd_entry> entries_;
   std::vector<Run_contact<D>> since_frame_;

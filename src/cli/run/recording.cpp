@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace cellwalk::cli {
@@ -27,30 +28,51 @@ void for_free_cells(const Snapshot<D>& snapshot, Visit&& visit) {
     if (const Cell cell = snapshot.cell(i); cell != Cell::none && !snapshot.is_solid(cell)) visit(cell);
 }
 
+/// The lower half-facet of a facet stands for it.
 template <int D>
-void add_walls(const Snapshot<D>& snapshot, Recording_scene& scene) {
+Half_facet name_of(const Snapshot<D>& snapshot, Half_facet facet) {
+  const Half_facet other = snapshot.opposite(facet);
+  return other == Half_facet::none ? facet : std::min(facet, other);
+}
+
+/// Walls that stay, then both sides of the facets that come and go.
+/// \param changing ascending, each by its lower half-facet
+template <int D>
+void add_walls(const Snapshot<D>& snapshot, std::span<const Half_facet> changing, Recording_scene& scene) {
   for_free_cells(snapshot, [&](Cell cell) {
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);
-      if (snapshot.is_impassable(facet)) scene.walls.push_back(snapshot.loop(facet));
+      if (!snapshot.is_impassable(facet)) continue;
+      if (changing.empty() || !std::binary_search(changing.begin(), changing.end(), name_of(snapshot, facet)))
+        scene.walls.push_back(snapshot.loop(facet));
     }
   });
+  for (const Half_facet facet : changing)
+    for (const Half_facet side : {facet, snapshot.opposite(facet)})
+      scene.walls.push_back(snapshot.loop(side));
+  scene.changing_walls = static_cast<std::uint32_t>(2 * changing.size());
 }
 
 /// What pictures of the plane show besides walls: free cells and, unless they are too many, the edges between
 /// them.
-void add_areas(const Snapshot<3>&, Recording_scene&) {}
-void add_areas(const Snapshot<2>& snapshot, Recording_scene& scene) {
-  for_free_cells(snapshot, [&](Cell cell) {
+void add_areas(const Snapshot<3>&, const Selection<3>&, Recording_scene&) {}
+void add_areas(const Snapshot<2>& snapshot, const Selection<2>& changing, Recording_scene& scene) {
+  const auto add_floor = [&](Cell cell) {
     auto& loop = scene.floor.emplace_back();
+    for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f)
+      loop.push_back(snapshot.loop(snapshot.half_facet(cell, f))[0]);
+  };
+  for_free_cells(snapshot, [&](Cell cell) {
+    if (!std::binary_search(changing.cells.begin(), changing.cells.end(), cell)) add_floor(cell);
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);
       const auto ends = snapshot.loop(facet);
-      loop.push_back(ends[0]);
       if (!snapshot.is_impassable(facet) && snapshot.index(snapshot.neighbour(facet)) > snapshot.index(cell))
         scene.lines.push_back({ends[0], ends[1]});
     }
   });
+  std::for_each(changing.cells.begin(), changing.cells.end(), add_floor);
+  scene.changing_floor = static_cast<std::uint32_t>(changing.cells.size());
   if (scene.lines.size() > most_lines) scene.lines.clear();
 }
 
@@ -70,7 +92,8 @@ void add_bodies(const World<D>& world, Recording_scene& scene) {
 
 template <int D>
 Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, const Motion_times& times,
-                         bool walls_move, std::vector<std::uint32_t>& wall_points) {
+                         bool walls_move, const Selection<D>& changing,
+                         std::vector<std::uint32_t>& wall_points) {
   Recording_scene scene;
   scene.dimension = D;
   scene.time_step = times.step;
@@ -93,8 +116,8 @@ Recording_scene scene_of(const Snapshot<D>& snapshot, const World<D>& world, con
     scene.lower[axis] -= room;
     scene.upper[axis] += room;
   }
-  add_walls(snapshot, scene);
-  add_areas(snapshot, scene);
+  add_walls<D>(snapshot, changing.facets, scene);
+  add_areas(snapshot, changing, scene);
   add_bodies(world, scene);
   // Points that nothing names are not written.
   std::vector<std::uint32_t> number(scene.points.size(), 0);
@@ -133,12 +156,18 @@ Decision decision(const Body_counts& before, const Body_counts& now) {
 
 template <int D>
 Run_recording<D>::Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot,
-                                const World<D>& world, const Motion_times& times, bool walls_move)
+                                const World<D>& world, const Motion_times& times, bool walls_move,
+                                const Selection<D>& changing)
     : snapshot_(snapshot),
       every_(times.every),
       walls_move_(walls_move),
-      writer_(std::move(path), scene_of(snapshot, world, times, walls_move, wall_points_)),
+      writer_(std::move(path), scene_of(snapshot, world, times, walls_move, changing, wall_points_)),
       before_(world.bodies().size()) {
+  for (const Half_facet facet : changing.facets) {
+    changing_walls_.push_back(facet);
+    changing_walls_.push_back(snapshot.opposite(facet));
+  }
+  if (D == 2) changing_floor_ = changing.cells;
   add(world);
 }
 
@@ -169,7 +198,11 @@ void Run_recording<D>::add(const World<D>& world) {
   }
   if (walls_move_)
     for (const std::uint32_t i : wall_points_) positions.push_back(in_space(snapshot_.point(i)));
-  writer_.add({positions, cells, decisions});
+  std::vector<std::uint8_t> is_there;
+  for (const Half_facet side : changing_walls_)
+    is_there.push_back(snapshot_.is_impassable(side) && !snapshot_.is_solid(snapshot_.cell_of(side)));
+  for (const Cell cell : changing_floor_) is_there.push_back(!snapshot_.is_solid(cell));
+  writer_.add({positions, cells, decisions, is_there});
 }
 
 template <int D>

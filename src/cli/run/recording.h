@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_RECORDING_H
 
 #include <cellwalk/internal/io/recording_file.h>
+#include <cellwalk/simulation/change_schedule.h>
 #include <cellwalk/simulation/world.h>
 
 #include <cstdint>
@@ -24,9 +25,10 @@ template <int D>
 class Run_recording {
  public:
   /// Writes the walls and the start. Refers to the snapshot, which must outlive it.
+  /// \param changing facets that come and go as walls, and cells that are not free all the time
   /// \pre times.every > 0
   Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot, const World<D>& world,
-                const Motion_times& times, bool walls_move);
+                const Motion_times& times, bool walls_move, const Selection<D>& changing);
 
   /// To be called after each step.
   void record(const World<D>& world, bool is_last);
@@ -44,6 +46,8 @@ class Run_recording {
   std::uint32_t every_;
   bool walls_move_;
   std::vector<std::uint32_t> wall_points_;  ///< those that the recording has, by their index
+  std::vector<Half_facet> changing_walls_;  ///< a wall for each of their sides
+  std::vector<Cell> changing_floor_;
   io::Recording_writer writer_;
   std::vector<Body_counts> before_;  ///< at the record before
 };

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bodies.h"
+#include "changes.h"
 #include "cli/common/command.h"
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
@@ -67,12 +68,13 @@ struct Prepared_environment {
 };
 
 /// \param walls how they move; null: they stand still
+/// \param changes whether facets or cells change
 template <int D>
-Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls,
+Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls, bool changes,
                              const std::string& scene) {
   if (const auto* file = std::get_if<std::string>(&source)) {
     Build_options options;
-    options.keep_map = false;
+    options.keep_map = changes;
     options.simplicial = walls != nullptr;
     Loaded_environment loaded = load_with_progress(*file, options);
     if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
@@ -85,6 +87,7 @@ Prepared_environment prepare(const Environment_source& source, const Scene_walls
     constexpr int dimension = std::tuple_size_v<typename decltype(soup.points)::value_type>;
     Build_options options = build_of_generated;
     options.simplicial = walls != nullptr;
+    options.keep_map = changes;
     return Environment<dimension>::build(std::move(soup), options, &report);
   };
   try {
@@ -115,9 +118,9 @@ struct Run {
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
   ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
-                      const Run_recording<D>* motion) const;
+                      const Run_changes<D>* changes, const Run_recording<D>* motion) const;
   std::string summary(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
-                      bool motion, bool picture) const;
+                      const Run_changes<D>* changes, bool motion, bool picture) const;
 };
 
 template <int D>
@@ -140,16 +143,20 @@ void Run<D>::operator()() const {
   Run_files<D> files(folder, environment, world, scene);
   std::optional<Run_walls<D>> walls;
   if (scene.walls) walls.emplace(folder, environment, scene);
+  std::optional<Run_changes<D>> changes;
+  if (!scene.changes.list.empty()) changes.emplace(folder, environment, scene.changes, options.scene);
   std::optional<Run_recording<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, environment.snapshot(), world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world,
-                   Motion_times{scene.time_step, steps(), every}, scene.walls.has_value());
+                   Motion_times{scene.time_step, steps(), every}, scene.walls.has_value(),
+                   changes ? changes->changing() : Selection<D>{});
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world, scene.walls.has_value());
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
       if (walls) walls->step(world);
+      if (changes) changes->step(world);
       world.step();
       if (record) record->record_step();
       files.record(world, i == steps());
@@ -161,11 +168,12 @@ void Run<D>::operator()() const {
   }
   world.validate();
   files.finish();
-  if (walls) {
-    const Progress progress("certifying the walls where they are now");
+  if (walls || changes) {
+    const Progress progress("certifying the environment as it is now");
     environment.certify();
-    walls->finish();
   }
+  if (walls) walls->finish();
+  if (changes) changes->finish();
   if (motion) motion->commit();
   if (picture) {
     const Progress progress("drawing");
@@ -184,13 +192,14 @@ void Run<D>::operator()() const {
         drawing::render(picture->draw(environment.soup(), world, scene, caption(world, contacts)), how);
     io::write_file(folder / "picture.png", drawing::encode_png(image));
   }
-  const ordered_json said = report(world, files, walls ? &*walls : nullptr, motion ? &*motion : nullptr);
+  const ordered_json said = report(world, files, walls ? &*walls : nullptr, changes ? &*changes : nullptr,
+                                   motion ? &*motion : nullptr);
   io::write_json(folder / "run.json", said);
   if (record) io::write_body_trace(*outputs.record, record->trace());
   write_json(outputs.json, said);
   interruption.check();
-  outputs.all.commit(
-      summary(world, files, walls ? &*walls : nullptr, motion.has_value(), picture.has_value()));
+  outputs.all.commit(summary(world, files, walls ? &*walls : nullptr, changes ? &*changes : nullptr,
+                             motion.has_value(), picture.has_value()));
 }
 
 template <int D>
@@ -214,7 +223,7 @@ ordered_json Run<D>::scene_text() const {
 
 template <int D>
 ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
-                            const Run_recording<D>* motion) const {
+                            const Run_changes<D>* changes, const Run_recording<D>* motion) const {
   ordered_json result{{"dimension", D}, {"steps", steps()}, {"time_step", scene.time_step}};
   result["environment"] = cli::to_json(certificate, D);
   result["particles"] = {{"free", world.particles().size()}};
@@ -225,6 +234,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files, co
     result["bodies"] = bodies_json(sizes_of(world, scene), files.body_contacts(), bodies.notes);
   if (const Rod<D>* rod = world.catheter()) result["catheter"] = catheter_json(*rod);
   if (walls) result["walls"] = walls->report();
+  if (changes) result["changes"] = changes->report();
   result["frames"] = files.frame_count();
   if (motion) result["motion"] = {{"every", motion->every()}, {"records", motion->frame_count()}};
   result["validated"] = true;  // World::validate has returned
@@ -239,7 +249,7 @@ ordered_json Run<D>::report(const World<D>& world, const Run_files<D>& files, co
 
 template <int D>
 std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
-                            bool motion, bool picture) const {
+                            const Run_changes<D>* changes, bool motion, bool picture) const {
   std::string text = fmt::format("{}: {}D, {} steps of {}\n", options.scene, D, steps(), scene.time_step);
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
@@ -263,12 +273,14 @@ std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, co
     line("guided", fmt::format("{} of {} bodies at the end of their paths", sizes.arrived, sizes.guided));
   if (const Rod<D>* rod = world.catheter()) line("catheter", describe_catheter(*rod));
   if (walls) line("walls", walls->describe());
+  if (changes) line("changes", changes->describe());
   line("validated",
        sizes.bodies > 0
            ? "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
   if (walls) written += scene.walls->soft ? ", walls.csv, forces.csv" : ", walls.csv";
+  if (changes) written += ", changes.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (motion) written += ", motion.gz";
   if (picture) written += ", picture.png";
@@ -285,8 +297,8 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, options.scene);
   if (scene.walls && !scene.walls->motion.empty()) outputs.all.also_reads(scene.walls->motion);
-  Prepared_environment prepared =
-      prepare(scene.environment, scene.walls ? &*scene.walls : nullptr, options.scene);
+  Prepared_environment prepared = prepare(scene.environment, scene.walls ? &*scene.walls : nullptr,
+                                          !scene.changes.list.empty(), options.scene);
   auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
     throw Error(Error_code::input,

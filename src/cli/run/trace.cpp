@@ -16,6 +16,8 @@ void check_recordable(const Scene<D>& scene, const std::string& scene_name) {
   };
   if (D == 2) refuse("dimension", "a trace holds 3D bodies: record a scene of dimension 3");
   if (scene.walls) refuse("walls", "a trace has walls that stand still: leave them out");
+  if (!scene.changes.list.empty())
+    refuse("changes", "a trace has walls that stay as they are: leave them out");
   if (!scene.particles.empty()) refuse("particles", "a trace holds bodies only: leave them out");
 }
 

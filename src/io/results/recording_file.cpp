@@ -36,16 +36,28 @@ ordered_json head_of(const Recording_scene& scene) {
                       {"vertices", body.vertices},
                       {"edges", body.edges},
                       {"faces", body.faces}});
-  return {{"dimension", scene.dimension},   {"time_step", scene.time_step},
-          {"steps", scene.steps},           {"every", scene.every},
-          {"records", scene.frame_count()}, {"cells", scene.cells},
-          {"lower", scene.lower},           {"upper", scene.upper},
-          {"walls_move", scene.walls_move}, {"points", scene.points.size()},
-          {"walls", scene.walls.size()},    {"wall_corners", corner_count(scene.walls)},
-          {"floor", scene.floor.size()},    {"floor_corners", corner_count(scene.floor)},
-          {"lines", scene.lines.size()},    {"particles", scene.particles},
-          {"edges", scene.edges.size()},    {"faces", scene.faces.size()},
-          {"decisions", decision_names},    {"bodies", bodies}};
+  return {{"dimension", scene.dimension},
+          {"time_step", scene.time_step},
+          {"steps", scene.steps},
+          {"every", scene.every},
+          {"records", scene.frame_count()},
+          {"cells", scene.cells},
+          {"lower", scene.lower},
+          {"upper", scene.upper},
+          {"walls_move", scene.walls_move},
+          {"changing_walls", scene.changing_walls},
+          {"changing_floor", scene.changing_floor},
+          {"points", scene.points.size()},
+          {"walls", scene.walls.size()},
+          {"wall_corners", corner_count(scene.walls)},
+          {"floor", scene.floor.size()},
+          {"floor_corners", corner_count(scene.floor)},
+          {"lines", scene.lines.size()},
+          {"particles", scene.particles},
+          {"edges", scene.edges.size()},
+          {"faces", scene.faces.size()},
+          {"decisions", decision_names},
+          {"bodies", bodies}};
 }
 
 void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>& loops) {
@@ -98,7 +110,7 @@ Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene s
 void Recording_writer::add(const Recording_frame& record) {
   const std::size_t count = record.cells.size();
   if (record.positions.size() != scene_.placed_count() || count != scene_.moving_count() ||
-      record.decisions.size() != scene_.bodies.size())
+      record.decisions.size() != scene_.bodies.size() || record.is_there.size() != scene_.changing_count())
     throw Error(Error_code::usage, "a record of motion has other numbers of points than its scene");
   std::vector<std::uint16_t> now, left;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene_.dimension); ++axis) {
@@ -119,6 +131,7 @@ void Recording_writer::add(const Recording_frame& record) {
   append_planes(bytes, left);
   append_planes(bytes, changes);
   for (const Decision decision : record.decisions) bytes.push_back(static_cast<char>(decision));
+  for (const std::uint8_t is_there : record.is_there) bytes.push_back(static_cast<char>(is_there));
   file_.write(bytes);
   before_last_ = std::exchange(last_, std::move(now));
   last_cells_.assign(record.cells.begin(), record.cells.end());

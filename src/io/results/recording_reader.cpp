@@ -59,7 +59,10 @@ class Motion_parser {
     scene_.particles = counted(head.at("particles"));
     scene_.lower = head.at("lower");
     scene_.upper = head.at("upper");
-    scene_.walls_move = head.value("walls_move", false);  // older files do not say
+    // Older files do not say.
+    scene_.walls_move = head.value("walls_move", false);
+    scene_.changing_walls = counted(head.value("changing_walls", nlohmann::json(0u)));
+    scene_.changing_floor = counted(head.value("changing_floor", nlohmann::json(0u)));
     for (const nlohmann::json& body : head.at("bodies"))
       scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
                                counted(body.at("edges")), counted(body.at("faces"))});
@@ -83,7 +86,8 @@ class Motion_parser {
   void check_size() const {
     std::uint64_t edges = 0, faces = 0;
     for (const Recording_body& body : scene_.bodies) edges += body.edges, faces += body.faces;
-    if (edges != count("edges") || faces != count("faces"))
+    if (edges != count("edges") || faces != count("faces") || scene_.changing_walls > count("walls") ||
+        scene_.changing_floor > count("floor"))
       damaged("the counts of its head do not fit each other");
     const std::uint64_t arrays =
         sizeof(Point<3>) * count("points") +

@@ -6,6 +6,7 @@
 #include "io/files/text.h"
 #include "json_node.h"
 #include "scene_bodies.h"
+#include "scene_parts.h"
 
 namespace cellwalk::io {
 namespace {
@@ -88,24 +89,6 @@ Catheter<D> catheter(const Json_node& node) {
 }
 
 template <int D>
-Scene_shape<D> shape(const Json_node& node) {
-  node.expect_keys({"box", "ball"});
-  if (node.has("box") == node.has("ball")) node.fail("expected either \"box\" or \"ball\"");
-  if (const auto box = node.find("box")) {
-    const auto corners = box->elements();
-    if (corners.size() != 2) box->fail("expected the lower and the upper corner");
-    const Scene_box<D> result{corners[0].tuple<D>(), corners[1].tuple<D>()};
-    for (std::size_t k = 0; k < D; ++k)
-      if (result.lower[k] > result.upper[k])
-        box->fail("the first corner is the lower one in all coordinates");
-    return result;
-  }
-  const auto parts = node.at("ball").elements();
-  if (parts.size() != 2) node.at("ball").fail("expected the centre and the radius");
-  return Scene_ball<D>{parts[0].tuple<D>(), parts[1].positive()};
-}
-
-template <int D>
 Pulsation<D> pulsation(const Json_node& node) {
   node.expect_keys({"amplitude", "period", "wave", "even", "smooth", "quality_floor"});
   Pulsation<D> result;
@@ -143,7 +126,7 @@ Scene_walls<D> walls(const Json_node& node) {
     result.push = word == "push";
   }
   if (const auto fixed = node.find("fixed"))
-    for (const Json_node& part : fixed->elements()) result.fixed.push_back(shape<D>(part));
+    for (const Json_node& part : fixed->elements()) result.fixed.push_back(detail::shape<D>(part));
   if (const auto p = node.find("pulsation")) result.pulsation = pulsation<D>(*p);
   if (const auto motion = node.find("motion")) {
     result.motion = motion->string();
@@ -194,8 +177,8 @@ Scene_output output(const Json_node& node) {
 
 template <int D>
 Scene<D> scene(const Json_node& node) {
-  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "walls",
-                    "gravity", "restitution", "friction", "time_step", "steps", "output"});
+  node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "walls", "groups",
+                    "changes", "gravity", "restitution", "friction", "time_step", "steps", "output"});
   Scene<D> result;
   result.environment = environment_source(node.at("environment"));
   if (const auto title = node.find("title")) result.title = title->string();
@@ -205,6 +188,7 @@ Scene<D> scene(const Json_node& node) {
     for (const Json_node& b : bodies->elements()) result.bodies.push_back(detail::body_start<D>(b));
   if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
   if (const auto w = node.find("walls")) result.walls = walls<D>(*w);
+  result.changes = detail::changes<D>(node, most_steps);
   if (result.particles.empty() && result.bodies.empty() && !result.catheter)
     node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();

@@ -16,8 +16,9 @@ namespace cellwalk::io {
 namespace {
 
 /// A body of three vertices and a particle in a box of 2 x 1 x 4. Its walls have three points.
-Recording_scene sample_scene(bool walls_move = false) {
+Recording_scene sample_scene(bool walls_move = false, bool walls_change = false) {
   Recording_scene scene;
+  scene.changing_walls = walls_change ? 1 : 0;
   scene.walls_move = walls_move;
   scene.time_step = 0.5;
   scene.steps = 7;
@@ -36,11 +37,12 @@ struct Record {
   std::vector<Point<3>> positions;
   std::vector<std::uint32_t> cells;
   std::vector<Decision> decisions;
+  std::vector<std::uint8_t> is_there{};
 };
 
 constexpr std::size_t moving = 4, wall_points = 3;
 
-std::vector<Record> sample_records(bool walls_move = false) {
+std::vector<Record> sample_records(bool walls_move = false, bool walls_change = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<Record> records(5);  // at steps 0, 2, 4, 6, 7
@@ -52,15 +54,17 @@ std::vector<Record> sample_records(bool walls_move = false) {
     for (std::size_t i = 0; walls_move && i < wall_points; ++i)
       record.positions.push_back({2 * share(random), share(random), 4 * share(random)});
     for (int i = 0; i < 2; ++i) record.decisions.push_back(static_cast<Decision>(random() % 8));
+    if (walls_change) record.is_there.push_back(random() % 2);
   }
   records[1].positions[0] = {2, 1, 4};
   records[2].positions[0] = {0, 0, 0};  // the largest differences
   return records;
 }
 
-void write_sample(const std::filesystem::path& path, bool walls_move = false) {
-  Recording_writer writer(path, sample_scene(walls_move));
-  for (const Record& r : sample_records(walls_move)) writer.add({r.positions, r.cells, r.decisions});
+void write_sample(const std::filesystem::path& path, bool walls_move = false, bool walls_change = false) {
+  Recording_writer writer(path, sample_scene(walls_move, walls_change));
+  for (const Record& r : sample_records(walls_move, walls_change))
+    writer.add({r.positions, r.cells, r.decisions, r.is_there});
   writer.commit();
 }
 
@@ -83,17 +87,17 @@ int unfolded(std::uint32_t value) {
   return value % 2 == 0 ? static_cast<int>(value / 2) : -static_cast<int>(value / 2) - 1;
 }
 
-void expect_every_record(bool walls_move) {
+void expect_every_record(bool walls_move, bool walls_change = false) {
   const Folder folder;
   const std::size_t placed = moving + (walls_move ? wall_points : 0), values = 3 * placed;
-  write_sample(folder / "m.gz", walls_move);
+  write_sample(folder / "m.gz", walls_move, walls_change);
   const std::string bytes = unzipped(folder / "m.gz");
   ASSERT_TRUE(bytes.starts_with("CWMOTN01"));
   std::size_t at = 12 + value_at<std::uint32_t>(bytes, 8);
   EXPECT_EQ(at % 8, 0u);
   EXPECT_EQ(value_at<double>(bytes, at + 24), 2);
   at += 3 * 24 + 4 * (2 + 5) + 4 * 2;  // points; sizes and corners of walls; one edge
-  const auto records = sample_records(walls_move);
+  const auto records = sample_records(walls_move, walls_change);
   const double size[] = {2, 1, 4};
   std::vector<int> last(values), before(values);
   std::vector<std::uint32_t> last_cells(4);
@@ -116,12 +120,19 @@ void expect_every_record(bool walls_move) {
     at += 16;
     for (std::size_t b = 0; b < 2; ++b)
       EXPECT_EQ(byte(at++), static_cast<unsigned char>(records[r].decisions[b]));
+    for (const std::uint8_t is_there : records[r].is_there) EXPECT_EQ(byte(at++), is_there);
   }
   EXPECT_EQ(at, bytes.size());
 }
 
 TEST(RecordingFile, HoldsEveryRecordToTheRoundingOfItsBox) { expect_every_record(false); }
 TEST(RecordingFile, HoldsWallsThatMoveAsWell) { expect_every_record(true); }
+TEST(RecordingFile, HoldsWallsThatComeAndGoAsWell) {
+  expect_every_record(false, true);
+  const Folder folder;
+  write_sample(folder / "m.gz", true, true);
+  EXPECT_EQ(read_recording(folder / "m.gz").scene.changing_walls, 1u);
+}
 
 TEST(RecordingFile, ReadsWhatItWrote) {
   const Folder folder;

@@ -50,7 +50,10 @@ struct Recording_scene {
   /// Walls as loops of points, counterclockwise seen from their solid side; in 2D two points each. A wall
   /// with free space on both sides occurs twice.
   std::vector<std::vector<std::uint32_t>> walls;
-  std::vector<std::vector<std::uint32_t>> floor;    ///< 2D only: free cells as loops of points
+  std::vector<std::vector<std::uint32_t>> floor;  ///< 2D only: free cells as loops of points
+  /// So many of the last walls, and of the last loops of the floor, come and go: each frame says which are
+  /// there.
+  std::uint32_t changing_walls = 0, changing_floor = 0;
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< 2D only: passable edges
   /// Of all bodies; vertices are numbered consecutively through all bodies.
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -64,6 +67,7 @@ struct Recording_scene {
     for (const Recording_body& body : bodies) count += body.vertices;
     return count;
   }
+  std::size_t changing_count() const { return std::size_t{changing_walls} + changing_floor; }
   /// The number of positions in a frame.
   std::size_t placed_count() const { return moving_count() + (walls_move ? points.size() : 0); }
 };
@@ -74,6 +78,8 @@ struct Recording_frame {
   /// For each moving point a cell in whose closure it lies, by its number in the input.
   std::span<const std::uint32_t> cells;
   std::span<const Decision> decisions;  ///< of each body
+  /// Of each wall that comes and goes, then of each such loop of the floor: 1 if it is there, otherwise 0.
+  std::span<const std::uint8_t> is_there{};
 };
 
 }  // namespace cellwalk

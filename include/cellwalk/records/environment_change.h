@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of an environment, by parts of space or by name: facets are opened and closed, cells excavated and
+// filled. See docs/cutting.md.
+#ifndef CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
+#define CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
+
+#include <cellwalk/kernel/point.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cellwalk {
+
+template <int D>
+struct Scene_box {
+  Point<D> lower{}, upper{};
+};
+
+template <int D>
+struct Scene_ball {
+  Point<D> centre{};
+  double radius = 1;
+};
+
+/// A closed part of space.
+template <int D>
+using Scene_shape = std::variant<Scene_box<D>, Scene_ball<D>>;
+
+/// A plane (2D: a line). A point x lies in front of it if (x - point) . normal > 0.
+template <int D>
+struct Scene_plane {
+  Point<D> point{};
+  Vector<D> normal{};
+};
+
+/// A part of an environment: a group, or what fulfils all conditions given, at least one. A cell belongs to
+/// it if the mean of its vertices lies in the shape and in front of the plane; a facet, if the mean of its
+/// vertices lies in the shape, and the means of its two cells on either side of the plane.
+template <int D>
+struct Environment_part {
+  std::string group;  ///< its name; empty: the conditions count
+  std::optional<Scene_shape<D>> shape;
+  std::optional<Scene_plane<D>> plane;
+};
+
+enum class Change_kind : std::uint8_t {
+  open,      ///< walls between free cells become passable
+  close,     ///< facets between free cells become walls
+  excavate,  ///< solid cells become free
+  fill       ///< free cells become solid
+};
+
+template <int D>
+struct Environment_change {
+  Change_kind kind = Change_kind::open;
+  Environment_part<D> part;
+  /// Before which step of a run it is made, from 1; what is refused is tried again before each step up to
+  /// `until`.
+  std::uint32_t step = 1, until = 1;
+};
+
+template <int D>
+struct Environment_changes {
+  /// Named parts, with the facets and cells that they have before the first change; not groups themselves.
+  std::map<std::string, Environment_part<D>> groups;
+  std::vector<Environment_change<D>> list;
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H

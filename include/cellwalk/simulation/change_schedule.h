@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of an environment at steps of a run: which facets and cells they name, and what came of them.
+#ifndef CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
+#define CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/records/environment_change.h>
+#include <cellwalk/reshape/reshaping.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cellwalk {
+
+/// Facets between two cells, each seen from one of them, and cells; each once.
+template <int D>
+struct Selection {
+  std::vector<Half_facet> facets;
+  std::vector<Cell> cells;
+};
+
+/// The facets and cells that belong to a part of an environment. Facets of the boundary belong to none.
+/// \pre part.group is empty
+/// Cost: linear.
+template <int D>
+Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part);
+
+/// What came of a change of one facet or cell.
+struct Change_outcome {
+  std::size_t change = 0;  ///< in the list of changes
+  Change_kind kind = Change_kind::open;
+  Half_facet facet = Half_facet::none;  ///< that is opened or closed
+  Cell cell = Cell::none;               ///< that is excavated or filled; of a facet, one of its two
+  Change_result result;
+};
+
+/// Changes with the facets and cells that they have, found when it is made: later motion of walls affects
+/// none. The names of these cells must stay.
+template <int D>
+class Change_schedule {
+ public:
+  /// \throw Error(input) naming a change that has no facet or cell
+  Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes);
+
+  /// True if apply() would do something before a step.
+  bool is_due(std::uint32_t step) const;
+
+  /// Makes all changes of a step, in order, and tries those again that were refused and have not run out.
+  /// What need not change has no outcome: a facet that is a wall is not closed, a facet of a solid cell
+  /// neither opened nor closed, a free cell not excavated.
+  /// \pre the steps of calls ascend
+  /// \throw Error as Reshaping
+  std::vector<Change_outcome> apply(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, std::uint32_t step);
+
+  /// All facets that may become walls or passable by any change, those of cells that are excavated or filled
+  /// included, each once; and these cells.
+  Selection<D> changing(const Snapshot<D>& snapshot) const;
+
+ private:
+  struct Planned {
+    std::size_t number;
+    Change_kind kind;
+    std::uint32_t step, until;
+    Selection<D> left;  ///< what is still to be changed
+  };
+  void apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
+                  std::vector<Change_outcome>& outcomes) const;
+
+  std::vector<Planned> planned_;
+};
+
+extern template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
+extern template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
+extern template class Change_schedule<2>;
+extern template class Change_schedule<3>;
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_SIMULATION_CHANGE_SCHEDULE_H

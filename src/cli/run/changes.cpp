@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "changes.h"
+
+#include <cellwalk/loading/environment_file.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/common/counts_json.h"
+
+namespace cellwalk::cli {
+
+template <int D>
+Run_changes<D>::Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
+                            const Environment_changes<D>& changes, const std::string& scene)
+    : environment_(environment),
+      schedule_(naming(scene, [&] { return Change_schedule<D>(environment.snapshot(), changes); })),
+      changing_(schedule_.changing(environment.snapshot())),
+      table_(environment.snapshot(), folder / "changes.csv") {}
+
+template <int D>
+void Run_changes<D>::step(World<D>& world) {
+  const std::uint32_t step = world.steps_done() + 1;
+  table_.add(step, world.change(environment_, schedule_, counts_));
+}
+
+template <int D>
+nlohmann::ordered_json Run_changes<D>::report() const {
+  nlohmann::ordered_json json = table_.to_json();
+  json["counts"] = to_json(counts_);
+  json["counts"]["walk"] = to_json(counts_.walk);
+  return json;
+}
+
+template class Run_changes<2>;
+template class Run_changes<3>;
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of facets and cells in a run.
+#ifndef CELLWALK_CLI_RUN_CHANGES_H
+#define CELLWALK_CLI_RUN_CHANGES_H
+
+#include <cellwalk/simulation/world.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/common/changes_table.h"
+
+namespace cellwalk::cli {
+
+/// Makes the changes of a scene before the steps of a world, and writes what came of them to changes.csv.
+template <int D>
+class Run_changes {
+ public:
+  /// \param folder for the table
+  /// \param scene names the scene in errors
+  /// \throw Error(input) for a change that has no facet or cell
+  Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
+              const Environment_changes<D>& changes, const std::string& scene);
+
+  /// Makes what is due before the step that is next.
+  void step(World<D>& world);
+  /// Completes the table.
+  void finish() { table_.commit(); }
+
+  /// All facets that may open or close in the run, and cells that may become solid or free.
+  const Selection<D>& changing() const { return changing_; }
+  nlohmann::ordered_json report() const;
+  std::string describe() const { return table_.describe(); }
+
+ private:
+  Environment<D>& environment_;
+  Change_schedule<D> schedule_;
+  Selection<D> changing_;
+  Changes_table<D> table_;
+  Reshape_counts counts_;
+};
+
+extern template class Run_changes<2>;
+extern template class Run_changes<3>;
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_CHANGES_H

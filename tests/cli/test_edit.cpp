@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of facets and cells among bodies, as `cellwalk edit` makes, reports and refuses them.
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace cellwalk::test {
+namespace {
+
+using nlohmann::json;
+using Row = std::vector<std::string>;
+
+const Row header{"step", "change", "kind", "status",   "cell",    "facet",  "x",
+                 "y",    "z",      "body", "particle", "feature", "number", "reason"};
+
+class Edit : public Program {
+ protected:
+  /// Makes the changes in env.ovm, expects that what is written is certified as reported, and returns the
+  /// rows of the report.
+  std::vector<Row> edit(const std::string& changes, const std::vector<std::string>& options = {}) const {
+    write("changes.json", changes);
+    std::vector<std::string> all{"edit",     "env.ovm",    "changes.json", "-o",         "out.ovm",
+                                 "--report", "report.csv", "--json",       "report.json"};
+    all.insert(all.end(), options.begin(), options.end());
+    said_ = succeed(all);
+    report_ = json::parse(text("report.json"));
+    succeed({"check", "out.ovm", "--json", "check.json"});
+    expect_same_certificate(path("report.json"), path("check.json"));
+    std::vector<Row> rows = read_table(path("report.csv"));
+    EXPECT_EQ(rows.at(0), header);
+    rows.erase(rows.begin());
+    return rows;
+  }
+
+  mutable std::string said_;  // by the last command
+  mutable json report_;
+};
+
+constexpr const char* close_door =
+    R"({"groups": {"door": {"plane": [[2, 0], [1, 0]]}}, "changes": [{"close": "door"}]})";
+
+TEST_F(Edit, ClosesADoorRoundARod) {
+  succeed({"generate", "squares", "--cells", "4", "3", "-o", "env.ovm"});
+  write("rod.csv", "x,y\n1.5,1.5\n2.5,1.5\n");
+  write("rod.obj", "v 1.5 1.5 0\nv 2.5 1.5 0\nl 1 2\n");
+  const auto rows = edit(close_door, {"--body", "rod.obj"});
+  ASSERT_EQ(rows.size(), 3u);
+  std::size_t made = 0;
+  for (const Row& row : rows) {
+    EXPECT_EQ(row[0], "") << "no step";
+    EXPECT_EQ(row[1], "0");
+    EXPECT_EQ(row[2], "close");
+    EXPECT_EQ(row[6], "2");
+    EXPECT_EQ(row[8], "") << "no third coordinate";
+    if (row[3] == "made") {
+      ++made;
+      EXPECT_EQ(row[13], "");
+      continue;
+    }
+    EXPECT_EQ(row[3], "refused");
+    EXPECT_EQ(row[7], "1.5");
+    EXPECT_EQ(row[9], "0");
+    EXPECT_EQ(row[11], "edge");
+    EXPECT_EQ(row[12], "0");
+    EXPECT_NE(row[13], "");
+  }
+  EXPECT_EQ(made, 2u);
+  EXPECT_EQ(report_["changes"]["closed"], 2);
+  EXPECT_EQ(report_["changes"]["refusals"], 1);
+  EXPECT_EQ(report_["changes"]["left"], 1);
+  EXPECT_EQ(report_["bodies"]["vertices"], 2);
+  EXPECT_EQ(report_["certificate"]["membranes"], 2);
+  EXPECT_NE(said_.find("2 facets closed; 1 refused, 1 of them to the end"), std::string::npos) << said_;
+  // Without the rod the whole door closes, and the free space falls apart.
+  EXPECT_EQ(edit(close_door).size(), 3u);
+  EXPECT_EQ(report_["certificate"]["components"], 2);
+}
+
+TEST_F(Edit, OpensWhatItClosed) {
+  succeed({"generate", "squares", "--cells", "4", "3", "-o", "env.ovm"});
+  edit(
+      R"({"groups": {"door": {"plane": [[2, 0], [1, 0]]}}, "changes": [{"close": "door"}, {"open": "door"}]})");
+  EXPECT_EQ(report_["changes"]["closed"], 3);
+  EXPECT_EQ(report_["changes"]["opened"], 3);
+  EXPECT_EQ(text("out.ovm"), text("env.ovm"));
+}
+
+TEST_F(Edit, ExcavatesAndFillsInSpace) {
+  succeed({"generate", "hexes", "--cells", "5", "--solid", "0.05", "-o", "env.ovm"});
+  write("all.json", "");
+  const auto rows = edit(R"({"changes": [{"excavate": {"box": [[0, 0, 0], [5, 5, 5]]}},
+                                         {"fill": {"ball": [[2.5, 2.5, 2.5], 0.5]}}]})");
+  EXPECT_EQ(report_["certificate"]["solid_cells"], 1);
+  EXPECT_EQ(report_["changes"]["filled"], 1);
+  EXPECT_EQ(rows.size(), report_["changes"]["excavated"].get<std::size_t>() + 1);
+  EXPECT_EQ(rows.back()[2], "fill");
+  EXPECT_EQ(rows.back()[5], "") << "no facet";
+  EXPECT_EQ(rows.back()[8], "2.5");
+}
+
+TEST_F(Edit, RefusesToFillACellInWhichABodyLies) {
+  succeed({"generate", "hexes", "--cells", "3", "-o", "env.ovm"});
+  write("body.off", "OFF 3 1 0\n1.25 1.25 1.25\n1.75 1.25 1.25\n1.25 1.75 1.25\n3 0 1 2\n");
+  const auto rows =
+      edit(R"({"changes": [{"fill": {"ball": [[1.5, 1.5, 1.5], 0.5]}}]})", {"--body", "body.off"});
+  ASSERT_GE(rows.size(), 3u) << "at least its vertices";
+  for (const Row& row : rows) EXPECT_EQ(row[3], "refused");
+  EXPECT_EQ(report_["certificate"]["solid_cells"], 0);
+}
+
+TEST_F(Edit, RefusesWhatIsWrongAndWritesNothing) {
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
+  const auto refuse = [&](int code, const std::string& changes, const std::vector<std::string>& said) {
+    write("changes.json", changes);
+    expect_failure(code, {"edit", "env.ovm", "changes.json", "-o", "out.ovm"}, said);
+    EXPECT_FALSE(exists("out.ovm"));
+  };
+  refuse(3, "{", {"changes.json:1:"});
+  refuse(3, R"({"changes": [{"close": "door"}]})",
+         {"changes.json: changes[0].close: there is no group \"door\""});
+  refuse(3, R"({"changes": [{"close": {"ball": [[9, 9], 1]}}]})",
+         {"changes.json: changes[0].close: no facet between two cells of the environment lies there"});
+}
+
+}  // namespace
+}  // namespace cellwalk::test

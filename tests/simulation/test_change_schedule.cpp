@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Facets and cells by parts of space, and changes of them at steps.
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/simulation/change_schedule.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace cellwalk {
+namespace {
+
+/// Unit squares, 4 in a row and 3 high; those of `solid` are so. Cell x + 4 y is [x,x+1] x [y,y+1].
+Environment<2> squares(std::vector<std::uint32_t> solid = {}) {
+  Grid_options<2> options;
+  options.cells = {4, 3};
+  options.solid_cells = std::move(solid);
+  return Environment<2>::build(square_grid(options));
+}
+
+Environment_part<2> in_ball(const Point<2>& centre, double radius) {
+  Environment_part<2> part;
+  part.shape = Scene_ball<2>{centre, radius};
+  return part;
+}
+
+std::vector<std::uint32_t> indices(const Snapshot<2>& snapshot, const std::vector<Cell>& cells) {
+  std::vector<std::uint32_t> result;
+  for (const Cell c : cells) result.push_back(snapshot.index(c));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST(Select, CellsByTheirMeansAndFacetsByTheirs) {
+  const auto environment = squares();
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Environment_part<2> part;
+  part.shape = Scene_box<2>{{0, 0}, {2, 1}};
+  const Selection<2> selection = select(snapshot, part);
+  EXPECT_EQ(indices(snapshot, selection.cells), (std::vector<std::uint32_t>{0, 1}));
+  // Between cells 0 and 1, above each of them (their means lie on the side of the box), and at x = 2; those
+  // of the boundary are none.
+  EXPECT_EQ(selection.facets.size(), 4u);
+  EXPECT_EQ(indices(snapshot, select(snapshot, in_ball({2.5, 1.5}, 0.4)).cells),
+            std::vector<std::uint32_t>{6});
+  EXPECT_EQ(select(snapshot, in_ball({2.5, 1.5}, 0.5)).facets.size(), 4u);
+  EXPECT_TRUE(select(snapshot, in_ball({9, 9}, 1)).cells.empty());
+}
+
+TEST(Select, FacetsBetweenTheSidesOfAPlane) {
+  const auto environment = squares();
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Environment_part<2> part;
+  part.plane = Scene_plane<2>{{1.9, 0}, {2, 0}};
+  const Selection<2> all = select(snapshot, part);
+  EXPECT_EQ(all.facets.size(), 3u);
+  for (const Half_facet f : all.facets)
+    for (const std::uint32_t v : snapshot.loop(f)) EXPECT_EQ(snapshot.point(v)[0], 2);
+  EXPECT_EQ(all.cells.size(), 6u) << "those in front of it";
+  part.shape = Scene_ball<2>{{2, 0.5}, 0.25};
+  EXPECT_EQ(select(snapshot, part).facets.size(), 1u);
+  part.plane->normal = {-2, 0};
+  EXPECT_EQ(select(snapshot, part).facets.size(), 1u) << "whichever side is its front";
+}
+
+std::vector<Change_outcome> apply(Environment<2>& environment, Change_schedule<2>& schedule,
+                                  std::uint32_t step, const Residents<2>& residents = {}) {
+  Reshaping<2> reshaping(environment, residents);
+  auto outcomes = schedule.apply(environment.snapshot(), reshaping, step);
+  reshaping.close();
+  return outcomes;
+}
+
+std::size_t walls_inside(const Snapshot<2>& snapshot) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < snapshot.cell_count(); ++i)
+    for (std::size_t f = 0; f < snapshot.facet_count(snapshot.cell(i)); ++f) {
+      const Half_facet facet = snapshot.half_facet(snapshot.cell(i), f);
+      count += snapshot.is_impassable(facet) && snapshot.neighbour(facet) != Cell::none;
+    }
+  return count / 2;
+}
+
+TEST(ChangeSchedule, ClosesAndOpensAGroup) {
+  auto environment = squares();
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Environment_changes<2> changes;
+  changes.groups["door"].plane = Scene_plane<2>{{2, 0}, {1, 0}};
+  for (const auto& [kind, step] : {std::pair(Change_kind::close, 3u), std::pair(Change_kind::open, 5u)}) {
+    Environment_change<2>& change = changes.list.emplace_back();
+    change.kind = kind;
+    change.part.group = "door";
+    change.step = change.until = step;
+  }
+  Change_schedule<2> schedule(snapshot, changes);
+  EXPECT_EQ(schedule.changing(snapshot).facets.size(), 3u);
+  EXPECT_FALSE(schedule.is_due(2));
+  EXPECT_TRUE(apply(environment, schedule, 2).empty());
+  ASSERT_TRUE(schedule.is_due(3));
+  const auto closed = apply(environment, schedule, 3);
+  ASSERT_EQ(closed.size(), 3u);
+  for (const Change_outcome& outcome : closed) {
+    EXPECT_TRUE(outcome.result.is_made);
+    EXPECT_EQ(outcome.kind, Change_kind::close);
+    EXPECT_TRUE(snapshot.is_impassable(outcome.facet));
+    EXPECT_EQ(outcome.cell, snapshot.cell_of(outcome.facet));
+  }
+  EXPECT_EQ(walls_inside(snapshot), 3u);
+  EXPECT_FALSE(schedule.is_due(4));
+  const auto opened = apply(environment, schedule, 5);
+  ASSERT_EQ(opened.size(), 3u);
+  EXPECT_EQ(opened[0].change, 1u);
+  EXPECT_EQ(walls_inside(snapshot), 0u);
+  environment.certify();
+}
+
+TEST(ChangeSchedule, TriesAgainWhatABodyHolds) {
+  auto environment = squares();
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Body_soup<2> rod;
+  rod.points = {{1.5, 1.5}, {2.5, 1.5}};
+  rod.edges = {{0, 1}};
+  Body<2> body(snapshot, Locator<2>(snapshot), rod);
+  const Residents<2> residents{{&body}, {}};
+  Environment_changes<2> changes;
+  Environment_change<2>& change = changes.list.emplace_back();
+  change.kind = Change_kind::close;
+  change.part.plane = Scene_plane<2>{{2, 0}, {1, 0}};
+  change.step = 1;
+  change.until = 3;
+  Change_schedule<2> schedule(snapshot, changes);
+  const auto first = apply(environment, schedule, 1, residents);
+  ASSERT_EQ(first.size(), 3u);
+  EXPECT_TRUE(first[0].result.is_made && first[2].result.is_made);
+  ASSERT_FALSE(first[1].result.is_made);
+  ASSERT_EQ(first[1].result.held_by.size(), 1u);
+  EXPECT_EQ(first[1].result.held_by[0].feature, Body_feature::edge);
+  const auto second = apply(environment, schedule, 2, residents);
+  ASSERT_EQ(second.size(), 1u) << "only what is left";
+  EXPECT_FALSE(second[0].result.is_made);
+  Body_counts counts;
+  Step_report<2> report;
+  body.step(std::vector<Point<2>>{{0.5, 1.5}, {1.5, 1.5}}, {}, report, counts);
+  const auto third = apply(environment, schedule, 3, residents);
+  ASSERT_EQ(third.size(), 1u);
+  EXPECT_TRUE(third[0].result.is_made);
+  EXPECT_FALSE(schedule.is_due(4));
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST(ChangeSchedule, ExcavatesAndFillsCellsThatAreNotSoYet) {
+  auto environment = squares({5, 6});
+  const Snapshot<2>& snapshot = environment.snapshot();
+  Environment_changes<2> changes;
+  for (const Change_kind kind : {Change_kind::excavate, Change_kind::fill}) {
+    Environment_change<2>& change = changes.list.emplace_back();
+    change.kind = kind;
+    change.part.shape = Scene_box<2>{{1, 1}, {4, 2}};
+    change.step = change.until = kind == Change_kind::fill ? 2 : 1;
+  }
+  Change_schedule<2> schedule(snapshot, changes);
+  const Selection<2> changing = schedule.changing(snapshot);
+  EXPECT_EQ(indices(snapshot, changing.cells), (std::vector<std::uint32_t>{5, 6, 7}));
+  EXPECT_EQ(changing.facets.size(), 9u);
+  const auto freed = apply(environment, schedule, 1);
+  ASSERT_EQ(freed.size(), 2u) << "cell 7 is free";
+  EXPECT_EQ(freed[0].facet, Half_facet::none);
+  EXPECT_EQ(environment.certify().solid_cells, 0u);
+  EXPECT_EQ(walls_inside(snapshot), 0u);
+  const auto filled = apply(environment, schedule, 2);
+  EXPECT_EQ(filled.size(), 3u);
+  EXPECT_EQ(environment.certify().solid_cells, 3u);
+}
+
+TEST(ChangeSchedule, RefusesAChangeOfNothing) {
+  const auto environment = squares();
+  for (const auto& [kind, message] :
+       {std::pair(Change_kind::open,
+                  "changes[1].open: no facet between two cells of the environment lies there"),
+        std::pair(Change_kind::fill, "changes[1].fill: no cell of the environment lies there")}) {
+    Environment_changes<2> changes;
+    changes.list.resize(2);
+    changes.list[0].part = in_ball({1, 1}, 1);
+    changes.list[1].kind = kind;
+    changes.list[1].part = in_ball({9, 9}, 1);
+    try {
+      Change_schedule<2>(environment.snapshot(), changes);
+      ADD_FAILURE();
+    } catch (const Error& e) {
+      EXPECT_STREQ(e.what(), message);
+      EXPECT_EQ(e.code(), Error_code::input);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellwalk
