@@ -118,6 +118,18 @@ struct Soft_walls {
   std::uint32_t spread = 1;  ///< how many times the yield is shared with the neighbours along walls
 };
 
+/// Solid cells that are elastic: edges have lengths to which they return, and cells keep their volumes (2D:
+/// areas). Compliances are shares of the inertia of a vertex over a step: with 0 a constraint is met as far
+/// as sweeps allow, with 1 it gives way as much as the vertex does.
+struct Tissue_material {
+  double compliance = 0.1;    ///< of edges
+  double incompressible = 1;  ///< share of the change of a volume that is undone in a sweep, 0 to 1
+  double tension = 0;         ///< share by which edges are longer than they would be, 0 to below 1
+  double damping = 0.5;       ///< share of velocities that is lost in a step; 1: nothing swings
+  double yield = 0.5;         ///< share of the motion of a body against the tissue by which it gives way
+  std::uint32_t sweeps = 10;  ///< over all edges and cells in a step
+};
+
 /// How the walls of an environment move.
 template <int D>
 struct Scene_walls {
@@ -125,6 +137,7 @@ struct Scene_walls {
   std::vector<Scene_shape<D>> fixed;  ///< where nothing moves
   std::optional<Pulsation<D>> pulsation;
   std::optional<Soft_walls> soft;
+  std::optional<Tissue_material> tissue;
   /// A table of positions of points (relative to the scene's folder); empty: none.
   std::string motion;
 };

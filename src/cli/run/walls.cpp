@@ -27,12 +27,14 @@ Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& env
     forces_.emplace(folder / "forces.csv",
                     std::vector<std::string>{"step", "vertices", "largest_yield", "force"});
   }
+  if (walls.tissue) tissue_.emplace(environment.snapshot(), *walls.tissue, walls.fixed);
   if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
 }
 
 /// Where points are to be after a step, as far as they are not there for sure.
 template <int D>
-std::vector<Vertex_move<D>> Run_walls<D>::targets(std::uint32_t step) {
+std::vector<Vertex_move<D>> Run_walls<D>::targets(const World<D>& world, std::uint32_t step) {
+  if (tissue_) return tissue_->targets(world);
   if (pulsation_) {
     auto result = pulsation_->targets(step * time_step_);
     if (foundation_)
@@ -51,9 +53,12 @@ template <int D>
 void Run_walls<D>::step(World<D>& world) {
   const std::uint32_t step = world.steps_done() + 1;
   if (foundation_) foundation_->press(world);
-  const std::vector<Vertex_move<D>> moves = targets(step);
+  const std::vector<Vertex_move<D>> moves = targets(world, step);
   if (!moves.empty()) move(world, step, moves);
   if (foundation_) record_forces(step);
+  if (!tissue_) return;
+  tissue_->follow();
+  largest_stretch_ = std::max(largest_stretch_, tissue_->largest_stretch());
 }
 
 template <int D>
@@ -113,6 +118,7 @@ nlohmann::ordered_json Run_walls<D>::report() const {
   for (std::size_t e = 0; e < ends_.size(); ++e) json["status"][move_end_names[e]] = ends_[e];
   json["contacts"] = hits_;
   if (foundation_) json["soft"] = {{"largest_yield", largest_yield_}, {"largest_force", largest_force_}};
+  if (tissue_) json["tissue"] = {{"edges", tissue_->edge_count()}, {"largest_stretch", largest_stretch_}};
   json["counts"] = to_json(counts_);
   json["counts"]["walk"] = to_json(counts_.walk);
   return json;
@@ -126,6 +132,7 @@ std::string Run_walls<D>::describe() const {
   std::string soft;
   if (foundation_)
     soft = fmt::format("; they yield by up to {:.3g} to forces up to {:.3g}", largest_yield_, largest_force_);
+  if (tissue_) soft = fmt::format("; edges of tissue are stretched by up to {:.3g}", largest_stretch_);
   return fmt::format("{} moves of points: {} {}{}; {} contacts, {} pushes{}", moves_, ends_[0],
                      move_end_names[0], ends, hits_, counts_.pushes, soft);
 }

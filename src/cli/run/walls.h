@@ -5,6 +5,7 @@
 
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/simulation/elastic_foundation.h>
+#include <cellwalk/simulation/tissue.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 #include <cellwalk/simulation/world.h>
 
@@ -44,7 +45,7 @@ class Run_walls {
   std::string describe() const;
 
  private:
-  std::vector<Vertex_move<D>> targets(std::uint32_t step);
+  std::vector<Vertex_move<D>> targets(const World<D>& world, std::uint32_t step);
   void move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves);
   void record(std::uint32_t step, const Move_report<D>& report);
   void record_forces(std::uint32_t step);
@@ -55,6 +56,8 @@ class Run_walls {
   io::Csv_writer table_;
   std::optional<Wall_pulsation<D>> pulsation_;
   std::optional<Elastic_foundation<D>> foundation_;
+  std::optional<Tissue<D>> tissue_;
+  double largest_stretch_ = 0;  ///< of the tissue, in any step
   std::optional<io::Csv_writer> forces_;
   double largest_yield_ = 0, largest_force_ = 0;  ///< of any step
   std::vector<Timed_move<D>> motion_;

@@ -17,6 +17,7 @@ constexpr std::uint64_t most_steps = 100'000'000;
 constexpr double default_twist = 10;  // degrees a step
 constexpr std::uint64_t most_spread = 1000;
 constexpr std::uint64_t most_sweeps = 1000;
+constexpr double most_tension = 0.9, most_compliance = 1e6;
 
 Environment_source environment_source(const Json_node& node) {
   if (node.is_string()) {
@@ -116,9 +117,23 @@ Soft_walls soft(const Json_node& node) {
   return result;
 }
 
+Tissue_material tissue(const Json_node& node) {
+  node.expect_keys({"compliance", "incompressible", "tension", "damping", "yield", "sweeps"});
+  Tissue_material result;
+  if (const auto compliance = node.find("compliance"))
+    result.compliance = compliance->number_in(0, most_compliance);
+  if (const auto share = node.find("incompressible")) result.incompressible = share->number_in(0, 1);
+  if (const auto tension = node.find("tension")) result.tension = tension->number_in(0, most_tension);
+  if (const auto damping = node.find("damping")) result.damping = damping->number_in(0, 1);
+  if (const auto yield = node.find("yield")) result.yield = yield->number_in(0, 1);
+  if (const auto sweeps = node.find("sweeps"))
+    result.sweeps = static_cast<std::uint32_t>(sweeps->integer_in(1, most_sweeps));
+  return result;
+}
+
 template <int D>
 Scene_walls<D> walls(const Json_node& node) {
-  node.expect_keys({"at_contact", "fixed", "pulsation", "soft", "motion"});
+  node.expect_keys({"at_contact", "fixed", "pulsation", "soft", "tissue", "motion"});
   Scene_walls<D> result;
   if (const auto at_contact = node.find("at_contact")) {
     const std::string word = at_contact->string();
@@ -133,9 +148,12 @@ Scene_walls<D> walls(const Json_node& node) {
     if (result.motion.empty()) motion->fail("expected the name of a table");
   }
   if (const auto s = node.find("soft")) result.soft = soft(*s);
-  if (!result.pulsation && !result.soft && result.motion.empty())
-    node.fail("nothing moves the walls: give \"pulsation\", \"soft\" or \"motion\"");
-  for (const char* key : {"pulsation", "soft", "fixed"})
+  if (const auto t = node.find("tissue")) result.tissue = tissue(*t);
+  if (!result.pulsation && !result.soft && !result.tissue && result.motion.empty())
+    node.fail("nothing moves the walls: give \"pulsation\", \"soft\", \"tissue\" or \"motion\"");
+  for (const char* key : {"pulsation", "soft"})
+    if (result.tissue && node.has(key)) node.at(key).fail("tissue moves by itself: leave one of them out");
+  for (const char* key : {"pulsation", "soft", "tissue", "fixed"})
     if (!result.motion.empty() && node.has(key))
       node.at(key).fail("a table, \"motion\", says alone which points move: leave one of them out");
   return result;

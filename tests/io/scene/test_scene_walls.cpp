@@ -75,7 +75,9 @@ TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
   };
   for (const Refusal& r : std::initializer_list<Refusal>{
            {"3", "s.json: walls: expected an object {...}"},
-           {"{}", "s.json: walls: nothing moves the walls: give \"pulsation\", \"soft\" or \"motion\""},
+           {"{}",
+            "s.json: walls: nothing moves the walls: give \"pulsation\", \"soft\", "
+            "\"tissue\" or \"motion\""},
            {R"({"motion": "m.csv", "pulsation": {"amplitude": 1, "period": 1}})",
             "s.json: walls.pulsation: a table, \"motion\", says alone which points move: leave one of them "
             "out"},
