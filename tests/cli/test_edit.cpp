@@ -120,7 +120,7 @@ TEST_F(Edit, RefusesWhatIsWrongAndWritesNothing) {
   };
   refuse(3, "{", {"changes.json:1:"});
   refuse(3, R"({"changes": [{"close": "door"}]})",
-         {"changes.json: changes[0].close: there is no group \"door\""});
+         {"changes.json: changes[0].close: there is no such group"});
   refuse(3, R"({"changes": [{"close": {"ball": [[9, 9], 1]}}]})",
          {"changes.json: changes[0].close: no facet between two cells of the environment lies there"});
 }

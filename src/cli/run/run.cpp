@@ -142,7 +142,7 @@ void Run<D>::operator()() const {
   const Interruption interruption;
   Run_files<D> files(folder, environment, world, scene);
   std::optional<Run_walls<D>> walls;
-  if (scene.walls) walls.emplace(folder, environment, scene);
+  if (scene.walls) walls.emplace(folder, environment, scene, options.scene);
   std::optional<Run_changes<D>> changes;
   if (!scene.changes.list.empty()) changes.emplace(folder, environment, scene.changes, options.scene);
   std::optional<Run_recording<D>> motion;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "walls.h"
 
+#include <cellwalk/loading/environment_file.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +16,7 @@ namespace cellwalk::cli {
 
 template <int D>
 Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& environment,
-                        const Scene<D>& scene)
+                        const Scene<D>& scene, const std::string& name)
     : environment_(environment),
       time_step_(scene.time_step),
       table_(folder / "walls.csv", {"step", "vertex", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cell",
@@ -27,7 +29,8 @@ Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& env
     forces_.emplace(folder / "forces.csv",
                     std::vector<std::string>{"step", "vertices", "largest_yield", "force"});
   }
-  if (walls.tissue) tissue_.emplace(environment.snapshot(), *walls.tissue, walls.fixed);
+  if (walls.tissue)
+    naming(name, [&] { tissue_.emplace(environment.snapshot(), *walls.tissue, walls.fixed); });
   if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
 }
 

@@ -30,9 +30,11 @@ template <int D>
 class Run_walls {
  public:
   /// \param folder for the tables
+  /// \param name of the scene, for errors
   /// \throw Error(input) for a table that is none, or an environment with cells at points that move that are
   ///        no simplices
-  Run_walls(const std::filesystem::path& folder, Environment<D>& environment, const Scene<D>& scene);
+  Run_walls(const std::filesystem::path& folder, Environment<D>& environment, const Scene<D>& scene,
+            const std::string& name);
 
   /// Moves the walls to where they are to be after the step that is next. What a wall cannot do now it tries
   /// again in the step after.

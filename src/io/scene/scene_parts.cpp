@@ -66,7 +66,7 @@ Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
     }
     result.part.group = part->string();
     if (!known.groups.contains(result.part.group))
-      part->fail("there is no group \"" + result.part.group + "\" among \"groups\"");
+      part->fail("there is no such group: name it in \"groups\"");
   }
   if (found != 1) node.fail("expected one of \"open\", \"close\", \"excavate\" and \"fill\"");
   if (most_steps == 0) return result;

@@ -81,7 +81,7 @@ TEST(EnvironmentChanges, AreRefusedWithTheKeyThatIsWrong) {
            {R"("changes": [{"step": 5, "until": 4, "open": {"ball": [[0, 0, 0], 1]}}])",
             "s.json: changes[0].until: expected an integer from 5 to 100000000, not 4"},
            {R"("changes": [{"step": 1, "close": "valve"}])",
-            "s.json: changes[0].close: there is no group \"valve\" among \"groups\""},
+            "s.json: changes[0].close: there is no such group: name it in \"groups\""},
            {R"("changes": [{"step": 1, "close": {}}])",
             "s.json: changes[0].close: expected \"box\", \"ball\" or \"plane\""},
            {R"("changes": [{"step": 1, "close": 3}])",
