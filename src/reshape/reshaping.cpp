@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "cut/cutter.h"
 #include "move/vertex_trial.h"
 #include "move/wall_hit.h"
 #include "replace/relaxer.h"
@@ -33,7 +35,8 @@ struct Reshaping<D>::State {
         mover(environment),
         trial(groups, counts),
         toggle(environment, groups, counts.walk),
-        replacer(environment, groups, mover, counts) {}
+        replacer(environment, groups, mover, counts),
+        tissue(environment, groups, toggle, counts) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
@@ -45,6 +48,7 @@ struct Reshaping<D>::State {
   bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   detail::Box<D> box_of_star(const Point<D>& target) const;
   detail::Toggle<D>& restored_toggle();
+  detail::Tissue_patch<D>& restored_tissue();
   void check_open() const;
   void close();
 
@@ -56,6 +60,7 @@ struct Reshaping<D>::State {
   detail::Vertex_trial<D> trial;
   detail::Toggle<D> toggle;
   detail::Replacer<D> replacer;
+  detail::Tissue_patch<D> tissue;
   bool is_open = true;
 };
 
@@ -205,7 +210,7 @@ template <int D>
 void Reshaping<D>::State::close() {
   if (!std::exchange(is_open, false)) return;
   mover.restore();
-  if (!replacer.is_broken()) groups.follow_epoch();
+  if (!replacer.is_broken() && !tissue.is_broken()) groups.follow_epoch();
 }
 
 template <int D>
@@ -323,6 +328,44 @@ template <int D>
 Replacement Reshaping<D>::collapse(std::uint32_t u, std::uint32_t onto) {
   state_->check_open();
   return state_->replacer.collapse(u, onto);
+}
+
+template <int D>
+detail::Tissue_patch<D>& Reshaping<D>::State::restored_tissue() {
+  check_open();
+  if (environment.is_frozen())
+    throw Error(Error_code::usage, "the environment is frozen: build it with its map to cut it");
+  mover.restore();
+  return tissue;
+}
+
+template <int D>
+Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target) {
+  detail::Tissue_patch<D>& tissue = state_->restored_tissue();
+  const Snapshot<D>& snapshot = state_->environment.snapshot();
+  if (!is_finite(target))
+    throw Error(Error_code::input, "the new position is not finite: correct its coordinates");
+  for (const Cell c : solid)
+    if (!snapshot.is_cell(c) || !snapshot.is_solid(c) || snapshot.view(c).vertex_count() != D + 1 ||
+        std::ranges::find(snapshot.view(c).vertices, vertex) == snapshot.view(c).vertices.end())
+      throw Error(Error_code::usage, "cell " + std::to_string(to_index(c)) +
+                                         " is no solid simplex with point " + std::to_string(vertex));
+  if (solid.empty()) throw Error(Error_code::usage, "no cells are to be taken back: name those in front");
+  Replacement result;
+  const auto point = tissue.peel(vertex, solid, target, result.reason);
+  result.is_made = point.has_value();
+  if (!point) return result;
+  result.point = *point;
+  result.cells = state_->environment.cells_around(*point);
+  return result;
+}
+
+template <int D>
+Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& options) {
+  detail::Tissue_patch<D>& tissue = state_->restored_tissue();
+  if (!(options.opening > 0) || !std::isfinite(options.opening))
+    throw Error(Error_code::input, "a cut is opened by a positive length");
+  return detail::Cutter<D>(state_->environment, tissue, blade, options).run();
 }
 
 template <int D>

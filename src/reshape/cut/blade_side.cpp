@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "blade_side.h"
+
+#include <cellwalk/internal/kernel/orientation_value.h>
+#include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace cellwalk {
+namespace {
+
+template <int D>
+void check_points(std::span<const Point<D>> points, std::size_t least) {
+  if (points.size() < least)
+    throw Error(Error_code::input, "a blade has at least " + std::to_string(least) + " points");
+  for (const Point<D>& x : points)
+    if (!is_finite(x))
+      throw Error(Error_code::input, "a point of the blade is not finite: correct its coordinates");
+}
+
+}  // namespace
+
+template <int D>
+Blade<D> blade_along(std::span<const Point<D>> points) {
+  check_points<D>(points, D);
+  Blade<D> blade;
+  blade.points.assign(points.begin(), points.end());
+  const auto count = static_cast<std::uint32_t>(points.size());
+  if constexpr (D == 2)
+    for (std::uint32_t k = 1; k < count; ++k) blade.pieces.push_back({k - 1, k});
+  else
+    for (std::uint32_t k = 2; k < count; ++k) blade.pieces.push_back({0, k - 1, k});
+  return blade;
+}
+
+Blade<3> swept_blade(std::span<const Point<3>> line, const Vector<3>& displacement) {
+  check_points<3>(line, 2);
+  if (!is_finite(displacement) || !(length(displacement) > 0))
+    throw Error(Error_code::input, "a blade is swept by a displacement of some finite length");
+  Blade<3> blade;
+  for (const Point<3>& x : line) {
+    blade.points.push_back(x);
+    blade.points.push_back(x + displacement);
+  }
+  for (std::uint32_t k = 3; k < blade.points.size(); k += 2) {
+    blade.pieces.push_back({k - 3, k - 1, k - 2});
+    blade.pieces.push_back({k - 2, k - 1, k});
+  }
+  return blade;
+}
+
+template Blade<2> blade_along(std::span<const Point<2>>);
+template Blade<3> blade_along(std::span<const Point<3>>);
+
+namespace detail {
+namespace {
+
+int sign(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  Predicate_counts counts;
+  return Exact::orientation(counts, a, b, c);
+}
+int sign(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
+  Predicate_counts counts;
+  return Exact::orientation(counts, a, b, c, d);
+}
+
+/// The rounded share of uv at which it passes the plane through points.
+template <class... P>
+double share_of(const auto& u, const auto& v, const P&... plane) {
+  const double at_u = determinant<double>(plane..., u).value, at_v = determinant<double>(plane..., v).value;
+  const double share = at_u / (at_u - at_v);
+  return share >= 0 && share <= 1 ? share : 0.5;
+}
+
+std::optional<double> passes_piece(const std::array<Point<2>, 2>& p, const Point<2>& u, const Point<2>& v) {
+  if (sign(p[0], p[1], u) * sign(p[0], p[1], v) >= 0 || sign(u, v, p[0]) * sign(u, v, p[1]) > 0)
+    return std::nullopt;
+  return share_of(u, v, p[0], p[1]);
+}
+
+std::optional<double> passes_piece(const std::array<Point<3>, 3>& p, const Point<3>& u, const Point<3>& v) {
+  if (sign(p[0], p[1], p[2], u) * sign(p[0], p[1], p[2], v) >= 0) return std::nullopt;
+  int low = 0, high = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int s = sign(u, v, p[k], p[(k + 1) % 3]);
+    low = std::min(low, s);
+    high = std::max(high, s);
+  }
+  if (low < 0 && high > 0) return std::nullopt;
+  return share_of(u, v, p[0], p[1], p[2]);
+}
+
+bool lies_on_piece(const std::array<Point<2>, 2>& p, const Point<2>& x) {
+  return on_segment<2>(p[0], p[1], x);
+}
+bool lies_on_piece(const std::array<Point<3>, 3>& p, const Point<3>& x) {
+  return sign(p[0], p[1], p[2], x) == 0 && in_convex_polygon(p, x);
+}
+
+Point<2> nearest_on(const std::array<Point<2>, 2>& p, const Point<2>& x) {
+  const Vector<2> along = p[1] - p[0];
+  return p[0] + std::clamp(dot(x - p[0], along) / dot(along, along), 0.0, 1.0) * along;
+}
+
+Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Point<3>& x) {
+  const Vector<3> normal = cross(p[1] - p[0], p[2] - p[0]);
+  const Point<3> foot = x + (-dot(x - p[0], normal) / dot(normal, normal)) * normal;
+  bool is_inside = true;
+  Point<3> best = p[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point<3>&a = p[k], &b = p[(k + 1) % 3];
+    is_inside = is_inside && dot(cross(b - a, foot - a), normal) >= 0;
+    const Vector<3> along = b - a;
+    const Point<3> near = a + std::clamp(dot(x - a, along) / dot(along, along), 0.0, 1.0) * along;
+    if (length(x - near) < least) {
+      least = length(x - near);
+      best = near;
+    }
+  }
+  return is_inside ? foot : best;
+}
+
+Vector<2> normal_of(const std::array<Point<2>, 2>& p) { return unit_normal(p[0], p[1]); }
+Vector<3> normal_of(const std::array<Point<3>, 3>& p) { return unit_normal(p[0], p[1], p[2]); }
+
+}  // namespace
+
+template <int D>
+Blade_side<D>::Blade_side(const Blade<D>& blade) {
+  for (const auto& piece : blade.pieces) {
+    Corners corners;
+    Box<D> box;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (piece[k] >= blade.points.size())
+        throw Error(Error_code::input, "a piece of the blade names point " + std::to_string(piece[k]) +
+                                           " of " + std::to_string(blade.points.size()));
+      corners[k] = blade.points[piece[k]];
+      box.extend(corners[k]);
+    }
+    const Vector<D> normal = normal_of(corners);
+    if (normal == Vector<D>{})
+      throw Error(Error_code::input,
+                  "a piece of the blade has no extent: its corners coincide or lie in line");
+    pieces_.push_back(corners);
+    normals_.push_back(normal);
+    boxes_.push_back(box);
+    box_.extend(box);
+  }
+}
+
+template <int D>
+bool Blade_side<D>::may_pass(const Box<D>& box) const {
+  return box_.meets(box) &&
+         std::any_of(boxes_.begin(), boxes_.end(), [&](const Box<D>& own) { return own.meets(box); });
+}
+
+template <int D>
+std::optional<double> Blade_side<D>::passes(const Point<D>& u, const Point<D>& v) const {
+  Box<D> box;
+  box.extend(u);
+  box.extend(v);
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    if (boxes_[i].meets(box))
+      if (const auto share = passes_piece(pieces_[i], u, v)) return share;
+  return std::nullopt;
+}
+
+template <int D>
+bool Blade_side<D>::has(const Point<D>& x) const {
+  Box<D> box;
+  box.extend(x);
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    if (boxes_[i].meets(box) && lies_on_piece(pieces_[i], x)) return true;
+  return false;
+}
+
+template <int D>
+double Blade_side<D>::side(const Point<D>& x) const {
+  double least = std::numeric_limits<double>::infinity(), result = 0;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Vector<D> off = x - nearest_on(pieces_[i], x);
+    const double distance = length(off), height = dot(off, normals_[i]);
+    constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off tells
+    if (distance > (1 + tie) * least) continue;
+    if (distance >= (1 - tie) * least && std::abs(height) <= std::abs(result)) continue;
+    least = std::min(least, distance);
+    result = height;
+  }
+  return result;
+}
+
+template class Blade_side<2>;
+template class Blade_side<3>;
+
+}  // namespace detail
+}  // namespace cellwalk

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cutter.h"
+
+#include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/kernel/predicates.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cellwalk::detail {
+namespace {
+
+/// A point on an edge of walls goes off into the solid by so many units in the last place, doubled so often.
+constexpr int most_shifts = 8;
+/// A vertex that is parted goes less far where there is no room, halved so often.
+constexpr int most_halvings = 24;
+/// Steps towards a direction that is inside of all facets.
+constexpr int most_turns = 200;
+
+double unit_in_last_place(double size) { return std::nextafter(size, 2 * size + 1) - size; }
+
+Vector<2> normal_of(const Point<2>& a, const Point<2>& b) { return unit_normal(a, b); }
+Vector<3> normal_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) { return unit_normal(a, b, c); }
+
+/// The unit normal of a facet, into its cell.
+template <int D>
+Vector<D> inward_normal(const Snapshot<D>& snapshot, Half_facet facet) {
+  const auto loop = snapshot.loop(facet);
+  if constexpr (D == 2)
+    return normal_of(snapshot.point(loop[0]), snapshot.point(loop[1]));
+  else
+    return -1.0 * normal_of(snapshot.point(loop[0]), snapshot.point(loop[1]), snapshot.point(loop[2]));
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Cell> Cutter<D>::near_cells() const {
+  std::vector<Cell> near;
+  const Snapshot<D>& s = snapshot();
+  for (std::size_t i = 0; i < s.cell_slots(); ++i) {
+    const Cell cell = s.cell(i);
+    if (cell == Cell::none || !s.is_solid(cell)) continue;
+    const Cell_view<D> view = s.view(cell);
+    Box<D> box;
+    for (std::size_t v = 0; v < view.vertex_count(); ++v) box.extend(view.point(v));
+    if (view.vertex_count() == D + 1 && blade_.may_pass(box)) near.push_back(cell);
+  }
+  return near;
+}
+
+/// Which vertices the cut passes, and which edges are to be split.
+template <int D>
+void Cutter<D>::label(std::span<const Cell> near) {
+  const Snapshot<D>& s = snapshot();
+  std::set<std::array<std::uint32_t, 2>> pairs;
+  for (const Cell c : near) {
+    const auto vertices = s.view(c).vertices;
+    for (const std::uint32_t u : vertices) {
+      for (const std::uint32_t v : vertices)
+        if (u < v) pairs.insert({u, v});
+      if (!sides_.contains(u) && blade_.has(s.point(u))) sides_[u] = Side::on;
+    }
+  }
+  std::map<std::array<std::uint32_t, 2>, double> passed;
+  for (const auto& [u, v] : pairs)
+    if (const auto share = blade_.passes(s.point(u), s.point(v))) passed[{u, v}] = *share;
+  report_.edges = passed.size();
+  for (const auto& [edge, share] : passed)
+    if (share < options_.snap || share > 1 - options_.snap) sides_[edge[share < 0.5 ? 0 : 1]] = Side::on;
+  const auto is_on = [&](std::uint32_t v) {
+    const auto side = sides_.find(v);
+    return side != sides_.end() && side->second == Side::on;
+  };
+  for (const auto& [edge, share] : passed) {
+    if (is_on(edge[0]) || is_on(edge[1]))
+      ++report_.snapped;
+    else
+      edges_[edge] = share;
+  }
+}
+
+template <int D>
+Point<D> Cutter<D>::crossing(std::uint32_t u, std::uint32_t v, double share) const {
+  return point_on<D>(snapshot().point(u), snapshot().point(v), share);
+}
+
+/// The mean direction from walls at an edge into solid cells; zero if it has none.
+template <int D>
+Vector<D> Cutter<D>::into_solid(std::uint32_t u, std::uint32_t v) {
+  const Snapshot<D>& s = snapshot();
+  Vector<D> sum{};
+  for (const Cell c : environment_.cells_around(u)) {
+    if (!s.is_solid(c)) continue;
+    const Cell_view<D> view = s.view(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      const Half_facet facet = Snapshot<D>::half_facet(c, f);
+      const Cell other = s.neighbour(facet);
+      if (other != Cell::none && !s.is_solid(other) && has_point(view, f, u) && has_point(view, f, v))
+        sum = sum + inward_normal(s, facet);
+    }
+  }
+  return normalized(sum, Vector<D>{});
+}
+
+template <int D>
+bool Cutter<D>::split_edge(std::uint32_t u, std::uint32_t v, double share) {
+  const Point<D> middle = crossing(u, v, share);
+  const Vector<D> inward = into_solid(u, v);
+  double size = 0;
+  for (const double x : middle) size = std::max(size, std::abs(x));
+  for (int k = 0; k <= most_shifts; ++k) {
+    const double shift = k == 0 ? 0 : std::ldexp(unit_in_last_place(size), k);
+    if (const auto point = patch_.split_edge(u, v, middle + shift * inward)) {
+      sides_[*point] = Side::on;
+      report_.points.push_back({*point, {u, v}, share});
+      return true;
+    }
+    if (inward == Vector<D>{}) break;
+  }
+  return false;
+}
+
+template <int D>
+void Cutter<D>::split() {
+  for (const auto& [edge, share] : edges_) report_.split += split_edge(edge[0], edge[1], share);
+}
+
+template <int D>
+typename Cutter<D>::Side Cutter<D>::side_of(std::uint32_t vertex) {
+  const auto [side, is_new] = sides_.try_emplace(vertex, Side::back);
+  if (is_new && blade_.side(snapshot().point(vertex)) > 0) side->second = Side::front;
+  return side->second;
+}
+
+/// The side of all vertices of a cell that the cut does not pass; Side::on if these lie on both. A cell all
+/// of whose vertices it passes lies behind it.
+template <int D>
+typename Cutter<D>::Side Cutter<D>::side_of(Cell cell) {
+  bool is_front = false, is_back = false;
+  for (const std::uint32_t v : snapshot().view(cell).vertices) {
+    const Side side = side_of(v);
+    is_front |= side == Side::front;
+    is_back |= side == Side::back;
+  }
+  if (is_front && is_back) return Side::on;
+  return is_front ? Side::front : Side::back;
+}
+
+template <int D>
+typename Cutter<D>::Key Cutter<D>::key_of(Half_facet facet) const {
+  const auto loop = snapshot().loop(facet);
+  Key key;
+  std::copy_n(loop.begin(), key.size(), key.begin());
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// Facets between solid cells on either side, all of whose vertices the cut passes.
+template <int D>
+void Cutter<D>::find_facets() {
+  const Snapshot<D>& s = snapshot();
+  std::vector<std::uint32_t> on;
+  for (const auto& [vertex, side] : sides_)
+    if (side == Side::on) on.push_back(vertex);
+  for (const std::uint32_t vertex : on)
+    for (const Cell c : environment_.cells_around(vertex)) {
+      const Cell_view<D> view = s.view(c);
+      if (!s.is_solid(c) || view.vertex_count() != D + 1 || side_of(c) != Side::front) continue;
+      for (std::size_t f = 0; f < view.facet_count(); ++f) {
+        const Half_facet facet = Snapshot<D>::half_facet(c, f);
+        const Cell other = s.neighbour(facet);
+        const auto loop = s.loop(facet);
+        if (other != Cell::none && s.is_solid(other) && s.view(other).vertex_count() == D + 1 &&
+            std::all_of(loop.begin(), loop.end(), [&](std::uint32_t v) { return side_of(v) == Side::on; }) &&
+            side_of(other) == Side::back)
+          facets_.insert(key_of(facet));
+      }
+    }
+  report_.facets = facets_.size();
+}
+
+/// Solid cells around a vertex that hang together through facets at it which are not of the cut.
+template <int D>
+std::vector<std::vector<Cell>> Cutter<D>::solid_parts(std::uint32_t vertex) {
+  const Snapshot<D>& s = snapshot();
+  std::vector<Cell> left = environment_.cells_around(vertex);
+  std::erase_if(left, [&](Cell c) { return !s.is_solid(c); });
+  std::sort(left.begin(), left.end());
+  std::vector<std::vector<Cell>> parts;
+  while (!left.empty()) {
+    std::vector<Cell>& part = parts.emplace_back(1, left.front());
+    left.erase(left.begin());
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      const Cell_view<D> view = s.view(part[next]);
+      for (std::size_t f = 0; f < view.facet_count(); ++f) {
+        const Half_facet facet = Snapshot<D>::half_facet(part[next], f);
+        const auto other = std::ranges::find(left, s.neighbour(facet));
+        if (other == left.end() || !has_point(view, f, vertex)) continue;
+        if (view.vertex_count() == D + 1 && facets_.contains(key_of(facet))) continue;
+        part.push_back(*other);
+        left.erase(other);
+      }
+    }
+  }
+  return parts;
+}
+
+template <int D>
+bool Cutter<D>::is_held(std::uint32_t vertex) {
+  const Snapshot<D>& s = snapshot();
+  for (const Cell c : environment_.cells_around(vertex)) {
+    const Cell_view<D> view = s.view(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f)
+      if (has_point(view, f, vertex) && s.neighbour(Snapshot<D>::half_facet(c, f)) == Cell::none) return true;
+  }
+  return false;
+}
+
+/// A direction into some solid cells from a vertex, away from all their facets to others; zero if none is
+/// found.
+template <int D>
+Vector<D> Cutter<D>::direction(std::uint32_t vertex, std::span<const Cell> solid) const {
+  const Snapshot<D>& s = snapshot();
+  std::vector<Vector<D>> normals;
+  for (const Cell c : solid) {
+    const Cell_view<D> view = s.view(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      const Half_facet facet = Snapshot<D>::half_facet(c, f);
+      if (has_point(view, f, vertex) && std::ranges::find(solid, s.neighbour(facet)) == solid.end())
+        normals.push_back(inward_normal(s, facet));
+    }
+  }
+  Vector<D> sum{};
+  for (const Vector<D>& n : normals) sum = sum + n;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const Vector<D> unit = normalized(sum, Vector<D>{});
+    const auto worst =
+        std::ranges::min_element(normals, {}, [&](const Vector<D>& n) { return dot(n, unit); });
+    constexpr double steep_enough = 0.2;
+    if (worst == normals.end() || dot(*worst, unit) > steep_enough) return unit;
+    sum = sum + *worst;
+  }
+  const Vector<D> unit = normalized(sum, Vector<D>{});
+  const bool is_inside = std::ranges::all_of(normals, [&](const Vector<D>& n) { return dot(n, unit) > 0; });
+  return is_inside ? unit : Vector<D>{};
+}
+
+template <int D>
+void Cutter<D>::part(std::uint32_t vertex) {
+  const auto parts = solid_parts(vertex);
+  const bool has_back = std::ranges::any_of(parts, [&](const auto& part) {
+    return std::ranges::any_of(part, [&](Cell c) { return side_of(c) != Side::front; });
+  });
+  bool is_parted = false, is_tried = false;
+  for (const std::vector<Cell>& part : parts) {
+    if (!std::ranges::all_of(part, [&](Cell c) { return side_of(c) == Side::front; })) continue;
+    if (!has_back) continue;
+    is_tried = true;
+    const Vector<D> into = direction(vertex, part);
+    if (into == Vector<D>{}) continue;
+    const Point<D> from = snapshot().point(vertex);
+    std::string reason;
+    for (int k = 0; k < most_halvings; ++k) {
+      const auto point = patch_.peel(vertex, part, from + std::ldexp(options_.opening, -k) * into, reason);
+      if (!point) continue;
+      sides_[*point] = Side::front;
+      report_.points.push_back({*point, {vertex, vertex}, 0});
+      is_parted = true;
+      break;
+    }
+  }
+  if (is_parted)
+    ++report_.opened;
+  else
+    ++(is_tried ? report_.held : report_.rim);
+}
+
+template <int D>
+void Cutter<D>::part() {
+  std::set<std::uint32_t> vertices;
+  for (const Key& key : facets_) vertices.insert(key.begin(), key.end());
+  for (const std::uint32_t vertex : vertices) {
+    if (is_held(vertex))
+      ++report_.rim;
+    else
+      part(vertex);
+  }
+}
+
+template <int D>
+Cut_report Cutter<D>::run() {
+  label(near_cells());
+  split();
+  find_facets();
+  part();
+  return std::move(report_);
+}
+
+template class Cutter<2>;
+template class Cutter<3>;
+
+}  // namespace cellwalk::detail

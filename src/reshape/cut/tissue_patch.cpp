@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "tissue_patch.h"
+
+#include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/kernel/policies.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "reshape/replace/patch.h"
+
+namespace cellwalk::detail {
+namespace {
+
+int volume_sign(const std::array<Point<2>, 3>& x) {
+  Predicate_counts counts;
+  return Exact::orientation(counts, x[0], x[1], x[2]);
+}
+int volume_sign(const std::array<Point<3>, 4>& x) {
+  Predicate_counts counts;
+  return Exact::orientation(counts, x[0], x[1], x[2], x[3]);
+}
+
+/// Corners of the facets of a positive simplex, by the corner that each lacks, counterclockwise from outside.
+constexpr std::array<std::array<std::size_t, 2>, 3> sides_of_triangle{{{1, 2}, {2, 0}, {0, 1}}};
+constexpr std::array<std::array<std::size_t, 3>, 4> sides_of_tetrahedron{
+    {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}};
+
+/// \param walls by the corner that a facet lacks
+void add_cell(Cell_soup<2>& soup, const std::array<std::uint32_t, 3>& x, const std::array<bool, 3>& walls,
+              bool is_solid) {
+  for (std::size_t k = 0; k < 3; ++k)
+    soup.add_facet({x[sides_of_triangle[k][0]], x[sides_of_triangle[k][1]]}, walls[k]);
+  soup.end_cell(is_solid);
+}
+void add_cell(Cell_soup<3>& soup, const std::array<std::uint32_t, 4>& x, const std::array<bool, 4>& walls,
+              bool is_solid) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& side = sides_of_tetrahedron[k];
+    soup.add_facet({x[side[0]], x[side[1]], x[side[2]]}, walls[k]);
+  }
+  soup.end_cell(is_solid);
+}
+
+template <int D>
+bool has_corner(const Snapshot<D>& snapshot, Cell cell, std::uint32_t point) {
+  return std::ranges::find(snapshot.view(cell).vertices, point) != snapshot.view(cell).vertices.end();
+}
+
+/// The facet of a simplex that lacks a corner.
+template <int D>
+Half_facet facet_off(const Snapshot<D>& snapshot, Cell cell, std::uint32_t corner) {
+  const Cell_view<D> view = snapshot.view(cell);
+  std::size_t f = 0;
+  while (has_point(view, f, corner)) ++f;
+  return Snapshot<D>::half_facet(cell, f);
+}
+
+/// The number of classes of cells joined through facets that have some points.
+template <int D>
+std::size_t count_fans(const Snapshot<D>& snapshot, std::span<const Cell> cells,
+                       std::span<const std::uint32_t> points) {
+  std::vector<char> is_seen(cells.size(), 0);
+  std::size_t fans = 0;
+  std::vector<std::size_t> stack;
+  for (std::size_t first = 0; first < cells.size(); ++first) {
+    if (is_seen[first]) continue;
+    ++fans;
+    is_seen[first] = 1;
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const Cell c = cells[stack.back()];
+      stack.pop_back();
+      const Cell_view<D> view = snapshot.view(c);
+      for (std::size_t f = 0; f < view.facet_count(); ++f) {
+        if (!std::ranges::all_of(points, [&](std::uint32_t p) { return has_point(view, f, p); })) continue;
+        const auto other = std::ranges::find(cells, snapshot.neighbour(Snapshot<D>::half_facet(c, f)));
+        if (other == cells.end()) continue;
+        const auto next = static_cast<std::size_t>(other - cells.begin());
+        if (!std::exchange(is_seen[next], 1)) stack.push_back(next);
+      }
+    }
+  }
+  return fans;
+}
+
+}  // namespace
+
+template <int D>
+bool Tissue_patch<D>::is_wall_off(Cell cell, std::uint32_t corner) const {
+  return snapshot().is_impassable(facet_off(snapshot(), cell, corner));
+}
+
+/// True if a simplex is positive with a point of it elsewhere.
+template <int D>
+bool Tissue_patch<D>::is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const {
+  std::array<Point<D>, corner_count> x;
+  for (std::size_t k = 0; k < corner_count; ++k)
+    x[k] = cell[k] == moved ? position : snapshot().point(cell[k]);
+  return volume_sign(x) > 0;
+}
+
+/// True if the walls at an edge may be split at a position: solid retreats, free cells at the edge are joined,
+/// and nothing rests on the walls.
+template <int D>
+bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
+                                     const Point<D>& position) const {
+  const Snapshot<D>& s = snapshot();
+  std::vector<Cell> free;
+  std::vector<Half_facet> walls;
+  for (const Cell c : cells) {
+    const Cell_view<D> view = s.view(c);
+    if (!s.is_solid(c)) free.push_back(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      const Half_facet facet = Snapshot<D>::half_facet(c, f);
+      if (!has_point(view, f, u) || !has_point(view, f, v)) continue;
+      const Cell other = s.neighbour(facet);
+      const int where = side<Exact>(view, f, position, counts_.walk);
+      if (other == Cell::none) {
+        if (where != 0) return false;
+      } else if (!s.is_solid(c) && s.is_impassable(facet)) {
+        if (!s.is_solid(other) || where < 0) return false;
+        walls.push_back(facet);
+      }
+    }
+  }
+  const std::array<std::uint32_t, 2> edge{u, v};
+  if (count_fans(s, std::span<const Cell>(free), edge) > 1) return false;
+  if (D == 2 || !groups_.has_open()) return true;
+  for (const Resident_group<D>& group : groups_.all()) {
+    if (!group.is_open || !group.body || !group.body->has_supporting_walls()) continue;
+    for (std::uint32_t f = 0; f < group.faces.size(); ++f)
+      for (const Half_facet w : group.body->supporting_walls(f))
+        if (std::ranges::find(walls, w) != walls.end()) return false;
+  }
+  return true;
+}
+
+template <int D>
+std::vector<Cell> Tissue_patch<D>::replace(std::span<const Cell> removed, const Cell_soup<D>& soup,
+                                           const Point<D>& added) {
+  return patcher_.replace(removed, soup, glue_patch(soup), added);
+}
+
+template <int D>
+std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::uint32_t v,
+                                                         const Point<D>& position) {
+  const Snapshot<D>& s = snapshot();
+  std::vector<Cell> cells = environment_.cells_around(u), free;
+  std::erase_if(cells, [&](Cell c) { return !has_corner(s, c, v); });
+  const std::array<std::uint32_t, 2> edge{u, v};
+  if (cells.empty() || count_fans(s, std::span<const Cell>(cells), edge) > 1) return std::nullopt;
+  const std::uint32_t point = s.next_point();
+  Cell_soup<D> soup;
+  for (const Cell c : cells) {
+    if (s.view(c).vertex_count() != corner_count) return std::nullopt;
+    if (!s.is_solid(c)) free.push_back(c);
+    const Simplex old = corners_of(s, c);
+    for (const std::uint32_t end : edge) {
+      if (!is_positive(old, end, position)) return std::nullopt;
+      Simplex simplex = old;
+      std::array<bool, corner_count> walls{};
+      for (std::size_t k = 0; k < corner_count; ++k) {
+        // The facet that lacks the other end is new; all others are old ones, or parts of them.
+        if (old[k] == u || old[k] == v)
+          walls[k] = old[k] == end && is_wall_off(c, end);
+        else
+          walls[k] = is_wall_off(c, old[k]);
+      }
+      std::ranges::replace(simplex, end, point);
+      add_cell(soup, simplex, walls, s.is_solid(c));
+    }
+  }
+  counts_.opened += groups_.open(box_of<D>(s, cells));
+  if (!may_move_walls(cells, u, v, position)) return std::nullopt;
+  relinker_.note(free);
+  is_broken_ = true;
+  const std::vector<Cell> added = replace(cells, soup, position);
+  free.clear();
+  for (const Cell c : added)
+    if (!s.is_solid(c)) free.push_back(c);
+  counts_.relinked += relinker_.relink(free);
+  is_broken_ = false;
+  return point;
+}
+
+template <int D>
+std::optional<std::uint32_t> Tissue_patch<D>::peel(std::uint32_t vertex, std::span<const Cell> solid,
+                                                   const Point<D>& target, std::string& reason) {
+  const Snapshot<D>& s = snapshot();
+  const std::uint32_t point = s.next_point();
+  Cell_soup<D> soup;
+  // Facets at the vertex to what is not taken back.
+  std::vector<std::pair<Cell, std::uint32_t>> outer;
+  std::vector<std::uint32_t> others;
+  const auto refuse = [&](const char* why) {
+    reason = why;
+    return std::nullopt;
+  };
+  for (const Cell c : solid) {
+    const Simplex old = corners_of(s, c);
+    if (!is_positive(old, vertex, target)) return refuse("a cell would be flat or inverted");
+    Simplex simplex = old;
+    std::array<bool, corner_count> walls{};
+    for (std::size_t k = 0; k < corner_count; ++k) {
+      const Half_facet facet = facet_off(s, c, old[k]);
+      walls[k] = s.is_impassable(facet);
+      if (old[k] == vertex) continue;
+      others.push_back(old[k]);
+      if (std::ranges::find(solid, s.neighbour(facet)) != solid.end()) continue;
+      outer.emplace_back(c, old[k]);
+      walls[k] = true;
+    }
+    std::ranges::replace(simplex, vertex, point);
+    add_cell(soup, simplex, walls, true);
+  }
+  if (outer.empty()) return refuse("nothing but these cells has the vertex");
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  for (const std::uint32_t x : others) {
+    std::vector<Cell> at_edge;
+    for (const Cell c : solid)
+      if (has_corner(s, c, x)) at_edge.push_back(c);
+    const std::array<std::uint32_t, 2> edge{vertex, x};
+    if (count_fans(s, std::span<const Cell>(at_edge), edge) > 1)
+      return refuse("the cells meet in an edge only");
+  }
+  // A gap cell has the facet, and the new vertex instead of the corner behind it.
+  std::vector<std::size_t> gaps;
+  for (const auto& [c, behind] : outer) {
+    Simplex simplex = corners_of(s, c);
+    if (!is_positive(simplex, behind, target)) return refuse("a cell of the gap would be flat or inverted");
+    std::array<bool, corner_count> walls{};
+    for (std::size_t k = 0; k < corner_count; ++k) walls[k] = simplex[k] == vertex || simplex[k] == behind;
+    std::ranges::replace(simplex, behind, point);
+    gaps.push_back(soup.cell_count());
+    add_cell(soup, simplex, walls, false);
+  }
+  const std::vector<Cell> added = replace(solid, soup, target);
+  for (const std::size_t gap : gaps) {
+    const Half_facet facet = facet_off(s, added[gap], point);
+    const Cell other = s.neighbour(facet);
+    if (other != Cell::none && !s.is_solid(other)) toggle_.open(facet);
+  }
+  return point;
+}
+
+template class Tissue_patch<2>;
+template class Tissue_patch<3>;
+
+}  // namespace cellwalk::detail

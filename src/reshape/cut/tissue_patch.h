@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The two changes of cells that a cut is made of: an edge of solid cells that is split, and a vertex from
+// which solid cells are taken back. Theory: docs/cutting.md.
+#ifndef CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
+#define CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
+
+#include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/reshape/move.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reshape/replace/relinker.h"
+#include "reshape/residents/resident_groups.h"
+#include "reshape/toggle/toggle.h"
+
+namespace cellwalk::detail {
+
+/// \pre of all members: no certificates of the environment are withdrawn
+template <int D>
+class Tissue_patch {
+ public:
+  Tissue_patch(Environment<D>& environment, Resident_groups<D>& groups, Toggle<D>& toggle,
+               Reshape_counts& counts)
+      : environment_(environment),
+        groups_(groups),
+        toggle_(toggle),
+        counts_(counts),
+        patcher_(environment),
+        relinker_(groups, environment.snapshot(), counts.walk) {}
+
+  /// Splits an edge of solid cells at a point on or near it. Walls at the edge retreat: the point lies on no
+  /// wall's free side, and on the planes of all boundary facets at the edge. Returns the new point; none if
+  /// that is refused: a cell would be flat or inverted, a body's face rests on a wall there, walls at the
+  /// edge part free cells from each other, or free cells meet it on several sides.
+  std::optional<std::uint32_t> split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
+
+  /// Takes solid cells back from a vertex: they get another vertex instead, and free cells fill the gap that
+  /// they leave. Its facets to free cells become passable. Returns the new vertex, or why it cannot be made.
+  /// \param solid joined through facets at the vertex, those between them all passable or all not
+  std::optional<std::uint32_t> peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target,
+                                    std::string& reason);
+
+  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+  /// True once something had no place in the new cells: then bodies must not go on.
+  bool is_broken() const { return is_broken_; }
+
+ private:
+  static constexpr std::size_t corner_count = static_cast<std::size_t>(D) + 1;
+  using Simplex = std::array<std::uint32_t, corner_count>;
+  /// A facet of a simplex that lacks one of its corners.
+  bool is_wall_off(Cell cell, std::uint32_t corner) const;
+  bool may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
+                      const Point<D>& position) const;
+  bool is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const;
+  std::vector<Cell> replace(std::span<const Cell> removed, const Cell_soup<D>& soup, const Point<D>& added);
+
+  Environment<D>& environment_;
+  Resident_groups<D>& groups_;
+  Toggle<D>& toggle_;
+  Reshape_counts& counts_;
+  Cell_patcher<D> patcher_;
+  Relinker<D> relinker_;
+  bool is_broken_ = false;
+};
+
+extern template class Tissue_patch<2>;
+extern template class Tissue_patch<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
