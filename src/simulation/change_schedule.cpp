@@ -14,7 +14,7 @@
 namespace cellwalk {
 namespace {
 
-constexpr std::array change_names{"open", "close", "excavate", "fill"};
+constexpr std::array change_names{"open", "close", "excavate", "fill", "cut"};
 
 bool is_of_facets(Change_kind kind) { return kind == Change_kind::open || kind == Change_kind::close; }
 
@@ -56,6 +56,40 @@ bool needs_change(const Snapshot<D>& snapshot, Change_kind kind, Cell cell) {
   return snapshot.is_solid(cell) == (kind == Change_kind::excavate);
 }
 
+/// The points of a facet or a cell, ascending.
+template <int D>
+std::vector<std::uint32_t> points_of(const Snapshot<D>& snapshot, Half_facet facet) {
+  std::vector<std::uint32_t> points = snapshot.loop(facet);
+  std::sort(points.begin(), points.end());
+  return points;
+}
+template <int D>
+std::vector<std::uint32_t> points_of(const Snapshot<D>& snapshot, Cell cell) {
+  const auto vertices = snapshot.view(cell).vertices;
+  std::vector<std::uint32_t> points(vertices.begin(), vertices.end());
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+/// True if a name is still that of the facet or cell with these points.
+template <int D>
+bool is_same(const Snapshot<D>& snapshot, Half_facet facet, const std::vector<std::uint32_t>& points) {
+  const Cell cell = snapshot.cell_of(facet);
+  return snapshot.is_cell(cell) && snapshot.facet_of(facet) < snapshot.facet_count(cell) &&
+         points_of(snapshot, facet) == points;
+}
+template <int D>
+bool is_same(const Snapshot<D>& snapshot, Cell cell, const std::vector<std::uint32_t>& points) {
+  return snapshot.is_cell(cell) && points_of(snapshot, cell) == points;
+}
+
+template <int D>
+Blade<D> blade_of(const Blade_stroke<D>& stroke) {
+  if constexpr (D == 3)
+    if (stroke.sweep) return swept_blade(stroke.points, *stroke.sweep);
+  return blade_along<D>(stroke.points);
+}
+
 template <class Name>
 void sort_once(std::vector<Name>& names) {
   std::sort(names.begin(), names.end());
@@ -92,11 +126,19 @@ Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environme
   for (const auto& [name, part] : changes.groups) groups[name] = select(snapshot, part);
   for (std::size_t i = 0; i < changes.list.size(); ++i) {
     const Environment_change<D>& change = changes.list[i];
-    Planned& planned = planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}});
+    Planned& planned = planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}, {}, {}});
+    if (change.kind == Change_kind::cut) {
+      planned.blade = change.blade;
+      continue;
+    }
     const auto group = groups.find(change.part.group);
-    planned.left = group == groups.end() ? select(snapshot, change.part) : group->second;
+    const Selection<D> part = group == groups.end() ? select(snapshot, change.part) : group->second;
     const bool of_facets = is_of_facets(change.kind);
-    if (of_facets ? planned.left.facets.empty() : planned.left.cells.empty())
+    if (of_facets)
+      for (const Half_facet f : part.facets) planned.facets.push_back({f, points_of(snapshot, f)});
+    else
+      for (const Cell c : part.cells) planned.cells.push_back({c, points_of(snapshot, c)});
+    if (planned.is_done())
       throw Error(Error_code::input, fmt::format("changes[{}].{}: no {} of the environment lies there", i,
                                                  change_names[static_cast<std::size_t>(change.kind)],
                                                  of_facets ? "facet between two cells" : "cell"));
@@ -106,8 +148,7 @@ Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environme
 template <int D>
 bool Change_schedule<D>::is_due(std::uint32_t step) const {
   return std::any_of(planned_.begin(), planned_.end(), [&](const Planned& planned) {
-    return planned.step <= step && step <= planned.until &&
-           !(is_of_facets(planned.kind) ? planned.left.facets.empty() : planned.left.cells.empty());
+    return planned.step <= step && step <= planned.until && !planned.is_done();
   });
 }
 
@@ -120,33 +161,48 @@ std::vector<Change_outcome> Change_schedule<D>::apply(const Snapshot<D>& snapsho
   return outcomes;
 }
 
+template <int D>
+void Change_schedule<D>::make_cut(Reshaping<D>& reshaping, Planned& planned,
+                                  std::vector<Change_outcome>& outcomes) const {
+  Change_outcome& outcome = outcomes.emplace_back();
+  outcome.change = planned.number;
+  outcome.kind = planned.kind;
+  outcome.cut = reshaping.cut(blade_of<D>(*planned.blade), {.opening = planned.blade->opening});
+  outcome.result.is_made = outcome.cut->opened != 0;
+  if (!outcome.result.is_made) outcome.result.reason = "the blade parts no solid cells";
+  planned.blade.reset();
+}
+
 /// Keeps what is refused.
 template <int D>
 void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
                                     std::vector<Change_outcome>& outcomes) const {
-  const auto change_all = [&](auto& names, const auto& change) {
-    auto kept = names.begin();
-    for (const auto name : names) {
-      if (!needs_change(snapshot, planned.kind, name)) continue;
+  if (planned.blade) return make_cut(reshaping, planned, outcomes);
+  const auto change_all = [&](auto& all, const auto& change) {
+    auto kept = all.begin();
+    for (auto& [name, points] : all) {
+      const bool is_there = is_same(snapshot, name, points);
+      if (is_there && !needs_change(snapshot, planned.kind, name)) continue;
       Change_outcome& outcome = outcomes.emplace_back();
       outcome.change = planned.number;
       outcome.kind = planned.kind;
-      outcome.result = change(name, outcome);
-      if (!outcome.result.is_made) *kept++ = name;
+      if (is_there)
+        outcome.result = change(name, outcome);
+      else
+        outcome.result.reason = "a cut replaced it";
+      if (is_there && !outcome.result.is_made) *kept++ = {name, std::move(points)};
     }
-    names.erase(kept, names.end());
+    all.erase(kept, all.end());
   };
-  if (is_of_facets(planned.kind))
-    change_all(planned.left.facets, [&](Half_facet facet, Change_outcome& outcome) {
-      outcome.facet = facet;
-      outcome.cell = snapshot.cell_of(facet);
-      return planned.kind == Change_kind::open ? reshaping.open(facet) : reshaping.close(facet);
-    });
-  else
-    change_all(planned.left.cells, [&](Cell cell, Change_outcome& outcome) {
-      outcome.cell = cell;
-      return planned.kind == Change_kind::excavate ? reshaping.excavate(cell) : reshaping.fill(cell);
-    });
+  change_all(planned.facets, [&](Half_facet facet, Change_outcome& outcome) {
+    outcome.facet = facet;
+    outcome.cell = snapshot.cell_of(facet);
+    return planned.kind == Change_kind::open ? reshaping.open(facet) : reshaping.close(facet);
+  });
+  change_all(planned.cells, [&](Cell cell, Change_outcome& outcome) {
+    outcome.cell = cell;
+    return planned.kind == Change_kind::excavate ? reshaping.excavate(cell) : reshaping.fill(cell);
+  });
 }
 
 template <int D>
@@ -157,13 +213,11 @@ Selection<D> Change_schedule<D>::changing(const Snapshot<D>& snapshot) const {
     if (other != Half_facet::none) result.facets.push_back(std::min(f, other));
   };
   for (const Planned& planned : planned_) {
-    if (is_of_facets(planned.kind)) {
-      std::for_each(planned.left.facets.begin(), planned.left.facets.end(), add);
-      continue;
+    for (const auto& facet : planned.facets) add(facet.name);
+    for (const auto& [cell, points] : planned.cells) {
+      result.cells.push_back(cell);
+      for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) add(snapshot.half_facet(cell, f));
     }
-    result.cells.insert(result.cells.end(), planned.left.cells.begin(), planned.left.cells.end());
-    for (const Cell c : planned.left.cells)
-      for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) add(snapshot.half_facet(c, f));
   }
   sort_once(result.facets);
   sort_once(result.cells);

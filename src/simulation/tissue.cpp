@@ -65,6 +65,8 @@ Tissue<D>::Tissue(const Snapshot<D>& snapshot, const Tissue_material& material,
 template <int D>
 void Tissue<D>::find_constraints() {
   const Snapshot<D>& snapshot = *snapshot_;
+  edges_.clear();
+  simplices_.clear();
   may_move_.assign(rest_.size(), 0);
   std::vector<char> is_held(rest_.size(), 0);
   std::vector<std::array<std::uint32_t, 2>> pairs;
@@ -133,7 +135,9 @@ void Tissue<D>::find_followers() {
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  first_.push_back(0);
+  followers_.clear();
+  neighbours_.clear();
+  first_.assign(1, 0);
   for (auto pair = pairs.begin(); pair != pairs.end();) {
     const std::uint32_t u = (*pair)[0];
     const bool follows = !is_at_solid[u] && !is_held[u] &&
@@ -219,6 +223,23 @@ template <int D>
 void Tissue<D>::follow() {
   for (std::uint32_t v = 0; v < velocities_.size(); ++v)
     velocities_[v] = may_move_[v] ? snapshot_->point(v) - before_[v] : Vector<D>{};
+}
+
+template <int D>
+void Tissue<D>::follow_changes(std::span<const Cut_point> points) {
+  const std::size_t count = snapshot_->points().size();
+  rest_.resize(count);
+  before_.resize(count);
+  wanted_.resize(count);
+  velocities_.resize(count);
+  for (const auto& [point, between, share] : points) {
+    const auto [u, v] = between;
+    rest_[point] = rest_[u] + share * (rest_[v] - rest_[u]);
+    velocities_[point] = velocities_[u] + share * (velocities_[v] - velocities_[u]);
+    before_[point] = snapshot_->point(point) - velocities_[point];
+  }
+  find_constraints();
+  find_followers();
 }
 
 template <int D>

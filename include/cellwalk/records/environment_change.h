@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Changes of an environment, by parts of space or by name: facets are opened and closed, cells excavated and
-// filled. See docs/cutting.md.
+// Changes of an environment, by parts of space or by name: facets are opened and closed, cells excavated,
+// filled and cut. See docs/cutting.md.
 #ifndef CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
 #define CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
 
@@ -51,13 +51,24 @@ enum class Change_kind : std::uint8_t {
   open,      ///< walls between free cells become passable
   close,     ///< facets between free cells become walls
   excavate,  ///< solid cells become free
-  fill       ///< free cells become solid
+  fill,      ///< free cells become solid
+  cut        ///< solid cells are cut along a blade
+};
+
+/// A blade that cuts solid cells, and how far they are opened.
+template <int D>
+struct Blade_stroke {
+  /// 3D: the corners of a convex polygon in order, or a line that is swept; 2D: a line.
+  std::vector<Point<D>> points;
+  std::optional<Vector<D>> sweep;  ///< 3D only: the displacement of the line
+  double opening = 0.01;
 };
 
 template <int D>
 struct Environment_change {
   Change_kind kind = Change_kind::open;
-  Environment_part<D> part;
+  Environment_part<D> part;  ///< of cuts: none
+  Blade_stroke<D> blade{};   ///< of cuts only
   /// Before which step of a run it is made, from 1; what is refused is tried again before each step up to
   /// `until`.
   std::uint32_t step = 1, until = 1;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,17 +29,18 @@ struct Selection {
 template <int D>
 Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part);
 
-/// What came of a change of one facet or cell.
+/// What came of a change of one facet or cell, or of a cut.
 struct Change_outcome {
   std::size_t change = 0;  ///< in the list of changes
   Change_kind kind = Change_kind::open;
   Half_facet facet = Half_facet::none;  ///< that is opened or closed
   Cell cell = Cell::none;               ///< that is excavated or filled; of a facet, one of its two
   Change_result result;
+  std::optional<Cut_report> cut;  ///< of cuts only, which name neither facet nor cell
 };
 
 /// Changes with the facets and cells that they have, found when it is made: later motion of walls affects
-/// none. The names of these cells must stay.
+/// none. Those that a cut replaces are refused from then on.
 template <int D>
 class Change_schedule {
  public:
@@ -60,12 +62,24 @@ class Change_schedule {
   Selection<D> changing(const Snapshot<D>& snapshot) const;
 
  private:
+  /// A facet or a cell with its points, since a cut may give its name to another.
+  template <class Name>
+  struct Pointed {
+    Name name;
+    std::vector<std::uint32_t> points;
+  };
   struct Planned {
     std::size_t number;
     Change_kind kind;
     std::uint32_t step, until;
-    Selection<D> left;  ///< what is still to be changed
+    // What is still to be changed.
+    std::vector<Pointed<Half_facet>> facets;
+    std::vector<Pointed<Cell>> cells;
+    std::optional<Blade_stroke<D>> blade;
+
+    bool is_done() const { return facets.empty() && cells.empty() && !blade; }
   };
+  void make_cut(Reshaping<D>& reshaping, Planned& planned, std::vector<Change_outcome>& outcomes) const;
   void apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
                   std::vector<Change_outcome>& outcomes) const;
 

@@ -36,6 +36,11 @@ class Tissue {
   std::vector<Vertex_move<D>> targets(const World<D>& world);
   /// Takes note of where the points got.
   void follow();
+  /// Goes on with the cells as they are now, after some were cut, excavated or filled: what is solid only now
+  /// is at rest where it was when the tissue was made.
+  /// \param points that cuts made, in order
+  /// Cost: that of making it.
+  void follow_changes(std::span<const Cut_point> points);
 
   /// The greatest ratio of an edge to what it would be without tension.
   double largest_stretch() const;

@@ -18,10 +18,11 @@ struct Change_words {
 };
 
 /// By Change_kind.
-constexpr std::array<Change_words, 4> words{{{"open", "opened", "facet"},
+constexpr std::array<Change_words, 5> words{{{"open", "opened", "facet"},
                                              {"close", "closed", "facet"},
                                              {"excavate", "excavated", "cell"},
-                                             {"fill", "filled", "cell"}}};
+                                             {"fill", "filled", "cell"},
+                                             {"cut", "made", "cut"}}};
 
 const std::vector<std::string> columns{"step", "change", "kind", "status",   "cell",    "facet",  "x",
                                        "y",    "z",      "body", "particle", "feature", "number", "reason"};
@@ -68,6 +69,15 @@ void Changes_table<D>::add(std::uint32_t step, const std::vector<Change_outcome>
       ++refusals_;
       left_.insert(what);
     }
+    if (outcome.cut) {
+      cuts_.edges += outcome.cut->edges;
+      cuts_.split += outcome.cut->split;
+      cuts_.snapped += outcome.cut->snapped;
+      cuts_.facets += outcome.cut->facets;
+      cuts_.opened += outcome.cut->opened;
+      cuts_.rim += outcome.cut->rim;
+      cuts_.held += outcome.cut->held;
+    }
     if (table_) write(step, outcome);
   }
 }
@@ -76,15 +86,19 @@ template <int D>
 void Changes_table<D>::write(std::uint32_t step, const Change_outcome& outcome) {
   // In the plane the third coordinate is left empty, as the writer does with what is not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  const Point<D> x = place_of(snapshot_, outcome);
+  // A cut has no place, nor has what one replaced.
+  const bool has_place = outcome.cell != Cell::none;
+  Point<D> x;
+  x.fill(nothing);
+  if (has_place) x = place_of(snapshot_, outcome);
+  const std::string cell = has_place ? std::to_string(snapshot_.index(outcome.cell)) : "";
   const std::string facet =
       outcome.facet == Half_facet::none ? "" : std::to_string(snapshot_.facet_of(outcome.facet));
   const auto row = [&](const char* status, const std::string& body, const std::string& particle,
                        const char* feature, const std::string& number) {
     table_->row(step == 0 ? "" : std::to_string(step), outcome.change,
-                words[static_cast<std::size_t>(outcome.kind)].verb, status, snapshot_.index(outcome.cell),
-                facet, x[0], x[1], D == 3 ? x[D - 1] : nothing, body, particle, feature, number,
-                outcome.result.reason);
+                words[static_cast<std::size_t>(outcome.kind)].verb, status, cell, facet, x[0], x[1],
+                D == 3 ? x[D - 1] : nothing, body, particle, feature, number, outcome.result.reason);
   };
   if (outcome.result.is_made) return row("made", "", "", "", "");
   if (outcome.result.held_by.empty()) return row("refused", "", "", "", "");
@@ -107,6 +121,10 @@ template <int D>
 nlohmann::ordered_json Changes_table<D>::to_json() const {
   nlohmann::ordered_json json;
   for (std::size_t k = 0; k < words.size(); ++k) json[words[k].done] = made_[k];
+  if (cuts_.edges != 0)
+    json["cuts"] = {{"edges", cuts_.edges},   {"split", cuts_.split},   {"snapped", cuts_.snapped},
+                    {"facets", cuts_.facets}, {"parted", cuts_.opened}, {"rim", cuts_.rim},
+                    {"held", cuts_.held}};
   json["refusals"] = refusals_;
   json["left"] = left_.size();
   return json;
@@ -119,6 +137,10 @@ std::string Changes_table<D>::describe() const {
     if (made_[k] != 0)
       text += fmt::format("{}{} {}{} {}", text.empty() ? "" : ", ", made_[k], words[k].thing,
                           made_[k] == 1 ? "" : "s", words[k].done);
+  if (cuts_.edges != 0)
+    text += fmt::format(
+        " ({} edges passed: {} split, {} at an end; {} facets, {} vertices parted, {} at rims, {} held)",
+        cuts_.edges, cuts_.split, cuts_.snapped, cuts_.facets, cuts_.opened, cuts_.rim, cuts_.held);
   if (text.empty()) text = "none made";
   if (refusals_ != 0) text += fmt::format("; {} refused, {} of them to the end", refusals_, left_.size());
   return text;

@@ -18,9 +18,11 @@ Run_changes<D>::Run_changes(const std::filesystem::path& folder, Environment<D>&
       table_(environment.snapshot(), folder / "changes.csv") {}
 
 template <int D>
-void Run_changes<D>::step(World<D>& world) {
+std::vector<Change_outcome> Run_changes<D>::step(World<D>& world) {
   const std::uint32_t step = world.steps_done() + 1;
-  table_.add(step, world.change(environment_, schedule_, counts_));
+  std::vector<Change_outcome> outcomes = world.change(environment_, schedule_, counts_);
+  table_.add(step, outcomes);
+  return outcomes;
 }
 
 template <int D>

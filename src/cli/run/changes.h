@@ -25,8 +25,8 @@ class Run_changes {
   Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
               const Environment_changes<D>& changes, const std::string& scene);
 
-  /// Makes what is due before the step that is next.
-  void step(World<D>& world);
+  /// Makes what is due before the step that is next. Returns what came of it.
+  std::vector<Change_outcome> step(World<D>& world);
   /// Completes the table.
   void finish() { table_.commit(); }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -68,14 +69,15 @@ struct Prepared_environment {
 };
 
 /// \param walls how they move; null: they stand still
-/// \param changes whether facets or cells change
 template <int D>
-Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls, bool changes,
-                             const std::string& scene) {
+Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls,
+                             const Environment_changes<D>& changes, const std::string& scene) {
+  const bool has_cut = std::any_of(changes.list.begin(), changes.list.end(),
+                                   [](const auto& change) { return change.kind == Change_kind::cut; });
   if (const auto* file = std::get_if<std::string>(&source)) {
     Build_options options;
-    options.keep_map = changes;
-    options.simplicial = walls != nullptr;
+    options.keep_map = !changes.list.empty();
+    options.simplicial = walls != nullptr || has_cut;
     Loaded_environment loaded = load_with_progress(*file, options);
     if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
     return {std::move(loaded.environment), loaded.built.certificate};
@@ -86,8 +88,8 @@ Prepared_environment prepare(const Environment_source& source, const Scene_walls
   const auto build = [&](auto soup) -> Any_environment {
     constexpr int dimension = std::tuple_size_v<typename decltype(soup.points)::value_type>;
     Build_options options = build_of_generated;
-    options.simplicial = walls != nullptr;
-    options.keep_map = changes;
+    options.simplicial = walls != nullptr || has_cut;
+    options.keep_map = !changes.list.empty();
     return Environment<dimension>::build(std::move(soup), options, &report);
   };
   try {
@@ -155,8 +157,11 @@ void Run<D>::operator()() const {
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
+      if (changes) {
+        const std::vector<Change_outcome> made = changes->step(world);
+        if (walls) walls->follow(made);
+      }
       if (walls) walls->step(world);
-      if (changes) changes->step(world);
       world.step();
       if (record) record->record_step();
       files.record(world, i == steps());
@@ -297,8 +302,8 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, options.scene);
   if (scene.walls && !scene.walls->motion.empty()) outputs.all.also_reads(scene.walls->motion);
-  Prepared_environment prepared = prepare(scene.environment, scene.walls ? &*scene.walls : nullptr,
-                                          !scene.changes.list.empty(), options.scene);
+  Prepared_environment prepared =
+      prepare(scene.environment, scene.walls ? &*scene.walls : nullptr, scene.changes, options.scene);
   auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
     throw Error(Error_code::input,

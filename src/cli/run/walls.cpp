@@ -29,14 +29,17 @@ Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& env
     forces_.emplace(folder / "forces.csv",
                     std::vector<std::string>{"step", "vertices", "largest_yield", "force"});
   }
-  if (walls.tissue)
-    naming(name, [&] { tissue_.emplace(environment.snapshot(), *walls.tissue, walls.fixed); });
+  name_ = name;
+  material_ = walls.tissue;
+  fixed_ = walls.fixed;
   if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
 }
 
 /// Where points are to be after a step, as far as they are not there for sure.
 template <int D>
 std::vector<Vertex_move<D>> Run_walls<D>::targets(const World<D>& world, std::uint32_t step) {
+  if (material_ && !tissue_)
+    naming(name_, [&] { tissue_.emplace(environment_.snapshot(), *material_, fixed_); });
   if (tissue_) return tissue_->targets(world);
   if (pulsation_) {
     auto result = pulsation_->targets(step * time_step_);
@@ -50,6 +53,15 @@ std::vector<Vertex_move<D>> Run_walls<D>::targets(const World<D>& world, std::ui
   std::vector<Vertex_move<D>> result;
   for (const auto& [point, target] : pending_) result.push_back({point, target});
   return result;
+}
+
+template <int D>
+void Run_walls<D>::follow(std::span<const Change_outcome> changes) {
+  if (!tissue_ || changes.empty()) return;
+  std::vector<Cut_point> points;
+  for (const Change_outcome& change : changes)
+    if (change.cut) points.insert(points.end(), change.cut->points.begin(), change.cut->points.end());
+  tissue_->follow_changes(points);
 }
 
 template <int D>

@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ class Run_walls {
   /// again in the step after.
   void step(World<D>& world);
 
+  /// To be called after changes of facets and cells.
+  void follow(std::span<const Change_outcome> changes);
+
   /// Completes the tables.
   void finish();
 
@@ -58,8 +62,11 @@ class Run_walls {
   io::Csv_writer table_;
   std::optional<Wall_pulsation<D>> pulsation_;
   std::optional<Elastic_foundation<D>> foundation_;
-  std::optional<Tissue<D>> tissue_;
-  double largest_stretch_ = 0;  ///< of the tissue, in any step
+  std::optional<Tissue_material> material_;
+  std::vector<Scene_shape<D>> fixed_;
+  std::string name_;                 ///< of the scene
+  std::optional<Tissue<D>> tissue_;  ///< from the first step on
+  double largest_stretch_ = 0;       ///< of the tissue, in any step
   std::optional<io::Csv_writer> forces_;
   double largest_yield_ = 0, largest_force_ = 0;  ///< of any step
   std::vector<Timed_move<D>> motion_;

@@ -207,6 +207,12 @@ Scene<D> scene(const Json_node& node) {
   if (const auto c = node.find("catheter")) result.catheter = catheter<D>(*c);
   if (const auto w = node.find("walls")) result.walls = walls<D>(*w);
   result.changes = detail::changes<D>(node, most_steps);
+  if (result.walls && (result.walls->pulsation || result.walls->soft))
+    for (std::size_t i = 0; i < result.changes.list.size(); ++i)
+      if (result.changes.list[i].kind == Change_kind::cut)
+        node.at("changes").elements()[i].at("cut").fail(
+            "a cut makes vertices that know nothing of \"pulsation\" or \"soft\": leave these out, or give "
+            "\"tissue\"");
   if (result.particles.empty() && result.bodies.empty() && !result.catheter)
     node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();

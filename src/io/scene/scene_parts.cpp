@@ -2,15 +2,17 @@
 #include "scene_parts.h"
 
 #include <array>
+#include <string>
 #include <utility>
 
 namespace cellwalk::io::detail {
 namespace {
 
-constexpr std::array<std::pair<const char*, Change_kind>, 4> kinds{{{"open", Change_kind::open},
+constexpr std::array<std::pair<const char*, Change_kind>, 5> kinds{{{"open", Change_kind::open},
                                                                     {"close", Change_kind::close},
                                                                     {"excavate", Change_kind::excavate},
-                                                                    {"fill", Change_kind::fill}}};
+                                                                    {"fill", Change_kind::fill},
+                                                                    {"cut", Change_kind::cut}}};
 
 template <int D>
 Scene_shape<D> box_or_ball(const Json_node& node) {
@@ -47,12 +49,31 @@ Environment_part<D> conditions(const Json_node& node) {
 }
 
 template <int D>
+Blade_stroke<D> blade(const Json_node& node) {
+  node.expect_keys(D == 3 ? std::initializer_list<std::string_view>{"blade", "sweep", "opening"}
+                          : std::initializer_list<std::string_view>{"blade", "opening"});
+  Blade_stroke<D> result;
+  const Json_node points = node.at("blade");
+  for (const Json_node& x : points.elements()) result.points.push_back(x.tuple<D>());
+  if (const auto sweep = node.find("sweep")) {
+    result.sweep = sweep->tuple<D>();
+    if (!(dot(*result.sweep, *result.sweep) > 0)) sweep->fail("a displacement cannot be zero");
+  }
+  const std::size_t least = D == 3 && !result.sweep ? 3 : 2;
+  if (result.points.size() < least)
+    points.fail("expected at least " + std::to_string(least) + " points" +
+                (least == 3 ? " of a polygon; for a line, give \"sweep\" as well" : ""));
+  if (const auto opening = node.find("opening")) result.opening = opening->positive();
+  return result;
+}
+
+template <int D>
 Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
                              const Environment_changes<D>& known) {
   if (most_steps == 0)
-    node.expect_keys({"open", "close", "excavate", "fill"});
+    node.expect_keys({"open", "close", "excavate", "fill", "cut"});
   else
-    node.expect_keys({"step", "until", "open", "close", "excavate", "fill"});
+    node.expect_keys({"step", "until", "open", "close", "excavate", "fill", "cut"});
   Environment_change<D> result;
   std::size_t found = 0;
   for (const auto& [key, kind] : kinds) {
@@ -60,6 +81,10 @@ Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
     if (!part) continue;
     ++found;
     result.kind = kind;
+    if (kind == Change_kind::cut) {
+      result.blade = blade<D>(*part);
+      continue;
+    }
     if (!part->is_string()) {
       result.part = conditions<D>(*part);
       continue;
@@ -68,7 +93,7 @@ Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
     if (!known.groups.contains(result.part.group))
       part->fail("there is no such group: name it in \"groups\"");
   }
-  if (found != 1) node.fail("expected one of \"open\", \"close\", \"excavate\" and \"fill\"");
+  if (found != 1) node.fail("expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\"");
   if (most_steps == 0) return result;
   result.step = result.until = static_cast<std::uint32_t>(node.at("step").integer_in(1, most_steps));
   if (const auto until = node.find("until"))

@@ -71,9 +71,9 @@ struct Refused_changes {
 TEST(EnvironmentChanges, AreRefusedWithTheKeyThatIsWrong) {
   for (const Refused_changes& r : std::initializer_list<Refused_changes>{
            {R"("changes": [{"step": 1}])",
-            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\" and \"fill\""},
+            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\""},
            {R"("changes": [{"step": 1, "open": {"ball": [[0, 0, 0], 1]}, "fill": {"ball": [[0, 0, 0], 1]}}])",
-            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\" and \"fill\""},
+            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\""},
            {R"("changes": [{"open": {"ball": [[0, 0, 0], 1]}}])",
             "s.json: changes[0]: key \"step\" is missing"},
            {R"("changes": [{"step": 0, "open": {"ball": [[0, 0, 0], 1]}}])",
@@ -105,7 +105,7 @@ TEST(EnvironmentChanges, ByThemselvesAreRefusedAlike) {
            {"{}", "c.json: key \"changes\" is missing"},
            {R"({"changes": []})", "c.json: changes: nothing is to be changed"},
            {R"({"changes": [{"step": 1, "open": {"ball": [[0, 0], 1]}}]})",
-            "c.json: changes[0].step: unknown key; known here: close, excavate, fill, open"},
+            "c.json: changes[0].step: unknown key; known here: close, cut, excavate, fill, open"},
            {R"({"changes": [{"open": {"ball": [[0, 0, 0], 1]}}]})",
             "c.json: changes[0].open.ball[0]: expected 2 numbers"}})
     expect_refusal(r.text, r.message, [](const std::string& t) { parse_changes<2>("c.json", t); });

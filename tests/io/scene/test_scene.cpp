@@ -108,7 +108,8 @@ const Refusal scene_refusals[] = {
      "s.json: environment.a: expected a number or a list of numbers"},
     {R"({"environment": {"generate": "x", "a": [1, null]}})", "s.json: environment.a[1]: expected a number"},
     {R"({"environment": "e", "particle": []})",
-     "s.json: particle: unknown key; known here: bodies, catheter, changes, dimension, environment, friction, "
+     "s.json: particle: unknown key; known here: bodies, catheter, changes, dimension, environment, "
+     "friction, "
      "gravity, groups, output, particles, "
      "restitution, steps, time_step, title, walls"},
     {R"({"environment": "e", "title": 3})", "s.json: title: expected a text"},
