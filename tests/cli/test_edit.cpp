@@ -82,7 +82,8 @@ TEST_F(Edit, ClosesADoorRoundARod) {
 TEST_F(Edit, OpensWhatItClosed) {
   succeed({"generate", "squares", "--cells", "4", "3", "-o", "env.ovm"});
   edit(
-      R"({"groups": {"door": {"plane": [[2, 0], [1, 0]]}}, "changes": [{"close": "door"}, {"open": "door"}]})");
+      R"({"groups": {"door": {"plane": [[2, 0], [1, 0]]}}, 
+    "changes": [{"close": "door"}, {"open": "door"}]})");
   EXPECT_EQ(report_["changes"]["closed"], 3);
   EXPECT_EQ(report_["changes"]["opened"], 3);
   EXPECT_EQ(text("out.ovm"), text("env.ovm"));

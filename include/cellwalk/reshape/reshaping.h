@@ -175,14 +175,13 @@ class Reshaping {
   /// Cost: some 20 us.
   Replacement peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target);
 
-  /// Cuts solid simplices along a blade. Edges that it passes are split near it, and the vertices of the facets
-  /// that then lie along it are parted: the cells in front of the blade are taken back, and free ones fill the
-  /// gap. At its rim inside solid cells the cut ends at facets, up to a cell before or beyond the blade, and on
-  /// the boundary of the environment it stays closed. Where nothing solid hangs together any more, free space
-  /// is joined. Nothing that moves there can forbid it; where something could not be split or parted, the cut
-  /// is incomplete, and the report says how much of it.
-  /// \throw Error(input) for a blade that is none, or an opening that is no positive length; Error(usage) in a
-  ///        frozen environment, for a particle near that is not in its cell, and after close()
+  /// Cuts solid simplices along a blade. Edges that it passes are split near it, and the vertices of the
+  /// facets that then lie along it are parted: the cells in front of the blade are taken back, and free ones
+  /// fill the gap. At its rim inside solid cells the cut ends at facets, up to a cell before or beyond the
+  /// blade, and on the boundary of the environment it stays closed. Nothing that moves there can forbid it;
+  /// where something could not be split or parted, the cut is incomplete, and the report says how much of it.
+  /// \throw Error(input) for a blade that is none, or an opening that is no positive length; Error(usage) in
+  ///        a frozen environment, for a particle near that is not in its cell, and after close()
   /// Cost: some 10 ns a cell of the environment, and some 100 us a cell that the blade passes.
   Cut_report cut(const Blade<D>& blade, const Cut_options<D>& options = {});
 

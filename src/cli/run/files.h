@@ -22,8 +22,8 @@ using Body_contacts = std::array<std::array<std::uint64_t, 3>, 3>;
 template <int D>
 class Run_files {
  public:
-  /// Writes walls.vtu, unless walls change, and the frame of the start into `folder`, if there are to be frames
-  /// at all.
+  /// Writes walls.vtu, unless walls change, and the frame of the start into `folder`, if there are to be
+  /// frames at all.
   Run_files(std::filesystem::path folder, const Environment<D>& environment, const World<D>& world,
             const Scene<D>& scene);
 

@@ -103,8 +103,8 @@ bool Tissue_patch<D>::is_positive(const Simplex& cell, std::uint32_t moved, cons
   return volume_sign(x) > 0;
 }
 
-/// True if the walls at an edge may be split at a position: solid retreats, free cells at the edge are joined,
-/// and nothing rests on the walls.
+/// True if the walls at an edge may be split at a position: solid retreats, free cells at the edge are
+/// joined, and nothing rests on the walls.
 template <int D>
 bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
                                      const Point<D>& position) const {

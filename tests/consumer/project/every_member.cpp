@@ -4,10 +4,13 @@
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
+#include <cellwalk/io/changes_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/vtu.h>
 #include <cellwalk/records/make_body.h>
+#include <cellwalk/simulation/change_schedule.h>
 #include <cellwalk/simulation/elastic_foundation.h>
+#include <cellwalk/simulation/tissue.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 #include <cellwalk/simulation/world.h>
 
@@ -94,8 +97,8 @@ void keep_reshaping() {
       static_cast<Change_result (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
       &Reshaping<D>::excavate, &Reshaping<D>::fill, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
       &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
-      &Reshaping<D>::relax);
-  keep(&Relax_report::operations);
+      &Reshaping<D>::relax, &Reshaping<D>::peel, &Reshaping<D>::cut);
+  keep(&Relax_report::operations, &Cut_report::refused, &blade_along<D>, &swept_blade);
 }
 
 template <int D>
@@ -131,7 +134,7 @@ void keep_simulation() {
       &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
       static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
       static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate,
-      &World<D>::move_walls);
+      &World<D>::move_walls, &World<D>::change);
   keep(
       +[](const Snapshot<D>& s, const Pulsation<D>& p) { return Wall_pulsation<D>(s, p, {}); },
       &Wall_pulsation<D>::targets,
@@ -139,6 +142,14 @@ void keep_simulation() {
       &Elastic_foundation<D>::press, &Elastic_foundation<D>::yielding, &Elastic_foundation<D>::targets,
       &Elastic_foundation<D>::follow, &Elastic_foundation<D>::yield, &Elastic_foundation<D>::yielding_count,
       &Elastic_foundation<D>::largest_yield, &Elastic_foundation<D>::force);
+  keep(
+      +[](const Snapshot<D>& s, const Tissue_material& m) { return Tissue<D>(s, m, {}); },
+      &Tissue<D>::targets, &Tissue<D>::follow, &Tissue<D>::follow_changes, &Tissue<D>::largest_stretch,
+      &Tissue<D>::edge_count);
+  keep(
+      &select<D>,
+      +[](const Snapshot<D>& s, const Environment_changes<D>& c) { return Change_schedule<D>(s, c); },
+      &Change_schedule<D>::is_due, &Change_schedule<D>::apply, &Change_schedule<D>::changing);
 }
 
 template <int D>
@@ -146,7 +157,7 @@ void keep_readers() {
   keep(&io::read_body<D>,
        static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&)>(&io::write_ovm<D>),
        static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&)>(&io::write_ovm<D>), &io::vtu_of_cells<D>,
-       &io::vtu_of_walls<D>);
+       &io::vtu_of_walls<D>, &io::read_changes<D>, &io::parse_changes<D>);
 }
 
 }  // namespace
