@@ -196,13 +196,13 @@ std::optional<std::uint32_t> Tissue_patch<D>::peel(std::uint32_t vertex, std::sp
   // Facets at the vertex to what is not taken back.
   std::vector<std::pair<Cell, std::uint32_t>> outer;
   std::vector<std::uint32_t> others;
-  const auto refuse = [&](const char* why) {
+  const auto not_made = [&](const char* why) {
     reason = why;
     return std::nullopt;
   };
   for (const Cell c : solid) {
     const Simplex old = corners_of(s, c);
-    if (!is_positive(old, vertex, target)) return refuse("a cell would be flat or inverted");
+    if (!is_positive(old, vertex, target)) return not_made("a cell would be flat or inverted");
     Simplex simplex = old;
     std::array<bool, corner_count> walls{};
     for (std::size_t k = 0; k < corner_count; ++k) {
@@ -217,7 +217,7 @@ std::optional<std::uint32_t> Tissue_patch<D>::peel(std::uint32_t vertex, std::sp
     std::ranges::replace(simplex, vertex, point);
     add_cell(soup, simplex, walls, true);
   }
-  if (outer.empty()) return refuse("nothing but these cells has the vertex");
+  if (outer.empty()) return not_made("nothing but these cells has the vertex");
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());
   for (const std::uint32_t x : others) {
@@ -226,13 +226,13 @@ std::optional<std::uint32_t> Tissue_patch<D>::peel(std::uint32_t vertex, std::sp
       if (has_corner(s, c, x)) at_edge.push_back(c);
     const std::array<std::uint32_t, 2> edge{vertex, x};
     if (count_fans(s, std::span<const Cell>(at_edge), edge) > 1)
-      return refuse("the cells meet in an edge only");
+      return not_made("the cells meet in an edge only");
   }
   // A gap cell has the facet, and the new vertex instead of the corner behind it.
   std::vector<std::size_t> gaps;
   for (const auto& [c, behind] : outer) {
     Simplex simplex = corners_of(s, c);
-    if (!is_positive(simplex, behind, target)) return refuse("a cell of the gap would be flat or inverted");
+    if (!is_positive(simplex, behind, target)) return not_made("a cell of the gap would be flat or inverted");
     std::array<bool, corner_count> walls{};
     for (std::size_t k = 0; k < corner_count; ++k) walls[k] = simplex[k] == vertex || simplex[k] == behind;
     std::ranges::replace(simplex, behind, point);
