@@ -205,19 +205,19 @@ TEST(Cut, OfASweptBladeGoesAround) {
 TEST(Cut, OpensAndLetsAParticleIn) {
   auto environment = tissue<2>(8, 6, 0);
   const Snapshot<2>& snapshot = environment.snapshot();
-  Particle<2> particle = *Locator<2>(snapshot).particle_at({3.9, 7});
+  Particle<2> particle = *Locator<2>(snapshot).particle_at({4.05, 7});
   Reshaping<2> reshaping(environment, {{}, {std::span(&particle, 1)}});
   const Cut_report report = reshaping.cut(line({{4.1, 7}, {4.1, 1.5}}));
   std::vector<Vertex_move<2>> moves;
   for (const Cut_point& made : report.points)
     if (made.between[0] == made.between[1])
-      moves.push_back({made.point, snapshot.point(made.point) + Vector<2>{-0.25, 0}});
+      moves.push_back({made.point, snapshot.point(made.point) + Vector<2>{0.25, 0}});
   EXPECT_GT(moves.size(), 3u);
   EXPECT_TRUE(reshaping.move(moves).short_of_target.empty());
   reshaping.close();
   environment.certify();
   Walk_counts counts;
-  const Point<2> goal{3.9, 2.5};
+  const Point<2> goal{4.05, 3.5};
   EXPECT_EQ(move(snapshot, particle, goal, counts).status, Walk_status::arrived);
   EXPECT_EQ(particle.position, goal);
 }
