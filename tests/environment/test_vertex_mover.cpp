@@ -51,7 +51,7 @@ void withdraw_and_restore(Cell_soup<D> soup, std::uint32_t point) {
       ASSERT_EQ(mover.begin(point, target).defect, Star_defect::none);
       EXPECT_EQ(snapshot.epoch(), epoch) << "a question changes nothing";
       mover.place();
-      EXPECT_GT(snapshot.geometry_epoch(), epoch);
+      EXPECT_EQ(snapshot.geometry_epoch(), epoch) << "nothing is made yet";
       for (const Cell c : mover.star()) EXPECT_TRUE(is_withdrawn(snapshot, c));
       EXPECT_GT(snapshot.uncertified_planes(), uncertified);
       mover.take_back();
@@ -64,6 +64,7 @@ void withdraw_and_restore(Cell_soup<D> soup, std::uint32_t point) {
       ASSERT_EQ(mover.begin(point, target).defect, Star_defect::none);
       mover.place();
       mover.commit();
+      EXPECT_GT(snapshot.geometry_epoch(), epoch);
     }  // restores
     Cell_soup<D> moved = soup;
     moved.points[point] = target;
