@@ -236,11 +236,14 @@ class Listing(unittest.TestCase):
         self.particles.locate_again(threads=1)
         self.assertEqual((self.particles.cells >= 0).tolist(), [True, True])
 
-    def test_asking_wants_all_too(self):
-        self.raise_floor(at_contact="ask", bodies=[self.body])
-        with self.assertRaises(cellwalk.UsageError):
-            self.particles.move(self.particles.positions + 0.125)
+    def test_asking_changes_nothing_for_what_is_not_listed(self):
+        moves = self.raise_floor(at_contact="ask", bodies=[self.body])
+        self.assertIn(MoveEnd.REACHED, moves.end)
+        self.assertTrue((self.particles.move(self.particles.positions + 0.125).status == Status.FREE).all())
         self.body.validate()
+        self.raise_floor(at_contact="ask")
+        self.body.validate()
+        self.body.step(self.body.positions + [0, 0, 0.125])
 
     def test_register_again_where_a_wall_came_to_lie(self):
         self.raise_floor()
