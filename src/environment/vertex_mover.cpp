@@ -137,7 +137,7 @@ void Vertex_mover<D>::place() {
   Snapshot_compiler<D> compiler(snapshot);
   for (const Cell c : star_) {
     if (is_withdrawn_[to_index(c)]) {
-      compiler.forget_cluster(c);
+      compiler.forget(c);
       continue;
     }
     withdrawn_.push_back(c);

@@ -11,6 +11,7 @@
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/internal/environment/cell_clusters.h>
 #include <cellwalk/internal/environment/planes.h>
+#include <cellwalk/internal/environment/tissue_boxes.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <bit>
@@ -161,6 +162,8 @@ class Snapshot {
   std::size_t uncertified_planes() const { return uncertified_planes_; }
   /// The walls by clusters of cells, made where they are asked for.
   const detail::Cell_clusters<D>& clusters() const { return clusters_; }
+  /// Where solid cells and membranes lie, found where it is asked for.
+  const detail::Tissue_boxes<D>& tissue_boxes() const { return tissue_boxes_; }
 
   // --- state
   /// The number of edits: every update below that affects walks increments it.
@@ -237,12 +240,18 @@ class Snapshot {
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
   std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
   detail::Cell_clusters<D> clusters_;
+  detail::Tissue_boxes<D> tissue_boxes_;
   /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the
   /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
   Free_runs free_blocks_, free_vertices_;
   std::set<std::uint32_t> free_indices_, free_points_;
 
+  /// What is known of many cells at once is not of a cell that changes.
+  void forget(Cell cell) {
+    clusters_.forget(cell);
+    tissue_boxes_.forget(cell);
+  }
   [[noreturn]] static void refuse_edited(const char* what_and_advice);
   Cell add_cell(const Canonical_cell& cell, std::uint32_t index, bool solid);
 

@@ -51,6 +51,7 @@ struct Cut_point {
 
 /// What came of a cut.
 struct Cut_report {
+  std::size_t cells = 0;    ///< solid ones that the blade met: it passed an edge, or had a vertex
   std::size_t edges = 0;    ///< of solid cells that the blade passes
   std::size_t split = 0;    ///< of these
   std::size_t snapped = 0;  ///< of these, passed at an end

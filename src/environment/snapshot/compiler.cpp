@@ -119,7 +119,7 @@ void Snapshot_compiler<D>::withdraw(Cell c) {
     for (std::size_t k = 0; k < s_.facet_count(other); ++k)
       if (s_.neighbour(s_.half_facet(other, k)) == c) s_.links_[4 * std::size_t{to_index(other)} + k] &= ~bit;
   }
-  s_.clusters_.forget(c);
+  s_.forget(c);
 }
 
 template <int D>

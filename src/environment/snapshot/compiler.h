@@ -35,11 +35,11 @@ class Snapshot_compiler {
   void set_solid(Cell c, bool solid) {
     std::uint32_t& word = s_.shape_[to_index(c)];
     word = solid ? word | Snapshot<D>::solid_bit : word & ~Snapshot<D>::solid_bit;
-    s_.clusters_.forget(c);
+    s_.forget(c);
     ++s_.epoch_;
   }
-  /// What the cluster of a cell knows was wrong if it was made since its points began to move.
-  void forget_cluster(Cell c) { s_.clusters_.forget(c); }
+  /// What is known of many cells at once was wrong of a cell if it was found since its points began to move.
+  void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
   /// Makes certificates of cells anew whose points are where they were when these were withdrawn: all is as

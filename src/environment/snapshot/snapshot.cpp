@@ -104,14 +104,14 @@ void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
   Snapshot_compiler<D> compiler(*this);
   for (std::size_t i = 0; i < facet_count(a); ++i)
     if (neighbour(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
-  for (const Cell c : {a, b}) clusters_.forget(c);
+  for (const Cell c : {a, b}) forget(c);
   ++epoch_;
 }
 
 template <int D>
 void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
   geometry_epoch_ = ++epoch_;
-  for (const Cell c : cells) clusters_.forget(c);
+  for (const Cell c : cells) forget(c);
   Snapshot_compiler<D> compiler(*this);
   // Convex pairs depend on the first vertices of loops, including those of neighbours.
   for (const Cell c : cells)
@@ -197,7 +197,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   for (const Half_facet g : open) {
     open_is_wall.push_back(is_impassable(g));
     open_loops.push_back(loop(g));
-    clusters_.forget(cell_of(g));
+    forget(cell_of(g));
   }
 
   // The indices of the removed cells in their order, then the lowest free ones, then new ones.
@@ -211,7 +211,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   for (auto next = static_cast<std::uint32_t>(cell_of_index_.size()); indices.size() < cells.size(); ++next)
     indices.push_back(next);
 
-  for (const Cell c : removed) clusters_.forget(c);
+  for (const Cell c : removed) forget(c);
   Snapshot_compiler<D> compiler(*this);
   Free_runs left_blocks, left_vertices;
   for (const Cell c : removed) {

@@ -38,16 +38,9 @@ Vector<D> inward_normal(const Snapshot<D>& snapshot, Half_facet facet) {
 
 template <int D>
 std::vector<Cell> Cutter<D>::near_cells() const {
-  std::vector<Cell> near;
   const Snapshot<D>& s = snapshot();
-  for (std::size_t i = 0; i < s.cell_slots(); ++i) {
-    const Cell cell = s.cell(i);
-    if (cell == Cell::none || !s.is_solid(cell)) continue;
-    const Cell_view<D> view = s.view(cell);
-    Box<D> box;
-    for (std::size_t v = 0; v < view.vertex_count(); ++v) box.extend(view.point(v));
-    if (view.vertex_count() == D + 1 && blade_.may_pass(box)) near.push_back(cell);
-  }
+  std::vector<Cell> near = s.tissue_boxes().find(s, [&](const Box<D>& box) { return blade_.may_pass(box); });
+  std::erase_if(near, [&](Cell c) { return !s.is_solid(c) || s.view(c).vertex_count() != D + 1; });
   return near;
 }
 
@@ -55,18 +48,28 @@ std::vector<Cell> Cutter<D>::near_cells() const {
 template <int D>
 void Cutter<D>::label(std::span<const Cell> near) {
   const Snapshot<D>& s = snapshot();
-  std::set<std::array<std::uint32_t, 2>> pairs;
+  std::map<std::uint32_t, bool> looked_at;  // vertices: whether the blade has them
+  std::map<std::array<std::uint32_t, 2>, std::optional<double>> shares;
   for (const Cell c : near) {
     const auto vertices = s.view(c).vertices;
+    bool is_met = false;
     for (const std::uint32_t u : vertices) {
-      for (const std::uint32_t v : vertices)
-        if (u < v) pairs.insert({u, v});
-      if (!sides_.contains(u) && blade_.has(s.point(u))) sides_[u] = Side::on;
+      const auto [own, is_new] = looked_at.try_emplace(u, false);
+      if (is_new) own->second = blade_.has(s.point(u));
+      if (own->second) sides_[u] = Side::on;
+      is_met |= own->second;
+      for (const std::uint32_t v : vertices) {
+        if (u >= v) continue;
+        const auto [pair, is_new_pair] = shares.try_emplace({u, v});
+        if (is_new_pair) pair->second = blade_.passes(s.point(u), s.point(v));
+        is_met |= pair->second.has_value();
+      }
     }
+    report_.cells += is_met;
   }
   std::map<std::array<std::uint32_t, 2>, double> passed;
-  for (const auto& [u, v] : pairs)
-    if (const auto share = blade_.passes(s.point(u), s.point(v))) passed[{u, v}] = *share;
+  for (const auto& [pair, share] : shares)
+    if (share) passed[pair] = *share;
   report_.edges = passed.size();
   for (const auto& [edge, share] : passed)
     if (share < options_.snap || share > 1 - options_.snap) sides_[edge[share < 0.5 ? 0 : 1]] = Side::on;

@@ -60,9 +60,9 @@ void keep_environments() {
 
   keep(
       +[] { return Snapshot<D>(); }, &moved<Snapshot<D>>, &Snapshot<D>::compile, &Snapshot<D>::cell_count,
-      &Snapshot<D>::cell, &Snapshot<D>::clusters, &Snapshot<D>::index, &Snapshot<D>::is_solid,
-      &Snapshot<D>::view, &Snapshot<D>::facet_count, &Snapshot<D>::half_facet_slots, &Snapshot<D>::half_facet,
-      &Snapshot<D>::cell_of, &Snapshot<D>::facet_of, &Snapshot<D>::is_impassable,
+      &Snapshot<D>::cell, &Snapshot<D>::clusters, &Snapshot<D>::tissue_boxes, &Snapshot<D>::index,
+      &Snapshot<D>::is_solid, &Snapshot<D>::view, &Snapshot<D>::facet_count, &Snapshot<D>::half_facet_slots,
+      &Snapshot<D>::half_facet, &Snapshot<D>::cell_of, &Snapshot<D>::facet_of, &Snapshot<D>::is_impassable,
       &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair, &Snapshot<D>::neighbour,
       &Snapshot<D>::convex_passage, &Snapshot<D>::opposite, &Snapshot<D>::loop, &Snapshot<D>::points,
       &Snapshot<D>::point, &Snapshot<D>::frame, &Snapshot<D>::blocks, &Snapshot<D>::links,
