@@ -16,6 +16,10 @@
 #include <span>
 
 namespace cellwalk {
+namespace detail {
+template <int D>
+struct Reshaping_state;
+}
 
 /// What a vertex of the environment does whose walls meet a resident.
 enum class At_contact : std::uint8_t {
@@ -192,8 +196,7 @@ class Reshaping {
   const Reshape_counts& counts() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<detail::Reshaping_state<D>> state_;
 };
 
 extern template class Reshaping<2>;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a Reshaping holds: the environment and all that changes it, what lies in it, and the moves of single
+// vertices. Theory: docs/moving.md.
+#ifndef CELLWALK_RESHAPE_STATE_H
+#define CELLWALK_RESHAPE_STATE_H
+
+#include <cellwalk/internal/environment/vertex_mover.h>
+#include <cellwalk/reshape/reshaping.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "cut/tissue_patch.h"
+#include "move/vertex_trial.h"
+#include "replace/replacement.h"
+#include "residents/resident_groups.h"
+#include "toggle/toggle.h"
+
+namespace cellwalk::detail {
+
+template <int D>
+struct Reshaping_state {
+  Reshaping_state(Environment<D>& of, const Residents<D>& residents, const Reshape_options& given)
+      : environment(of),
+        options(given),
+        groups(environment.snapshot(), residents),
+        mover(environment),
+        trial(groups, counts),
+        toggle(environment, groups, counts.walk),
+        replacer(environment, groups, mover, counts),
+        tissue(environment, groups, toggle, counts) {}
+
+  /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
+  /// nothing: it stays in any case.
+  enum class Attempt : std::uint8_t { move, whether, nothing };
+  Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind, bool is_first = false);
+  bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);
+  Vertex_result<D> move(std::uint32_t point, const Point<D>& target, bool is_first,
+                        std::vector<Wall_hit<D>>* hits = nullptr);
+  bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
+  Box<D> box_of_star(const Point<D>& target) const;
+  Toggle<D>& restored_toggle();
+  Tissue_patch<D>& restored_tissue();
+  void check_open() const;
+  void close();
+
+  Environment<D>& environment;
+  Reshape_options options;
+  Reshape_counts counts;
+  Resident_groups<D> groups;
+  Vertex_mover<D> mover;
+  Vertex_trial<D> trial;
+  Toggle<D> toggle;
+  Replacer<D> replacer;
+  Tissue_patch<D> tissue;
+  bool is_open = true;
+};
+
+extern template struct Reshaping_state<2>;
+extern template struct Reshaping_state<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_STATE_H
