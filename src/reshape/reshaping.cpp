@@ -153,6 +153,14 @@ Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid
 }
 
 template <int D>
+Replacement Reshaping<D>::merge(std::uint32_t point, std::uint32_t onto) {
+  state_->restored_tissue();
+  state_->replacer.check_points(std::array{point, onto});
+  if (point == onto) throw Error(Error_code::usage, "a point is merged with another, not with itself");
+  return state_->merger.merge(point, onto);
+}
+
+template <int D>
 Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& options) {
   detail::Tissue_patch<D>& tissue = state_->restored_tissue();
   if (!(options.opening > 0) || !std::isfinite(options.opening))

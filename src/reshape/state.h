@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cut/merger.h"
 #include "cut/tissue_patch.h"
 #include "move/vertex_trial.h"
 #include "replace/replacement.h"
@@ -28,7 +29,8 @@ struct Reshaping_state {
         trial(groups, counts),
         toggle(environment, groups, counts.walk),
         replacer(environment, groups, mover, counts),
-        tissue(environment, groups, toggle, counts) {}
+        tissue(environment, groups, toggle, counts),
+        merger(environment, groups, toggle, counts) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
@@ -53,6 +55,7 @@ struct Reshaping_state {
   Toggle<D> toggle;
   Replacer<D> replacer;
   Tissue_patch<D> tissue;
+  Merger<D> merger;
   bool is_open = true;
 };
 

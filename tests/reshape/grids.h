@@ -41,6 +41,15 @@ std::uint32_t point_at(const Environment<D>& environment, const Point<D>& x) {
   return static_cast<std::uint32_t>(std::find(points.begin(), points.end(), x) - points.begin());
 }
 
+/// The mean of the corners of a cell, rounded.
+template <int D>
+Point<D> centroid(const Snapshot<D>& snapshot, Cell cell) {
+  const Cell_view<D> view = snapshot.view(cell);
+  Point<D> sum{};
+  for (std::size_t v = 0; v < view.vertex_count(); ++v) sum = sum + view.point(v);
+  return (1 / static_cast<double>(view.vertex_count())) * sum;
+}
+
 }  // namespace cellwalk::test
 
 #endif  // CELLWALK_TESTS_RESHAPE_GRIDS_H

@@ -5,6 +5,7 @@
 #define CELLWALK_RESHAPE_REPLACEMENT_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/reshape/residents.h>
 
 #include <array>
 #include <cstddef>
@@ -24,6 +25,7 @@ struct Replacement {
   std::vector<Cell> cells;  ///< the new ones
   /// The point inserted, or the one removed, whose index later points may get; `none` for flips.
   std::uint32_t point = none;
+  std::vector<Resident> held_by;  ///< every vertex, edge and face that forbids a merge, sorted
 };
 
 /// Which cells Reshaping::relax() looks at, and what it may do. Qualities are 6 sqrt(2) V / l^3 of a

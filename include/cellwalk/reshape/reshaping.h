@@ -179,6 +179,21 @@ class Reshaping {
   /// Cost: some 20 us.
   Replacement peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target);
 
+  /// Merges a point of the walls of a gap with one across it, a stitch of a suture: the free cells that
+  /// have both vanish, and the others around the point get the other one instead. Where a free cell vanishes
+  /// between two solid ones, the facet that they then share is passable: tissue heals. Between two free ones it
+  /// is a wall if one was on either side of the cell that vanished. A cut is closed by merging the points
+  /// that it made with those that they were taken back from: Cut_report::points. Refused if a cell would be
+  /// flat or inverted, if a solid cell has both points or no free one, if the boundary has the point, and if
+  /// anything is registered in the free cells around it, or a face of a body lies near; held_by has all that.
+  /// Later new points may get the index of the point; those before keep theirs.
+  /// 	hrow Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
+  ///        a simplex, in a frozen environment, for a particle near that is not in its cell, and after close()
+  /// Degenerate cases: what lies on the border of the cells around the point counts if it is registered in
+  /// one of them.
+  /// Cost: 3 to 5 us a new cell, whatever the size of the environment.
+  Replacement merge(std::uint32_t point, std::uint32_t onto);
+
   /// Cuts solid simplices along a blade. Edges that it passes are split near it, and the vertices of the
   /// facets that then lie along it are parted: the cells in front of the blade are taken back, and free ones
   /// fill the gap. At its rim inside solid cells the cut ends at facets, up to a cell before or beyond the

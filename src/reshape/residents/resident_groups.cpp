@@ -154,6 +154,21 @@ void Resident_groups<D>::find(std::span<const Cell> cells, std::vector<Member>& 
 }
 
 template <int D>
+std::vector<Member> Resident_groups<D>::faces_near(const Box<D>& box) const {
+  std::vector<Member> result;
+  for (std::uint32_t g = 0; D == 3 && g < groups_.size(); ++g) {
+    const Resident_group<D>& group = groups_[g];
+    if (!group.is_open || !group.body || !group.body->keeps_faces()) continue;
+    for (std::uint32_t f = 0; f < group.faces.size(); ++f) {
+      Box<D> own;
+      for (const std::uint32_t v : group.faces[f]) own.extend(group.particles[v].position);
+      if (own.meets(box)) result.push_back({g, f});
+    }
+  }
+  return result;
+}
+
+template <int D>
 void Resident_groups<D>::enter(Cell cell, Member member, bool is_edge) {
   const auto [place, is_new] = first_.try_emplace(to_index(cell), none);
   entries_.push_back({member, is_edge, place->second});

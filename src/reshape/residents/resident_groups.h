@@ -67,6 +67,9 @@ class Resident_groups {
   /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
   void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges);
 
+  /// The faces of bodies that keep faces, and are open, whose boxes meet a box.
+  std::vector<Member> faces_near(const Box<D>& box) const;
+
   /// Enters a vertex into the table of cells, or an edge, after it was registered anew. Old entries stay.
   void enter_vertex(Member vertex);
   /// \param before its chain at the last time

@@ -97,7 +97,7 @@ void keep_reshaping() {
       static_cast<Change_result (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
       &Reshaping<D>::excavate, &Reshaping<D>::fill, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
       &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
-      &Reshaping<D>::relax, &Reshaping<D>::peel, &Reshaping<D>::cut);
+      &Reshaping<D>::relax, &Reshaping<D>::peel, &Reshaping<D>::cut, &Reshaping<D>::merge);
   keep(&Relax_report::operations, &Cut_report::refused, &blade_along<D>, &swept_blade);
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Two points of the walls of a gap that become one, a stitch of a suture. Theory: docs/cutting.md, sutures.
+#ifndef CELLWALK_RESHAPE_CUT_MERGER_H
+#define CELLWALK_RESHAPE_CUT_MERGER_H
+
+#include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/reshape/move.h>
+#include <cellwalk/reshape/replacement.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reshape/replace/relinker.h"
+#include "reshape/residents/resident_groups.h"
+#include "reshape/toggle/toggle.h"
+
+namespace cellwalk::detail {
+
+/// \pre of all members: no certificates of the environment are withdrawn
+template <int D>
+class Merger {
+ public:
+  Merger(Environment<D>& environment, Resident_groups<D>& groups, Toggle<D>& toggle, Reshape_counts& counts)
+      : environment_(environment),
+        groups_(groups),
+        toggle_(toggle),
+        counts_(counts),
+        patcher_(environment),
+        relinker_(groups, environment.snapshot(), counts.walk) {}
+
+  /// As Reshaping::merge(), for points that exist, and cells around the first of them that are simplices.
+  Replacement merge(std::uint32_t point, std::uint32_t onto);
+
+  /// True once something had no place in the new cells: then bodies must not go on.
+  bool is_broken() const { return is_broken_; }
+
+ private:
+  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+  /// A facet of a new cell, and whether it becomes passable where two facets become one.
+  struct Seam {
+    std::size_t cell;    ///< of the new ones
+    std::uint32_t apex;  ///< the corner of it that the facet lacks
+  };
+  std::string add_cells(std::span<const Cell> star, std::uint32_t point, std::uint32_t onto,
+                        Cell_soup<D>& soup, std::vector<Seam>& opened) const;
+  bool is_sewn(Cell kept, Cell gap, std::uint32_t point, std::uint32_t onto) const;
+  std::vector<Resident> find_holders(std::span<const Cell> free);
+
+  Environment<D>& environment_;
+  Resident_groups<D>& groups_;
+  Toggle<D>& toggle_;
+  Reshape_counts& counts_;
+  Cell_patcher<D> patcher_;
+  Relinker<D> relinker_;
+  bool is_broken_ = false;
+};
+
+extern template class Merger<2>;
+extern template class Merger<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_RESHAPE_CUT_MERGER_H
