@@ -87,6 +87,18 @@ void build_shuffled_frozen_environment(benchmark::State& state) {
   build_frozen(state, shuffled(soup_of(state)));
 }
 
+void thaw_environment(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  Environment<3> environment = Environment<3>::build(soup);
+  for (auto _ : state) {
+    state.PauseTiming();
+    environment.freeze();
+    state.ResumeTiming();
+    environment.thaw();
+  }
+  report(state, soup.cell_count(), 0);
+}
+
 void glue_soup(benchmark::State& state) {
   const Cell_soup<3> soup = soup_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(glue(soup));
@@ -122,6 +134,7 @@ BENCHMARK(build_environment)->Apply(sizes);
 BENCHMARK(build_shuffled_environment)->Apply(sizes);
 BENCHMARK(build_frozen_environment)->Apply(sizes);
 BENCHMARK(build_shuffled_frozen_environment)->Apply(sizes);
+BENCHMARK(thaw_environment)->Apply(sizes);
 BENCHMARK(glue_soup)->Apply(sizes);
 BENCHMARK(compile_snapshot)->Apply(sizes);
 BENCHMARK(certify_snapshot)->Apply(sizes);

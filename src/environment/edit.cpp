@@ -53,8 +53,7 @@ void follow(std::unique_ptr<detail::Boundary_index<D>>& index, const Update& upd
 
 template <int D>
 Map_storage<D>& Environment<D>::editable() {
-  if (!storage_)
-    throw Error(Error_code::usage, "the environment is frozen: build it with its map to edit it");
+  if (!storage_) throw Error(Error_code::usage, "the environment is frozen: thaw() it to edit it");
   return *storage_;
 }
 

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "environment/map/map_matches_snapshot.h"
+#include "environment/soup/parallel.h"
 #include "prepare_soup.h"
 
 namespace cellwalk {
@@ -32,6 +34,35 @@ Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_repo
   soup = split(std::move(soup), report.split, &origin,
                options.simplicial ? Cells_to_split::all_but_simplices : Cells_to_split::invalid);
   if (report.split.cells_split) report.origin = std::move(origin);
+  return soup;
+}
+
+/// The cells of a snapshot in the order of their indices.
+/// \param names if not null, receives the half-facet of each facet of the soup
+template <int D>
+Cell_soup<D> soup_of(const Snapshot<D>& snapshot, std::vector<Half_facet>* names) {
+  Cell_soup<D> soup;
+  soup.points.assign(snapshot.points().begin(), snapshot.points().end());
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
+    const Cell c = snapshot.cell(i);
+    if (c == Cell::none) continue;
+    const std::size_t n = snapshot.facet_count(c);
+    std::size_t facet = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Half_facet f = snapshot.half_facet(c, facet);
+      const std::vector<std::uint32_t> loop = snapshot.loop(f);
+      soup.add_facet(loop, snapshot.is_impassable(f));
+      if (names) names->push_back(f);
+      ++facet;
+      if constexpr (D == 2) {
+        // The snapshot may store the edges of a cell in any order; a soup stores them in order around the
+        // cell.
+        for (std::size_t j = 0; j < n; ++j)
+          if (snapshot.loop(snapshot.half_facet(c, j))[0] == loop[1]) facet = j;
+      }
+    }
+    soup.end_cell(snapshot.is_solid(c));
+  }
   return soup;
 }
 
@@ -75,8 +106,7 @@ Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& opt
 
 template <int D>
 const Map_storage<D>& Environment<D>::storage() const {
-  if (!storage_)
-    throw Error(Error_code::usage, "the environment is frozen: build it with its map to use that");
+  if (!storage_) throw Error(Error_code::usage, "the environment is frozen: thaw() it to use its map");
   return *storage_;
 }
 
@@ -87,29 +117,35 @@ void Environment<D>::freeze() {
 }
 
 template <int D>
+void Environment<D>::thaw() {
+  if (storage_) return;
+  std::vector<Half_facet> names;
+  const Cell_soup<D> cells = soup_of(snapshot_, &names);
+  std::vector<std::uint32_t> facet_of(snapshot_.half_facet_slots(), no_facet);
+  for (std::uint32_t f = 0; f < names.size(); ++f) facet_of[to_index(names[f])] = f;
+  // Not by points: cells that meet in a slit stay apart.
+  Gluing gluing;
+  gluing.opposite.resize(names.size());
+  for_each_parallel(names.size(), [&](std::size_t f) {
+    const Half_facet other = snapshot_.opposite(names[f]);
+    gluing.opposite[f] = other == Half_facet::none ? no_facet : facet_of[to_index(other)];
+  });
+  std::unique_ptr<Map_storage<D>> storage = build_map(cells, gluing);
+  const std::vector<Dart<D>> darts = storage->dart_of_half_facet;
+  assign_half_facets<D>(*storage, darts, names, snapshot_.half_facet_slots());
+  storage->cell_slots = snapshot_.cell_slots();
+  if (storage->cell_slots != storage->cell_count)  // edits left indices unused
+    for_each_parallel(names.size(), [&](std::size_t f) {
+      const std::uint32_t index = snapshot_.index(snapshot_.cell_of(names[f]));
+      for_each_dart_of_half_facet<D>(storage->map, darts[f],
+                                     [&](Dart<D> d) { storage->map.info(d).set_cell(index); });
+    });
+  storage_ = std::move(storage);
+}
+
+template <int D>
 Cell_soup<D> Environment<D>::soup() const {
-  Cell_soup<D> soup;
-  soup.points.assign(snapshot_.points().begin(), snapshot_.points().end());
-  for (std::size_t i = 0; i < snapshot_.cell_slots(); ++i) {
-    const Cell c = snapshot_.cell(i);
-    if (c == Cell::none) continue;
-    const std::size_t n = snapshot_.facet_count(c);
-    std::size_t facet = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Half_facet f = snapshot_.half_facet(c, facet);
-      const std::vector<std::uint32_t> loop = snapshot_.loop(f);
-      soup.add_facet(loop, snapshot_.is_impassable(f));
-      ++facet;
-      if constexpr (D == 2) {
-        // The snapshot may store the edges of a cell in any order; a soup stores them in order around the
-        // cell.
-        for (std::size_t j = 0; j < n; ++j)
-          if (snapshot_.loop(snapshot_.half_facet(c, j))[0] == loop[1]) facet = j;
-      }
-    }
-    soup.end_cell(snapshot_.is_solid(c));
-  }
-  return soup;
+  return soup_of(snapshot_, nullptr);
 }
 
 template <int D>

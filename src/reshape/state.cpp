@@ -172,7 +172,7 @@ template <int D>
 Tissue_patch<D>& Reshaping_state<D>::restored_tissue() {
   check_open();
   if (environment.is_frozen())
-    throw Error(Error_code::usage, "the environment is frozen: build it with its map to cut it");
+    throw Error(Error_code::usage, "the environment is frozen: thaw() it to cut it");
   mover.restore();
   return tissue;
 }

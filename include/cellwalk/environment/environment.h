@@ -41,7 +41,7 @@ struct Build_options {
   /// Split all cells that are not tetrahedra (2D: triangles), as walls that move among bodies need. Implies
   /// `split`.
   bool simplicial = false;
-  bool keep_map = true;  ///< false: build no map; the environment is frozen from the start
+  bool keep_map = true;  ///< false: build no map; the environment is frozen until thaw()
 };
 
 /// Everything that building changed. Nothing is repaired silently.
@@ -85,6 +85,11 @@ class Environment {
   /// Drops the map: vertices can still be moved, but no facet be opened or closed, no cell be filled or
   /// excavated, and no point inserted.
   void freeze();
+  /// Builds the map again from the snapshot, which stays as it is, with all names: what refused because the
+  /// environment was frozen works from then on. Does nothing unless it is frozen.
+  /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
+  /// Cost: about 1 us a tetrahedron; memory 679 bytes a tetrahedron.
+  void thaw();
 
   /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
   /// \throw Error(usage) if there is no such point

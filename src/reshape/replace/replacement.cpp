@@ -114,8 +114,7 @@ Replacer<D>::Replacer(Environment<D>& environment, Resident_groups<D>& groups, V
 
 template <int D>
 void Replacer<D>::check_edit() const {
-  if (environment_.is_frozen())
-    refuse_use("the environment is frozen: build it with its map to replace cells");
+  if (environment_.is_frozen()) refuse_use("the environment is frozen: thaw() it to replace cells");
 }
 
 template <int D>
