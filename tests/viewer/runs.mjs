@@ -19,6 +19,23 @@ export const scenes = {
     bodies: [{ shape: 'polygon', radius: 0.6, count: 8, speed: 9 }],
     time_step: 0.02, steps: 61, output: { frame_every: 0, motion_every: 4 },
   },
+  // Walls of space and of the plane that come, go and come back; cells that are filled, cut, and gape.
+  doors: {
+    dimension: 2, environment: { generate: 'squares', cells: [8, 5] },
+    particles: [{ position: [1.5, 1.5] }],
+    groups: { door: { plane: [[4, 0], [1, 0]] }, rock: { box: [[6, 0], [8, 5]] } },
+    changes: [{ step: 2, until: 20, close: 'door' }, { step: 5, until: 20, fill: 'rock' },
+      { step: 8, excavate: { box: [[6, 1], [7, 4]] } }, { step: 11, open: 'door' }, { step: 15, until: 20, close: 'door' }],
+    time_step: 0.02, steps: 20, output: { frame_every: 2, motion_every: 1 },
+  },
+  cut: {
+    environment: { generate: 'tets', cells: [4, 4, 6], jitter: 0.1 },
+    particles: [{ position: [2, 2, 0.5] }],
+    walls: { tissue: { tension: 0.2 } },
+    changes: [{ step: 1, fill: { box: [[0, 0, 2], [4, 4, 4]] } },
+      { step: 4, cut: { blade: [[0.5, 2.1, 5], [3.5, 2.1, 5], [3.5, 2.1, 1], [0.5, 2.1, 1]], opening: 0.05 } }],
+    time_step: 0.02, steps: 12, output: { frame_every: 3, motion_every: 1 },
+  },
 };
 
 export class Folder {

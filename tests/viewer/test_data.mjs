@@ -8,7 +8,7 @@ import { parseContacts, parseMotion } from '../../viewer/src/motion.js';
 import { Folder } from './runs.mjs';
 
 const folder = new Folder();
-before(() => { folder.run('space'); folder.run('plane'); });
+before(() => { for (const name of ['space', 'plane', 'doors', 'cut']) folder.run(name); });
 after(() => folder.remove());
 
 const bytes = packed => {
@@ -21,12 +21,20 @@ const embedded = (name, id) => {
   return page.split(`id="${id}">`)[1].split('</script>')[0];
 };
 
-/** The points of a .vtu file: base64 of their number of bytes, then of the doubles. */
-function pointsOf(name) {
-  const text = readFileSync(folder.file(name), 'utf8').match(/<Points>[^]*?<DataArray[^>]*>\s*([^\s<]+)/)[1];
+/** An array of a .vtu file: base64 of its number of bytes, then of its numbers. */
+function arrayOf(name, begin, read) {
+  const text = readFileSync(folder.file(name), 'utf8').match(new RegExp(`${begin}[^>]*>\\s*([^\\s<]+)`))[1];
   const sizeLength = 12;  // base64 of 8 bytes
   const data = Buffer.from(text.slice(sizeLength), 'base64');
-  return Array.from({ length: data.length / 8 }, (_, i) => data.readDoubleLE(8 * i));
+  return Array.from({ length: data.length / 8 }, (_, i) => data[read](8 * i));
+}
+const pointsOf = name => arrayOf(name, '<Points>[^]*?<DataArray', 'readDoubleLE');
+
+/** The walls of a .vtu file as lists of places. */
+function wallsOf(name) {
+  const integers = array => arrayOf(name, `<DataArray[^>]*Name="${array}"`, 'readBigInt64LE').map(Number);
+  const points = pointsOf(name), corners = integers('connectivity'), ends = integers('offsets');
+  return ends.map((end, i) => corners.slice(i > 0 ? ends[i - 1] : 0, end).map(v => points.slice(3 * v, 3 * v + 3)));
 }
 
 test('positions are those of the frames, to 16 bits of the box', () => {
@@ -121,4 +129,54 @@ test('the page names nothing outside itself, and a title cannot end it', () => {
   assert.equal(JSON.parse(embedded('space', 'run-data')).manifest.scene.title, 'Boxes & <solid> cells');
   assert.ok(!/<(script|link|img|iframe)[^>]*(src|href)=/.test(page));
   assert.ok(page.includes("default-src 'none'"));
+});
+
+test('walls that come, go and are cut are those of the frames, each seen from its free sides', () => {
+  const total = { loops: 0, twoSided: 0, back: 0, added: 0 };
+  for (const [name, every, steps] of [['doors', 2, 20], ['cut', 3, 12]]) {
+    const motion = motionOf(name), box = Math.max(...motion.upper.map((high, axis) => high - motion.lower[axis]));
+    assert.equal(motion.walls_move, name === 'cut');
+    const seen = [];
+    for (let frame = 0; frame <= steps / every; ++frame) {
+      const record = every * frame, count = motion.placedAt(record) - motion.moving;
+      const places = Float64Array.from(motion.points);
+      if (motion.walls_move) motion.copyPlaces(record, motion.moving, count, places);
+      // To the rounding of 16 bits: loops are found again by the places of their corners.
+      const key = loop => loop.map(x => x.map(value => Math.round(value / box * 4096)).join(' ')).sort().join(';');
+      const near = (a, b) => a.every((x, i) => Math.abs(x - b[i]) < 2 * box / 65535);
+      const expected = wallsOf(`${name}/frames/walls_${String(frame).padStart(5, '0')}.vtu`);
+      const recorded = motion.loopsAt('walls', record).map(loop => [...loop].map(v => [...places.subarray(3 * v, 3 * v + 3)]));
+      const matches = (a, b) => a.length === b.length && a.every(x => b.some(y => near(x, y)));
+      const left = new Map();
+      for (const loop of recorded) left.set(key(loop), (left.get(key(loop)) ?? 0) + 1);
+      let sides = 0;
+      for (const wall of expected) {
+        const found = left.get(key(wall)) ?? recorded.filter(loop => matches(wall, loop)).length;
+        assert.ok(found === 1 || found === 2, `${name}, frame ${frame}: a wall is recorded ${found} times`);
+        sides += found;
+        total.twoSided += found === 2;
+      }
+      assert.equal(recorded.length, sides, `${name}, frame ${frame}: as many walls`);
+      total.loops += recorded.length;
+      const numbers = new Set(motion.loopsAt('walls', record).map(loop => motion.walls.indexOf(loop)));
+      if (seen.length > 1) total.back += [...numbers].filter(i => !seen.at(-1).has(i) && seen.some(known => known.has(i))).length;
+      seen.push(numbers);
+    }
+    total.added += motion.walls.length - motion.loopsAt('walls', 0).length;
+    assert.ok(motion.versionAt(motion.records - 1) > motion.versionAt(0));
+  }
+  assert.ok(total.loops > 1000 && total.twoSided > 30 && total.back > 5 && total.added > 80, JSON.stringify(total));
+});
+
+test('a cut adds points, and cells of the floor and lines come and go with cells', () => {
+  const cut = motionOf('cut');
+  // Wall points appear with the walls: inner ones of the septum's two sides when it is filled, others where it is cut.
+  const added = Array.from({ length: cut.records - 1 }, (_, i) => cut.placedAt(i + 1) - cut.placedAt(i));
+  assert.equal(added[0], 2 * 3 * 3);
+  assert.ok(added[3] >= 3, `${added[3]} new points`);
+  assert.equal(added.reduce((a, b) => a + b), added[0] + added[3]);
+  const doors = motionOf('doors'), counts = kind => [0, 4, 7, 10].map(record => doors.loopsAt(kind, record).length);
+  assert.deepEqual(counts('floor'), [40, 40, 30, 33]);
+  // 7 * 5 + 8 * 4 edges; the door has 5; the rock takes its own 13 and the 5 beside it, and gives back 2 within the cave and 3 beside it.
+  assert.deepEqual(counts('lines'), [67, 62, 44, 49]);
 });

@@ -13,8 +13,7 @@ const patience = 20000;  // ms
 let browser;
 
 before(async () => {
-  folder.run('space');
-  folder.run('plane');
+  for (const name of ['space', 'plane', 'doors', 'cut']) folder.run(name);
   browser = await launch();
 });
 after(async () => {
@@ -91,6 +90,25 @@ for (const [name, records, steps] of [['space', 91, 90], ['plane', 17, 61]])
     assert.ok((await textOf(page, 'time')).startsWith(`step ${steps} of ${steps}`));
     await scrub(page, 0);
     assert.equal(await changedSince(page, start), 0, 'the start looks as it did');
+    assert.deepEqual(page.complaints, []);
+    await page.close();
+  });
+
+for (const [name, shows] of [['doors', [1, 3, 5, 8, 11, 15]], ['cut', [0, 1, 4, 12]]])
+  test(`${name}: walls are seen to come, go, and come back`, async () => {
+    const page = await open(`${name}.html`), looks = [];
+    for (const step of shows) {
+      await scrub(page, step);
+      looks.push(await look(page));
+      if (looks.length > 1) {
+        const pixels = await changed(page, looks.at(-2), looks.at(-1));
+        assert.ok(pixels > 40, `step ${step}: ${pixels} pixels changed`);
+      }
+    }
+    for (const i of [2, 1, 0]) {  // back in time
+      await scrub(page, shows[i]);
+      assert.equal(await changedSince(page, looks[i]), 0, `step ${shows[i]} looks as it did`);
+    }
     assert.deepEqual(page.complaints, []);
     await page.close();
   });

@@ -26,8 +26,7 @@ function creases(points, loops) {
 
 /** Walls seen from free space are drawn; those seen through from outside only hinted at, so that one looks in. */
 function wallsInSpace(motion, points) {
-  const staying = motion.walls.slice(0, motion.walls.length - (motion.changing_walls ?? 0));
-  let indexed = loopsToMesh(points, staying);
+  let indexed = loopsToMesh(points, motion.loopsAt('walls', 0));
   const geometry = indexed.toNonIndexed();
   geometry.computeVertexNormals();
   const material = (side, opacity) => new THREE.MeshLambertMaterial(
@@ -38,13 +37,17 @@ function wallsInSpace(motion, points) {
   inside.renderOrder = 1;
   outside.renderOrder = 3;
   group.add(inside, outside);
-  const edges = motion.walls_move ? null : creases(points, staying);
-  if (edges) {
-    const lines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial(
-      { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
-    lines.renderOrder = 2;
-    group.add(lines);
-  }
+  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial(
+    { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
+  lines.renderOrder = 2;
+  group.add(lines);
+  const drawCreases = loops => {
+    const edges = motion.walls_move ? null : creases(points, loops);
+    lines.geometry.dispose();
+    lines.geometry = edges ?? new THREE.BufferGeometry();
+    lines.visible = edges !== null;
+  };
+  drawCreases(motion.loopsAt('walls', 0));
   /** Takes the walls to where their points are now. */
   const follow = () => {
     const corners = indexed.getIndex().array, places = geometry.getAttribute('position');
@@ -54,10 +57,14 @@ function wallsInSpace(motion, points) {
     geometry.computeVertexNormals();
     geometry.computeBoundingSphere();
   };
-  /** Draws these walls instead. */
-  const choose = walls => {
-    indexed = loopsToMesh(points, walls);
+  /** Draws the walls of a record instead. */
+  const choose = record => {
+    const loops = motion.loopsAt('walls', record);
+    indexed = loopsToMesh(points, loops);
+    geometry.dispose();
+    geometry.deleteAttribute('normal');
     geometry.setAttribute('position', indexed.toNonIndexed().getAttribute('position'));
+    drawCreases(loops);
     follow();
   };
   return { group, lines: [], follow, choose };
@@ -73,17 +80,19 @@ function wallsInPlane(motion, points) {
     group.add(mesh);
     return mesh;
   };
-  const floor = flat(motion.floor, '#ffffff');
+  const floor = flat(motion.loopsAt('floor', 0), '#ffffff');
   floor.renderOrder = -3;
   const thin = new THREE.BufferGeometry();
   thin.setAttribute('position', new THREE.BufferAttribute(points, 3));
-  thin.setIndex(Array.from(motion.lines));
+  const indexOf = loops => loops.flatMap(loop => Array.from(loop));
+  thin.setIndex(indexOf(motion.loopsAt('lines', 0)));
   geometries.push(thin);
   const grid = new THREE.LineSegments(thin, new THREE.LineBasicMaterial({ color: '#e3e8ef', depthWrite: false }));
   grid.renderOrder = -2;
   const walls = fatLines(motion.walls.length, { width: 2.5, colour: '#334155', depth: false });
-  let shown = motion.walls;
+  let shown = motion.loopsAt('walls', 0);
   const setEnds = () => walls.setEnds((i, end) => i < shown.length ? 3 * shown[i][end] : 0, points);
+  walls.showPart(0, shown.length);
   setEnds();
   walls.object.renderOrder = -1;
   group.add(grid, walls.object);
@@ -94,11 +103,12 @@ function wallsInPlane(motion, points) {
     }
     setEnds();
   };
-  const choose = (chosen, cells) => {
-    shown = chosen;
+  const choose = record => {
+    shown = motion.loopsAt('walls', record);
     walls.showPart(0, shown.length);
-    floor.geometry.setIndex(trianglesOf(cells));
-    setEnds();
+    floor.geometry.setIndex(trianglesOf(motion.loopsAt('floor', record)));
+    thin.setIndex(indexOf(motion.loopsAt('lines', record)));
+    follow();
   };
   return { group, lines: [walls], follow, choose };
 }
@@ -106,26 +116,17 @@ function wallsInPlane(motion, points) {
 export function makeWalls(motion) {
   const points = Float32Array.from(motion.points);
   const walls = motion.dimension === 2 ? wallsInPlane(motion, points) : wallsInSpace(motion, points);
-  let last = null;
-  /** Draws the walls and the cells of the floor that are there, if others are than before. */
-  const showChanging = record => {
-    const there = motion.thereAt(record), state = there.join('');
-    if (motion.changing === 0 || state === last) return;
-    last = state;
-    const present = (loops, changing, first) => loops.filter((_, i) => {
-      const number = i - (loops.length - changing);
-      return number < 0 || there[first + number] === 1;
-    });
-    walls.choose(present(motion.walls, motion.changing_walls, 0),
-                 present(motion.floor, motion.changing_floor, motion.changing_walls));
-  };
+  let version = motion.versionAt(0);
   return {
     ...walls,
     show(record) {
-      showChanging(record);
-      if (!motion.walls_move) return;
-      motion.copyPlaces(record, motion.moving, points.length / 3, points);
-      walls.follow();
+      if (motion.walls_move) motion.copyPlaces(record, motion.moving, motion.placedAt(record) - motion.moving, points);
+      if (motion.versionAt(record) !== version) {
+        version = motion.versionAt(record);
+        walls.choose(record);
+      } else if (motion.walls_move) {
+        walls.follow();
+      }
     },
   };
 }

@@ -14,7 +14,6 @@ Run_changes<D>::Run_changes(const std::filesystem::path& folder, Environment<D>&
                             const Environment_changes<D>& changes, const std::string& scene)
     : environment_(environment),
       schedule_(naming(scene, [&] { return Change_schedule<D>(environment.snapshot(), changes); })),
-      changing_(schedule_.changing(environment.snapshot())),
       table_(environment.snapshot(), folder / "changes.csv") {}
 
 template <int D>

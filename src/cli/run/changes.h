@@ -30,15 +30,12 @@ class Run_changes {
   /// Completes the table.
   void finish() { table_.commit(); }
 
-  /// All facets that may open or close in the run, and cells that may become solid or free.
-  const Selection<D>& changing() const { return changing_; }
   nlohmann::ordered_json report() const;
   std::string describe() const { return table_.describe(); }
 
  private:
   Environment<D>& environment_;
   Change_schedule<D> schedule_;
-  Selection<D> changing_;
   Changes_table<D> table_;
   Reshape_counts counts_;
 };

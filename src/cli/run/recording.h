@@ -4,12 +4,13 @@
 #define CELLWALK_CLI_RUN_RECORDING_H
 
 #include <cellwalk/internal/io/recording_file.h>
-#include <cellwalk/simulation/change_schedule.h>
 #include <cellwalk/simulation/world.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <vector>
+
+#include "recorded_walls.h"
 
 namespace cellwalk::cli {
 
@@ -19,16 +20,24 @@ struct Motion_times {
   std::uint32_t steps = 0, every = 1;
 };
 
+/// What the walls of a run may do.
+struct Wall_motion {
+  bool walls_move = false;    ///< their points do
+  bool walls_change = false;  ///< they come and go
+};
+
+template <int D>
+Wall_motion wall_motion(const Scene<D>& scene);
+
 /// Written along with the run, of which it only reads: nothing that the run counts depends on whether it is
 /// recorded.
 template <int D>
 class Run_recording {
  public:
   /// Writes the walls and the start. Refers to the snapshot, which must outlive it.
-  /// \param changing facets that come and go as walls, and cells that are not free all the time
   /// \pre times.every > 0
   Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot, const World<D>& world,
-                const Motion_times& times, bool walls_move, const Selection<D>& changing);
+                const Motion_times& times, const Wall_motion& motion);
 
   /// To be called after each step.
   void record(const World<D>& world, bool is_last);
@@ -44,10 +53,8 @@ class Run_recording {
 
   const Snapshot<D>& snapshot_;
   std::uint32_t every_;
-  bool walls_move_;
-  std::vector<std::uint32_t> wall_points_;  ///< those that the recording has, by their index
-  std::vector<Half_facet> changing_walls_;  ///< a wall for each of their sides
-  std::vector<Cell> changing_floor_;
+  Wall_motion motion_;
+  Recorded_walls<D> walls_;
   io::Recording_writer writer_;
   std::vector<Body_counts> before_;  ///< at the record before
 };

@@ -150,8 +150,7 @@ void Run<D>::operator()() const {
   std::optional<Run_recording<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, environment.snapshot(), world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world,
-                   Motion_times{scene.time_step, steps(), every}, scene.walls.has_value(),
-                   changes ? changes->changing() : Selection<D>{});
+                   Motion_times{scene.time_step, steps(), every}, wall_motion(scene));
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world, scene.walls.has_value());
   {

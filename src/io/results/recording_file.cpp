@@ -45,8 +45,7 @@ ordered_json head_of(const Recording_scene& scene) {
           {"lower", scene.lower},
           {"upper", scene.upper},
           {"walls_move", scene.walls_move},
-          {"changing_walls", scene.changing_walls},
-          {"changing_floor", scene.changing_floor},
+          {"walls_change", scene.walls_change},
           {"points", scene.points.size()},
           {"walls", scene.walls.size()},
           {"wall_corners", corner_count(scene.walls)},
@@ -70,6 +69,23 @@ void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>&
   file.write(bytes_of(corners));
 }
 
+void write_changed_loops(Gzip_file& file, const Loops_change& change) {
+  const std::vector<std::uint32_t> sizes{static_cast<std::uint32_t>(change.toggled.size()),
+                                         static_cast<std::uint32_t>(change.added.size()),
+                                         static_cast<std::uint32_t>(corner_count(change.added))};
+  file.write(bytes_of(sizes));
+  file.write(bytes_of(change.toggled));
+  write_loops(file, change.added);
+}
+
+void write_change(Gzip_file& file, const Walls_change& change) {
+  const std::vector<std::uint32_t> points{static_cast<std::uint32_t>(change.points.size())};
+  file.write(bytes_of(points));
+  file.write(bytes_of(change.points));
+  for (const Loops_change* loops : {&change.walls, &change.floor, &change.lines})
+    write_changed_loops(file, *loops);
+}
+
 /// Encodes numbers of either sign near zero as small ones: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 template <class Unsigned>
 Unsigned folded(Unsigned difference) {
@@ -89,9 +105,11 @@ void append_planes(std::string& out, const std::vector<Unsigned>& values) {
 Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene scene)
     : file_(std::move(path)),
       scene_(std::move(scene)),
-      last_(scene_.placed_count() * static_cast<std::size_t>(scene_.dimension)),
-      before_last_(last_),
+      wall_points_(scene_.points.size()),
       last_cells_(scene_.moving_count()) {
+  for (int axis = 0; axis < scene_.dimension; ++axis)
+    last_.emplace_back(scene_.moving_count() + (scene_.walls_move ? wall_points_ : 0));
+  before_last_ = last_;
   std::string head = head_of(scene_).dump();
   const std::size_t before = recording_magic.size() + sizeof(std::uint32_t);
   while ((before + head.size()) % head_alignment != 0) head.push_back(' ');
@@ -107,23 +125,41 @@ Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene s
   file_.write(bytes_of(scene_.faces));
 }
 
+std::uint16_t Recording_writer::rounded(double x, std::size_t axis) const {
+  const double low = scene_.lower[axis], size = scene_.upper[axis] - low;
+  return static_cast<std::uint16_t>(std::lround(std::clamp((x - low) / size, 0.0, 1.0) * steps_of_16_bits));
+}
+
+/// New points of walls are expected where they appear.
+void Recording_writer::add_points(const std::vector<Point<3>>& points) {
+  wall_points_ += points.size();
+  if (!scene_.walls_move) return;
+  for (std::size_t axis = 0; axis < last_.size(); ++axis)
+    for (const Point<3>& x : points)
+      for (auto* places : {&last_[axis], &before_last_[axis]}) places->push_back(rounded(x[axis], axis));
+}
+
 void Recording_writer::add(const Recording_frame& record) {
   const std::size_t count = record.cells.size();
-  if (record.positions.size() != scene_.placed_count() || count != scene_.moving_count() ||
-      record.decisions.size() != scene_.bodies.size() || record.is_there.size() != scene_.changing_count())
+  const Walls_change nothing;
+  const Walls_change& change = record.change != nullptr ? *record.change : nothing;
+  const std::size_t points = wall_points_ + change.points.size();
+  if (record.positions.size() != count + (scene_.walls_move ? points : 0) || count != scene_.moving_count() ||
+      record.decisions.size() != scene_.bodies.size() || (record.change != nullptr && !scene_.walls_change))
     throw Error(Error_code::usage, "a record of motion has other numbers of points than its scene");
-  std::vector<std::uint16_t> now, left;
-  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene_.dimension); ++axis) {
-    const double low = scene_.lower[axis], size = scene_.upper[axis] - low;
-    for (const Point<3>& x : record.positions) {
-      const double share = std::clamp((x[axis] - low) / size, 0.0, 1.0);
-      now.push_back(static_cast<std::uint16_t>(std::lround(share * steps_of_16_bits)));
+  if (scene_.walls_change) write_change(file_, change);
+  add_points(change.points);
+  std::vector<std::uint16_t> left;
+  for (std::size_t axis = 0; axis < last_.size(); ++axis) {
+    std::vector<std::uint16_t> now;
+    for (const Point<3>& x : record.positions) now.push_back(rounded(x[axis], axis));
+    std::vector<std::uint16_t>&last = last_[axis], &before_last = before_last_[axis];
+    // Uniform motion gives zeros; the first frame is stored as it is.
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const int expected = records_ > 1 ? 2 * last[i] - before_last[i] : last[i];
+      left.push_back(folded(static_cast<std::uint16_t>(now[i] - expected)));
     }
-  }
-  // Uniform motion gives zeros; the first frame is stored as it is.
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const int expected = records_ > 1 ? 2 * last_[i] - before_last_[i] : last_[i];
-    left.push_back(folded(static_cast<std::uint16_t>(now[i] - expected)));
+    before_last = std::exchange(last, std::move(now));
   }
   std::vector<std::uint32_t> changes;
   for (std::size_t i = 0; i < count; ++i) changes.push_back(folded(record.cells[i] - last_cells_[i]));
@@ -131,9 +167,7 @@ void Recording_writer::add(const Recording_frame& record) {
   append_planes(bytes, left);
   append_planes(bytes, changes);
   for (const Decision decision : record.decisions) bytes.push_back(static_cast<char>(decision));
-  for (const std::uint8_t is_there : record.is_there) bytes.push_back(static_cast<char>(is_there));
   file_.write(bytes);
-  before_last_ = std::exchange(last_, std::move(now));
   last_cells_.assign(record.cells.begin(), record.cells.end());
   ++records_;
 }

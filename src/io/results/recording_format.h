@@ -13,13 +13,13 @@ namespace cellwalk::io {
 
 inline constexpr std::string_view recording_magic = "CWMOTN01";
 
-/// The bytes of one frame: 16 bits a coordinate, 32 a cell, 8 a decision, 8 what comes and goes.
-/// \param points of the walls
+/// The bytes of one frame without what became of the walls: 16 bits a coordinate, 32 a cell, 8 a decision.
+/// \param points of the walls so far
 inline std::uint64_t recording_frame_size(const Recording_scene& scene, std::uint64_t points) {
   const auto axes = static_cast<std::uint64_t>(scene.dimension);
   const std::uint64_t moving = scene.moving_count();
   return 2 * axes * (moving + (scene.walls_move ? points : 0)) + sizeof(std::uint32_t) * moving +
-         scene.bodies.size() + scene.changing_count();
+         scene.bodies.size();
 }
 
 /// Reads a recording from its inflated bytes.

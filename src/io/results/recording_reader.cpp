@@ -61,8 +61,7 @@ class Motion_parser {
     scene_.upper = head.at("upper");
     // Older files do not say.
     scene_.walls_move = head.value("walls_move", false);
-    scene_.changing_walls = counted(head.value("changing_walls", nlohmann::json(0u)));
-    scene_.changing_floor = counted(head.value("changing_floor", nlohmann::json(0u)));
+    scene_.walls_change = head.value("walls_change", false);
     for (const nlohmann::json& body : head.at("bodies"))
       scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
                                counted(body.at("edges")), counted(body.at("faces"))});
@@ -86,8 +85,7 @@ class Motion_parser {
   void check_size() const {
     std::uint64_t edges = 0, faces = 0;
     for (const Recording_body& body : scene_.bodies) edges += body.edges, faces += body.faces;
-    if (edges != count("edges") || faces != count("faces") || scene_.changing_walls > count("walls") ||
-        scene_.changing_floor > count("floor"))
+    if (edges != count("edges") || faces != count("faces"))
       damaged("the counts of its head do not fit each other");
     const std::uint64_t arrays =
         sizeof(Point<3>) * count("points") +
@@ -97,7 +95,8 @@ class Motion_parser {
                         most = std::numeric_limits<std::uint64_t>::max();
     const bool is_countable = record == 0 || frame_count() <= (most - arrays) / record;
     const std::uint64_t expected = is_countable ? arrays + frame_count() * record : most;
-    if (bytes_.size() != expected)
+    // Frames that say which walls come and go have any size.
+    if (scene_.walls_change ? bytes_.size() < arrays : bytes_.size() != expected)
       damaged(
           fmt::format("after its head there are {} bytes, and {} were announced", bytes_.size(), expected));
   }
@@ -115,6 +114,41 @@ class Motion_parser {
     const std::size_t vertices = scene_.moving_count() - scene_.particles;
     read_tuples(in, count("edges"), vertices, scene_.edges);
     read_tuples(in, count("faces"), vertices, scene_.faces);
+    if (scene_.walls_change) check_frames(in);
+  }
+
+  /// Frames of any size, whose loops are numbered on.
+  void check_frames(Binary_reader& in) const {
+    std::uint64_t points = scene_.points.size();
+    std::array<std::uint64_t, 3> loops{scene_.walls.size(), scene_.floor.size(), scene_.lines.size()};
+    for (std::uint64_t i = 0; i < frame_count(); ++i) {
+      const std::uint64_t added = in.take<std::uint32_t>("a number of points");
+      skip(in, sizeof(Point<3>) * added);
+      points += added;
+      for (std::uint64_t& known : loops) known += check_loops(in, points, known);
+      skip(in, recording_frame_size(scene_, points));
+    }
+    if (in.left() != 0) damaged(fmt::format("after its last frame there are {} bytes", in.left()));
+  }
+
+  void skip(Binary_reader& in, std::uint64_t count) const {
+    if (in.left() < count) damaged("a frame is cut short");
+    in.skip(count);
+  }
+
+  /// Returns how many loops are new.
+  std::uint64_t check_loops(Binary_reader& in, std::uint64_t points, std::uint64_t known) const {
+    const auto toggled = in.take<std::uint32_t>("a number of loops"),
+               added = in.take<std::uint32_t>("a number of loops"),
+               corners = in.take<std::uint32_t>("a number of corners");
+    for (std::uint32_t i = 0; i < toggled; ++i)
+      if (const auto loop = in.take<std::uint32_t>("a loop"); loop >= known)
+        damaged(fmt::format("it names loop {} of {}", loop, known));
+    std::uint64_t sum = 0;
+    for (std::uint32_t i = 0; i < added; ++i) sum += in.take<std::uint32_t>("a size");
+    if (sum != corners) damaged("there are not as many corners as loops have");
+    for (std::uint32_t i = 0; i < corners; ++i) take_index(in, points);
+    return added;
   }
 
   std::uint32_t take_index(Binary_reader& in, std::size_t size) const {

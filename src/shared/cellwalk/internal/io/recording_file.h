@@ -25,7 +25,7 @@ class Recording_writer {
   Recording_writer(std::filesystem::path path, Recording_scene scene);
 
   /// Appends a frame.
-  /// \pre it has as many positions, cells and decisions as the scene
+  /// \pre it has as many positions, cells and decisions as the scene, and points of walls that were added
   /// Cost: a few bytes a point.
   void add(const Recording_frame& record);
 
@@ -36,10 +36,14 @@ class Recording_writer {
   std::uint32_t frame_count() const { return records_; }
 
  private:
+  std::uint16_t rounded(double x, std::size_t axis) const;
+  void add_points(const std::vector<Point<3>>& points);
+
   Gzip_file file_;
   Recording_scene scene_;
+  std::size_t wall_points_;  ///< so far
   std::uint32_t records_ = 0;
-  std::vector<std::uint16_t> last_, before_last_;  ///< positions of the previous frames, axis after axis
+  std::vector<std::vector<std::uint16_t>> last_, before_last_;  ///< positions of the previous frames, by axis
   std::vector<std::uint32_t> last_cells_;
 };
 
@@ -48,7 +52,8 @@ struct Recording {
   std::string packed;  ///< the compressed content of the file
 };
 
-/// Reads a recording and checks its checksum, counts and indices. Frames stay compressed.
+/// Reads a recording and checks its checksum, counts and indices. Frames stay compressed;
+/// of them the walls that come and go are checked.
 /// \throw Error(input) `FILE: problem, and remedy`
 Recording read_recording(const std::filesystem::path& path);
 

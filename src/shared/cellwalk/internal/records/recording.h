@@ -46,14 +46,13 @@ struct Recording_scene {
   std::vector<Recording_body> bodies;
   Point<3> lower{}, upper{};  ///< the bounding box of the environment; wider if walls move
   bool walls_move = false;    ///< then each frame has their points as well
+  bool walls_change = false;  ///< then each frame says which walls came and went
+  // The walls at the start, with their points.
   std::vector<Point<3>> points;
   /// Walls as loops of points, counterclockwise seen from their solid side; in 2D two points each. A wall
   /// with free space on both sides occurs twice.
   std::vector<std::vector<std::uint32_t>> walls;
-  std::vector<std::vector<std::uint32_t>> floor;  ///< 2D only: free cells as loops of points
-  /// So many of the last walls, and of the last loops of the floor, come and go: each frame says which are
-  /// there.
-  std::uint32_t changing_walls = 0, changing_floor = 0;
+  std::vector<std::vector<std::uint32_t>> floor;    ///< 2D only: free cells as loops of points
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< 2D only: passable edges
   /// Of all bodies; vertices are numbered consecutively through all bodies.
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -67,19 +66,29 @@ struct Recording_scene {
     for (const Recording_body& body : bodies) count += body.vertices;
     return count;
   }
-  std::size_t changing_count() const { return std::size_t{changing_walls} + changing_floor; }
-  /// The number of positions in a frame.
-  std::size_t placed_count() const { return moving_count() + (walls_move ? points.size() : 0); }
+};
+
+/// What became of loops of points since the previous frame. Loops are numbered in the order in which they
+/// first appear, those of the scene before all others; they keep their numbers while they are gone.
+struct Loops_change {
+  std::vector<std::uint32_t> toggled;  ///< that vanished or came back; ascending
+  std::vector<std::vector<std::uint32_t>> added;
+};
+
+/// What became of the walls since the previous frame.
+struct Walls_change {
+  std::vector<Point<3>> points;  ///< new ones, numbered on; they stay, whether they are used or not
+  Loops_change walls, floor, lines;
 };
 
 /// One frame: views of the caller's arrays.
 struct Recording_frame {
-  std::span<const Point<3>> positions;  ///< of all moving points; if walls move, then of the scene's points
+  /// Of all moving points; if walls move, then of all their points so far.
+  std::span<const Point<3>> positions;
   /// For each moving point a cell in whose closure it lies, by its number in the input.
   std::span<const std::uint32_t> cells;
-  std::span<const Decision> decisions;  ///< of each body
-  /// Of each wall that comes and goes, then of each such loop of the floor: 1 if it is there, otherwise 0.
-  std::span<const std::uint8_t> is_there{};
+  std::span<const Decision> decisions;   ///< of each body
+  const Walls_change* change = nullptr;  ///< null: nothing changed
 };
 
 }  // namespace cellwalk
