@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cut/cutter.h"
+#include "cut/slitter.h"
 #include "replace/relaxer.h"
 #include "state.h"
 
@@ -165,7 +166,11 @@ Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& option
   detail::Tissue_patch<D>& tissue = state_->restored_tissue();
   if (!(options.opening > 0) || !std::isfinite(options.opening))
     throw Error(Error_code::input, "a cut is opened by a positive length");
-  return detail::Cutter<D>(state_->environment, tissue, blade, options).run();
+  detail::Slitter<D> slitter(state_->environment, tissue, state_->toggle, blade, options);
+  detail::Cutter<D> cutter(state_->environment, tissue, blade, options);
+  slitter.prepare();
+  cutter.prepare();
+  return cutter.run(slitter.run());
 }
 
 template <int D>

@@ -34,7 +34,7 @@ Blade<3> swept_blade(std::span<const Point<3>> line, const Vector<3>& displaceme
 template <int D>
 struct Cut_options {
   /// How far the cells on the front of the blade are taken back at first, in lengths. Less where there is no
-  /// room: then half of it, a quarter, and so on.
+  /// room: then half of it, a quarter, and so on. Also the width of slits in membranes.
   double opening = 0.01;
   /// Where the blade passes an edge nearer to an end than this share of its length, the cut passes the end.
   double snap = 0.125;
@@ -49,12 +49,13 @@ struct Cut_point {
   double share;
 };
 
-/// What came of a cut.
+/// What came of a cut. Of membranes, walls between free cells, edges count where they cross a border of the slit.
 struct Cut_report {
   std::size_t cells = 0;    ///< solid ones that the blade met: it passed an edge, or had a vertex
-  std::size_t edges = 0;    ///< of solid cells that the blade passes
+  std::size_t edges = 0;    ///< of solid cells that the blade passes, and of membranes
   std::size_t split = 0;    ///< of these
   std::size_t snapped = 0;  ///< of these, passed at an end
+  std::size_t slit = 0;     ///< facets of membranes that were opened
   std::size_t facets = 0;   ///< of the cut
   std::size_t opened = 0;   ///< vertices of the cut that were parted
   std::size_t rim = 0;      ///< those at its rim inside solid cells, or on the boundary, which hold together

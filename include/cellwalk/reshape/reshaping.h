@@ -197,7 +197,8 @@ class Reshaping {
   /// Cuts solid simplices along a blade. Edges that it passes are split near it, and the vertices of the
   /// facets that then lie along it are parted: the cells in front of the blade are taken back, and free ones
   /// fill the gap. At its rim inside solid cells the cut ends at facets, up to a cell before or beyond the
-  /// blade, and on the boundary of the environment it stays closed. Nothing that moves there can forbid it;
+  /// blade, and on the boundary of the environment it stays closed. Membranes of triangles (2D: segments) are
+  /// slit as wide as the opening, but where something is registered beside them. All else is never refused;
   /// where something could not be split or parted, the cut is incomplete, and the report says how much of it.
   /// \throw Error(input) for a blade that is none, or an opening that is no positive length; Error(usage) in
   ///        a frozen environment, for a particle near that is not in its cell, and after close()

@@ -77,6 +77,7 @@ void Changes_table<D>::add(std::uint32_t step, const std::vector<Change_outcome>
       cuts_.opened += outcome.cut->opened;
       cuts_.rim += outcome.cut->rim;
       cuts_.held += outcome.cut->held;
+      cuts_.slit += outcome.cut->slit;
     }
     if (table_) write(step, outcome);
   }
@@ -124,7 +125,7 @@ nlohmann::ordered_json Changes_table<D>::to_json() const {
   if (cuts_.edges != 0)
     json["cuts"] = {{"edges", cuts_.edges},   {"split", cuts_.split},   {"snapped", cuts_.snapped},
                     {"facets", cuts_.facets}, {"parted", cuts_.opened}, {"rim", cuts_.rim},
-                    {"held", cuts_.held}};
+                    {"held", cuts_.held},     {"slit", cuts_.slit}};
   json["refusals"] = refusals_;
   json["left"] = left_.size();
   return json;
@@ -139,8 +140,10 @@ std::string Changes_table<D>::describe() const {
                           made_[k] == 1 ? "" : "s", words[k].done);
   if (cuts_.edges != 0)
     text += fmt::format(
-        " ({} edges passed: {} split, {} at an end; {} facets, {} vertices parted, {} at rims, {} held)",
-        cuts_.edges, cuts_.split, cuts_.snapped, cuts_.facets, cuts_.opened, cuts_.rim, cuts_.held);
+        " ({} edges passed: {} split, {} at an end; {} facets, {} vertices parted, {} at rims, {} held, {} "
+        "facets of membranes slit)",
+        cuts_.edges, cuts_.split, cuts_.snapped, cuts_.facets, cuts_.opened, cuts_.rim, cuts_.held,
+        cuts_.slit);
   if (text.empty()) text = "none made";
   if (refusals_ != 0) text += fmt::format("; {} refused, {} of them to the end", refusals_, left_.size());
   return text;

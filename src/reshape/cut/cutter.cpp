@@ -70,7 +70,7 @@ void Cutter<D>::label(std::span<const Cell> near) {
   std::map<std::array<std::uint32_t, 2>, double> passed;
   for (const auto& [pair, share] : shares)
     if (share) passed[pair] = *share;
-  report_.edges = passed.size();
+  report_.edges += passed.size();
   for (const auto& [edge, share] : passed)
     if (share < options_.snap || share > 1 - options_.snap) sides_[edge[share < 0.5 ? 0 : 1]] = Side::on;
   const auto is_on = [&](std::uint32_t v) {
@@ -294,7 +294,16 @@ void Cutter<D>::part() {
 }
 
 template <int D>
-Cut_report Cutter<D>::run() {
+void Cutter<D>::prepare() {
+  label(near_cells());
+  for (const auto& [edge, share] : edges_) patch_.open_groups(edge[0], edge[1]);
+}
+
+template <int D>
+Cut_report Cutter<D>::run(Cut_report before) {
+  report_ = std::move(before);
+  sides_.clear();
+  edges_.clear();
   label(near_cells());
   split();
   find_facets();

@@ -27,7 +27,11 @@ class Cutter {
          const Cut_options<D>& options)
       : environment_(environment), patch_(patch), blade_(blade), options_(options) {}
 
-  Cut_report run();
+  /// Opens the groups near all that will be split, so that nothing is refused for them after a change.
+  /// \throw Error(usage) for a particle near that does not lie in its cell
+  void prepare();
+  /// \param before what was cut already, which is added
+  Cut_report run(Cut_report before);
 
  private:
   using Key = std::array<std::uint32_t, static_cast<std::size_t>(D)>;

@@ -95,18 +95,46 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
   return true;
 }
 
+/// True if boundary facets at an edge that is split at a position stay in their planes.
+template <int D>
+bool Tissue_patch<D>::keeps_boundary(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
+                                     const Point<D>& position) const {
+  const Snapshot<D>& s = snapshot();
+  for (const Cell c : cells) {
+    const Cell_view<D> view = s.view(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f)
+      if (s.neighbour(Snapshot<D>::half_facet(c, f)) == Cell::none && has_point(view, f, edge[0]) &&
+          has_point(view, f, edge[1]) && side<Exact>(view, f, position, counts_.walk) != 0)
+        return false;
+  }
+  return true;
+}
+
 template <int D>
 std::vector<Cell> Tissue_patch<D>::replace(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                            const Point<D>& added) {
   return patcher_.replace(removed, soup, glue_patch(soup), added);
 }
 
+/// All cells with an edge.
+template <int D>
+std::vector<Cell> Tissue_patch<D>::cells_at(std::uint32_t u, std::uint32_t v) const {
+  std::vector<Cell> cells = environment_.cells_around(u);
+  std::erase_if(cells, [&](Cell c) { return !has_corner(snapshot(), c, v); });
+  return cells;
+}
+
+template <int D>
+void Tissue_patch<D>::open_groups(std::uint32_t u, std::uint32_t v) {
+  counts_.opened += groups_.open(box_of<D>(snapshot(), cells_at(u, v)));
+}
+
 template <int D>
 std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::uint32_t v,
                                                          const Point<D>& position) {
   const Snapshot<D>& s = snapshot();
-  std::vector<Cell> cells = environment_.cells_around(u), free;
-  std::erase_if(cells, [&](Cell c) { return !has_corner(s, c, v); });
+  const std::vector<Cell> cells = cells_at(u, v);
+  std::vector<Cell> free;
   const std::array<std::uint32_t, 2> edge{u, v};
   if (cells.empty() || count_fans(s, std::span<const Cell>(cells), edge) > 1) return std::nullopt;
   const std::uint32_t point = s.next_point();
@@ -131,8 +159,11 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::u
     }
   }
   counts_.opened += groups_.open(box_of<D>(s, cells));
-  if (!may_move_walls(cells, u, v, position)) return std::nullopt;
   relinker_.note(free);
+  if (!may_move_walls(cells, u, v, position) &&
+      !(keeps_boundary(cells, edge, position) && !relinker_.has_any() &&
+        groups_.faces_near(box_of<D>(s, free)).empty()))
+    return std::nullopt;
   is_broken_ = true;
   const std::vector<Cell> added = replace(cells, soup, position);
   free.clear();

@@ -32,10 +32,15 @@ class Tissue_patch {
         patcher_(environment),
         relinker_(groups, environment.snapshot(), counts.walk) {}
 
-  /// Splits an edge of solid cells at a point on or near it. Walls at the edge retreat: the point lies on no
-  /// wall's free side, and on the planes of all boundary facets at the edge. Returns the new point; none if
-  /// that is refused: a cell would be flat or inverted, a body's face rests on a wall there, walls at the
-  /// edge part free cells from each other, or free cells meet it on several sides.
+  /// Opens the groups near the cells at an edge, so that nothing that is split there can be refused for them.
+  /// \throw Error(usage) for a particle that does not lie in its cell
+  void open_groups(std::uint32_t u, std::uint32_t v);
+
+  /// Splits an edge of walls at a point on or near it, which lies on the planes of all boundary facets at the
+  /// edge. Walls retreat: the point lies on the free side of none of them. If they do not, or part free cells
+  /// from each other, or free cells meet the edge on several sides, nothing may be registered in the free
+  /// cells around it, nor a face lie near. Returns the new point; none if that is refused, if a body's face
+  /// rests on a wall there, or if a cell would be flat or inverted.
   std::optional<std::uint32_t> split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
 
   /// Takes solid cells back from a vertex: they get another vertex instead, and free cells fill the gap that
@@ -53,7 +58,10 @@ class Tissue_patch {
   using Simplex = std::array<std::uint32_t, corner_count>;
   /// A facet of a simplex that lacks one of its corners.
   bool is_wall_off(Cell cell, std::uint32_t corner) const;
+  std::vector<Cell> cells_at(std::uint32_t u, std::uint32_t v) const;
   bool may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
+                      const Point<D>& position) const;
+  bool keeps_boundary(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
                       const Point<D>& position) const;
   bool is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const;
   std::vector<Cell> replace(std::span<const Cell> removed, const Cell_soup<D>& soup, const Point<D>& added);

@@ -139,8 +139,9 @@ std::size_t Relinker<D>::relink(std::span<const Cell> added) {
   }
   for (const Member e : edges_)
     if (renames(e)) {
-      chains_.emplace_back(e, Chain{});
-      write_chain(e, sorted, chains_.back().second);
+      auto& [edge, chain] = chains_.emplace_back();
+      edge = e;
+      write_chain(e, sorted, chain);
     }
   for (const Moved& moved : moved_) groups_.particle(moved.member) = moved.now;
   for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
