@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "body_topology.h"
 
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cellwalk::detail {
+namespace {
+
+constexpr const char* remedy = "sort the edges of a body with faces, each with its lower vertex first";
+
+template <class Shapes>
+void check_indices(const char* kind, const Shapes& shapes, std::size_t vertices) {
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    for (const std::uint32_t v : shapes[i])
+      if (v >= vertices)
+        throw Error(Error_code::usage,
+                    fmt::format("{} {} of the body names vertex {} of {}", kind, i, v, vertices));
+}
+
+/// Sides of faces are looked up among the edges, by bisection.
+void check_order(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [u, v] = edges[e];
+    if (u >= v)
+      throw Error(
+          Error_code::usage,
+          fmt::format("edge {} of the body, from vertex {} to {}, does not have its lower vertex first: {}",
+                      e, u, v, remedy));
+    if (e > 0 && edges[e - 1] >= edges[e])
+      throw Error(Error_code::usage,
+                  fmt::format("edge {} of the body, from vertex {} to {}, does not come after edge {}: {}", e,
+                              u, v, e - 1, remedy));
+  }
+}
+
+}  // namespace
 
 Body_topology::Body_topology(std::size_t vertices, std::vector<std::array<std::uint32_t, 2>> edges,
                              std::vector<std::array<std::uint32_t, 3>> faces)
     : edges_(std::move(edges)), corner_begin_(vertices + 1), faces_(std::move(faces)) {
+  check_indices("edge", edges_, vertices);
+  check_indices("face", faces_, vertices);
   for (const auto& [u, v] : edges_) {
     ++corner_begin_[u + 1];
     ++corner_begin_[v + 1];
@@ -27,9 +63,16 @@ Body_topology::Body_topology(std::size_t vertices, std::vector<std::array<std::u
 }
 
 void Body_topology::link_faces(std::size_t vertices) {
+  check_order(edges_);
   const auto edge_of = [this](std::uint32_t u, std::uint32_t v) {
     const std::array<std::uint32_t, 2> ends{std::min(u, v), std::max(u, v)};
-    return static_cast<std::uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), ends) - edges_.begin());
+    const auto edge = std::lower_bound(edges_.begin(), edges_.end(), ends);
+    if (edge == edges_.end() || *edge != ends)
+      throw Error(Error_code::usage,
+                  fmt::format("face {} of the body has a side from vertex {} to {} that is "
+                              "not among its edges: list each side",
+                              sides_.size(), ends[0], ends[1]));
+    return static_cast<std::uint32_t>(edge - edges_.begin());
   };
   face_corner_begin_.assign(vertices + 1, 0);
   for (const auto& [u, v, w] : faces_) {

@@ -25,7 +25,8 @@ struct Face_corner {
 
 class Body_topology {
  public:
-  /// \pre edges and faces of a Body_soup
+  /// \throw Error(usage) naming the edge or face: a vertex that does not exist; of a body with faces, edges
+  ///        that are not in the order of a Body_soup, or a side that is none of them
   Body_topology(std::size_t vertices, std::vector<std::array<std::uint32_t, 2>> edges,
                 std::vector<std::array<std::uint32_t, 3>> faces);
 

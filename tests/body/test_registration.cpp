@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,12 @@ namespace cellwalk::test {
 namespace {
 
 template <int D>
-std::string refusal(const Snapshot<D>& snapshot, const Body_soup<D>& soup) {
+std::string refusal(const Snapshot<D>& snapshot, const Body_soup<D>& soup,
+                    Error_code code = Error_code::outside) {
   try {
     Body<D>(snapshot, Locator<D>(snapshot), soup);
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Error_code::outside);
+    EXPECT_EQ(error.code(), code);
     return error.what();
   }
   return "";
@@ -47,6 +50,39 @@ TEST(Registration, LooksAtNoFacesInThePlane) {
   EXPECT_FALSE(report.contacts.empty());
   body.refresh(counts);
   EXPECT_NO_THROW(body.validate());
+}
+
+TEST(Registration, RefusesEdgesAndFacesThatDoNotFit) {
+  const Snapshot<3> snapshot = rooms<3>({1, 1, 1}, {});
+  const std::vector<Point<3>> points{{0.2, 0.2, 0.2}, {0.8, 0.2, 0.2}, {0.2, 0.8, 0.2}, {0.2, 0.2, 0.8}};
+  using Edges = std::vector<std::array<std::uint32_t, 2>>;
+  using Faces = std::vector<std::array<std::uint32_t, 3>>;
+  const auto refused = [&](const Edges& edges, const Faces& faces) {
+    return refusal<3>(snapshot, {points, edges, faces}, Error_code::usage);
+  };
+  EXPECT_EQ(refused({{0, 1}, {0, 2}, {1, 2}}, {{2, 1, 0}}), "");
+  EXPECT_EQ(
+      refused({{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}),
+      "edge 2 of the body, from vertex 0 to 2, does not come after edge 1: sort the edges of a body with "
+      "faces, each with its lower vertex first");
+  EXPECT_EQ(
+      refused({{0, 1}, {0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}),
+      "edge 1 of the body, from vertex 0 to 1, does not come after edge 0: sort the edges of a body with "
+      "faces, each with its lower vertex first");
+  EXPECT_EQ(
+      refused({{0, 1}, {1, 2}, {2, 0}}, {{0, 1, 2}}),
+      "edge 2 of the body, from vertex 2 to 0, does not have its lower vertex first: sort the edges of a "
+      "body with faces, each with its lower vertex first");
+  EXPECT_EQ(refused({{0, 1}, {0, 2}}, {{0, 1, 2}}),
+            "face 0 of the body has a side from vertex 1 to 2 that is not among its edges: list each side");
+  EXPECT_EQ(refused({{0, 1}, {0, 2}, {0, 3}, {1, 2}}, {{0, 1, 2}, {3, 0, 1}}),
+            "face 1 of the body has a side from vertex 1 to 3 that is not among its edges: list each side");
+  EXPECT_EQ(refused({{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 1}}),
+            "face 0 of the body has a side from vertex 1 to 1 that is not among its edges: list each side");
+  EXPECT_EQ(refused({{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 4}}), "face 0 of the body names vertex 4 of 4");
+  EXPECT_EQ(refused({{0, 1}, {2, 5}}, {}), "edge 1 of the body names vertex 5 of 4");
+  // Without faces the order of edges does not matter.
+  EXPECT_EQ(refused({{2, 1}, {0, 1}}, {}), "");
 }
 
 TEST(Registration, RefusesVerticesAndEdgesWithTheirPlace) {

@@ -120,7 +120,7 @@ class Moved_world {
       if (i > 0) soup.edges.push_back({i - 1, i});
     }
     if (D == 3 && n > 2 && shape / 3 % 2 == 0) {
-      soup.edges.push_back({0, 2});
+      soup.edges.insert(soup.edges.begin() + 1, {0, 2});
       soup.faces.push_back({0, 1, 2});
     }
     reads([&] { bodies.push_back(std::make_unique<Body<D>>(snapshot, locator, soup)); },

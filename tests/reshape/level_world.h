@@ -43,7 +43,7 @@ class Level_world {
     for (int tries = 0; bodies.size() < body_count && tries < 100; ++tries) {
       const double level = random.chance(0.7) ? 2 : height();
       Body_soup<3> soup{{place(level), place(level), place(random.chance(0.7) ? level : height())},
-                        {{0, 1}, {1, 2}, {0, 2}},
+                        {{0, 1}, {0, 2}, {1, 2}},
                         {{0, 1, 2}}};
       try {
         bodies.push_back(std::make_unique<Body<3>>(snapshot, locator, soup));

@@ -63,7 +63,7 @@ class Reshape_world {
       for (std::uint32_t i = 1; i < n; ++i) soup.edges.push_back({i - 1, i});
       // In 3D half of those with three corners have a face.
       if (D == 3 && n > 2 && random.chance(0.5)) {
-        soup.edges.push_back({0, 2});
+        soup.edges.insert(soup.edges.begin() + 1, {0, 2});
         soup.faces.push_back({0, 1, 2});
         // So that walls may land on it.
         if (!generic_ && random.chance(0.6)) {

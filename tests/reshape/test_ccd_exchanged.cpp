@@ -133,7 +133,7 @@ void vertices_and_faces(Needle kind, Seen& seen) {
     SCOPED_TRACE(row.name);
     const Point<3>&from = row.points[0], &to = row.points[1];
     const Body_soup<3> face{
-        {row.points[2], row.points[3], row.points[4]}, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}};
+        {row.points[2], row.points[3], row.points[4]}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
     EXPECT_EQ(move_tip(from, to, from, face, seen, kind), row.labels[0]);
     ASSERT_EQ(seen.tally.wrong(), 0);
   }

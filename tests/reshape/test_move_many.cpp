@@ -33,7 +33,7 @@ void grow() {
   soup.points[1].fill(1.75);
   soup.points[2].fill(1.5);
   soup.points[2][0] = 0.25;
-  soup.edges = {{0, 1}, {1, 2}, {0, 2}};
+  soup.edges = {{0, 1}, {0, 2}, {1, 2}};
   Body<D> body(environment.snapshot(), locator, soup);
   {
     Reshaping<D> reshaping(environment, {{&body}, {}});

@@ -227,7 +227,7 @@ TYPED_TEST(PushTest, PairsOfCellsThatWereConvexCertifyNothing) {
 
 TEST(PushFaces, AFaceIsPushedAndKeptFree) {
   Room<3> room;
-  Body<3> body = room.body({{1.5, 1.5, 2.25}, {2.75, 1.5, 2.25}, {2, 2.75, 2.25}}, {{0, 1}, {1, 2}, {0, 2}},
+  Body<3> body = room.body({{1.5, 1.5, 2.25}, {2.75, 1.5, 2.25}, {2, 2.75, 2.25}}, {{0, 1}, {0, 2}, {1, 2}},
                            {{0, 1, 2}});
   Body_options faces;
   faces.sweep.sweep = Sweep::faces;

@@ -52,7 +52,7 @@ struct Things {
   void add(const std::vector<Point<D>>& points, std::vector<std::array<std::uint32_t, 3>> faces = {}) {
     Body_soup<D> soup{points, {}, std::move(faces)};
     for (std::uint32_t i = 1; i < points.size(); ++i) soup.edges.push_back({i - 1, i});
-    if (points.size() == 3) soup.edges.push_back({0, 2});
+    if (points.size() == 3) soup.edges = {{0, 1}, {0, 2}, {1, 2}};
     bodies.push_back(std::make_unique<Body<D>>(environment.snapshot(), locator, soup));
     for (const Point<D>& x : points) particles.push_back(locator.particles_at(x).front());
   }

@@ -187,7 +187,7 @@ TEST(Reshaping, AnEdgeIsMetByAnEdge) {
 TEST(Reshaping, AFaceIsMetByTheVertexThatMoves) {
   Room room;
   Body<3> body = room.body({{1.25, 1.125, 2.25}, {3.5, 1.25, 2.25}, {1.125, 3.5, 2.25}},
-                           {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}});
+                           {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}});
   Reshaping<3> reshaping(room.environment, {{&body}, {}}, hold);
   const auto result = reshaping.move(room.vertex, {2, 2, 2.5});
   ASSERT_EQ(result.end, Move_end::contact);

@@ -41,7 +41,7 @@ struct Tent {
   Body<3> face(const std::vector<Point<3>>& corners) const {
     return {environment.snapshot(),
             Locator<3>(environment.snapshot()),
-            {corners, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}}};
+            {corners, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}}};
   }
   Body<3> large_face(double height = 3) const {
     return face({{0.5, 0.5, height}, {7.75, 0.5, height}, {0.5, 7.75, height}});

@@ -24,7 +24,7 @@ struct Flap {
              soup_of(points)) {}
 
   static Body_soup<3> soup_of(const std::vector<Point<3>>& points) {
-    Body_soup<3> soup{points, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}};
+    Body_soup<3> soup{points, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
     for (std::uint32_t k = 3; k < points.size(); k += 2) soup.edges.push_back({k, k + 1});
     return soup;
   }

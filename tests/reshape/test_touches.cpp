@@ -226,7 +226,7 @@ TEST(Touches, AVertexThatMovesArrivesAtAFace) {
   Scene<3> scene;
   Body<3> body(
       scene.snapshot(), Locator<3>(scene.snapshot()),
-      {{{1.25, 1.125, 2.25}, {3.5, 1.25, 2.25}, {1.125, 3.5, 2.25}}, {{0, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}}});
+      {{{1.25, 1.125, 2.25}, {3.5, 1.25, 2.25}, {1.125, 3.5, 2.25}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}});
   EXPECT_EQ(scene.move(body, {2, 2, 2.25}).end, Move_end::reached) << "it touches the face";
   expect_block(scene.move(body, {2, 2, 2.5}), 0, 1);
   EXPECT_EQ(scene.move(body, {2, 2, 2}).end, Move_end::reached);

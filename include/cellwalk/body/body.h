@@ -45,7 +45,7 @@ class Body {
   /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. Faces in
   /// the plane are not looked at.
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
-  ///        face that a wall pierces, and where
+  ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Body& other);
