@@ -242,5 +242,43 @@ TEST(Toggle, WhatIsNotThereIsAnError) {
   EXPECT_THROW(frozen.fill(environment.snapshot().cell(0)), Error);
 }
 
+/// An edge along a facet, in one cell at a time: once the cell is filled, it is in the one behind, and later
+/// changes find it there.
+template <int D>
+void fill_behind_edges() {
+  const Environment<D> pattern = test::simplex_grid<D>(2);
+  int changed = 0;
+  for (std::size_t i = 0; i < pattern.snapshot().cell_slots(); ++i)
+    for (std::size_t k = 0; k <= D; ++k)
+      for (std::size_t corner = 0; corner < D; ++corner) {
+        Environment<D> environment = test::simplex_grid<D>(2);
+        const Snapshot<D>& snapshot = environment.snapshot();
+        const Cell cell = snapshot.cell(i);
+        const Half_facet f = Snapshot<D>::half_facet(cell, k);
+        if (snapshot.is_impassable(f)) continue;
+        const auto loop = snapshot.loop(f);
+        const Point<D>&a = snapshot.point(loop[corner]), &b = snapshot.point(loop[(corner + 1) % D]);
+        const Point<D> inside = test::centroid(snapshot, cell);
+        Body<D> body = body_at<D>(environment, {inside, inside + 0.25 * (b - inside)});
+        Body_counts counts;
+        ASSERT_FALSE(body.move_vertex(0, a, {}, counts));
+        ASSERT_FALSE(body.move_vertex(1, a + 0.5 * (b - a), {}, counts));
+        ASSERT_EQ(body.particles()[0].cell, cell);
+        ASSERT_TRUE(body.chain(0).empty());
+        Reshaping<D> reshaping(environment, {{&body}, {}});
+        ASSERT_TRUE(reshaping.fill(cell).is_made);
+        const Cell now = body.particles()[0].cell;
+        ASSERT_NE(now, cell);
+        changed += body.chain(0).empty();
+        ASSERT_TRUE(reshaping.insert_point(now, test::centroid(snapshot, now)).is_made);
+        reshaping.close();
+        expect_sound(environment, body);
+      }
+  EXPECT_GT(changed, 5);
+}
+
+TEST(Toggle, EdgesInOneCellAreFoundInTheNextInThePlane) { fill_behind_edges<2>(); }
+TEST(Toggle, EdgesInOneCellAreFoundInTheNextInSpace) { fill_behind_edges<3>(); }
+
 }  // namespace
 }  // namespace cellwalk

@@ -175,7 +175,11 @@ template <int D>
 void Side_choice<D>::commit() {
   // They were found while ends were where they are now.
   std::vector<std::pair<std::uint32_t, Chain>> chains;
-  for (const auto& [e, edge] : edges_) chains.emplace_back(e, chain(e));
+  std::vector<Cell> first_cells;
+  for (const auto& [e, edge] : edges_) {
+    chains.emplace_back(e, chain(e));
+    first_cells.push_back(groups_.particle({group_, groups_.all()[group_].edges[e][0]}).cell);
+  }
   for (const auto& [v, vertex] : vertices_) {
     const Particle<D>& side = vertex.sides[chosen(vertex)];
     Particle<D>& now = groups_.particle({group_, v});
@@ -183,9 +187,12 @@ void Side_choice<D>::commit() {
     now = side;
     groups_.enter_vertex({group_, v});
   }
-  for (auto& [e, chain] : chains) {
+  for (std::size_t k = 0; k < chains.size(); ++k) {
+    auto& [e, chain] = chains[k];
     Chain& now = groups_.chain({group_, e});
-    if (now == chain) continue;
+    // An edge in one cell has no facets, also if it is in another one now.
+    if (now == chain && groups_.particle({group_, groups_.all()[group_].edges[e][0]}).cell == first_cells[k])
+      continue;
     now = std::move(chain);
     groups_.enter_edge({group_, e}, {});
   }
