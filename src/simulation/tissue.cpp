@@ -4,6 +4,7 @@
 #include <cellwalk/simulation/tissue.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,22 @@ double volume(const std::array<Point<3>, 4>& x, std::array<Vector<3>, 4>& gradie
   return dot(a, gradients[1]);
 }
 
+void check(bool holds, const char* what) {
+  if (!holds) throw Error(Error_code::usage, std::string("tissue: the ") + what);
+}
+
+const Tissue_material& checked(const Tissue_material& material) {
+  const auto is_share = [](double x) { return 0 <= x && x <= 1; };
+  check(material.compliance >= 0 && std::isfinite(material.compliance),
+        "compliance must be a finite number of at least 0");
+  check(is_share(material.incompressible), "share \"incompressible\" must lie in [0,1]");
+  check(0 <= material.tension && material.tension < 1, "tension must be at least 0 and less than 1");
+  check(is_share(material.damping), "damping must lie in [0,1]");
+  check(is_share(material.yield), "yield must lie in [0,1]");
+  check(material.sweeps > 0, "sweeps must be at least 1");
+  return material;
+}
+
 template <int D>
 std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners_of(const Cell_view<D>& cell) {
   std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners;
@@ -49,7 +66,7 @@ template <int D>
 Tissue<D>::Tissue(const Snapshot<D>& snapshot, const Tissue_material& material,
                   std::span<const Scene_shape<D>> fixed)
     : snapshot_(&snapshot),
-      material_(material),
+      material_(checked(material)),
       fixed_(fixed.begin(), fixed.end()),
       rest_(snapshot.points().begin(), snapshot.points().end()),
       before_(rest_),
@@ -59,6 +76,9 @@ Tissue<D>::Tissue(const Snapshot<D>& snapshot, const Tissue_material& material,
   for (const Point<D>& x : rest_) box.extend(x);
   least_move_ = least_share_of_move * length(box.high - box.low);
   find_constraints();
+  if (simplices_.empty())
+    throw Error(Error_code::input,
+                "there is no solid cell, of which tissue is made: give the environment some");
   find_followers();
 }
 
@@ -97,9 +117,6 @@ void Tissue<D>::find_constraints() {
       }
     }
   }
-  if (simplices_.empty())
-    throw Error(Error_code::input,
-                "there is no solid cell, of which tissue is made: give the environment some");
   const std::span<const Scene_shape<D>> fixed(fixed_);
   for (std::uint32_t v = 0; v < rest_.size(); ++v)
     if (is_held[v] || detail::distance<D>(fixed, rest_[v]) == 0) may_move_[v] = 0;
@@ -198,6 +215,8 @@ void Tissue<D>::drag_followers() {
 template <int D>
 std::vector<Vertex_move<D>> Tissue<D>::targets(const World<D>& world) {
   const auto points = snapshot_->points();
+  if (points.size() != rest_.size())
+    throw Error(Error_code::usage, "points were added since this Tissue was made: follow_changes() first");
   before_.assign(points.begin(), points.end());
   wanted_ = before_;
   for (std::size_t v = 0; v < wanted_.size(); ++v)
@@ -228,7 +247,9 @@ void Tissue<D>::follow() {
 template <int D>
 void Tissue<D>::follow_changes(std::span<const Cut_point> points) {
   const std::size_t count = snapshot_->points().size();
-  rest_.resize(count);
+  // Where nothing else is known of new points.
+  for (auto v = static_cast<std::uint32_t>(rest_.size()); v < count; ++v)
+    rest_.push_back(snapshot_->point(v));
   before_.resize(count);
   wanted_.resize(count);
   velocities_.resize(count);
@@ -246,7 +267,8 @@ template <int D>
 double Tissue<D>::largest_stretch() const {
   double result = 0;
   for (const auto& [ends, rest] : edges_)
-    result = std::max(result, length(snapshot_->point(ends[1]) - snapshot_->point(ends[0])) / rest);
+    if (rest > 0)
+      result = std::max(result, length(snapshot_->point(ends[1]) - snapshot_->point(ends[0])) / rest);
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace cellwalk {
 template <int D>
 void World<D>::check_epoch() const {
@@ -51,8 +53,20 @@ template <int D>
 std::vector<Change_outcome> World<D>::change(Environment<D>& environment, Change_schedule<D>& schedule,
                                              Reshape_counts& counts) {
   if (!schedule.is_due(steps_done_ + 1)) return {};
-  return reshape(environment, {}, counts,
-                 [&](Reshaping<D>& open) { return schedule.apply(*snapshot_, open, steps_done_ + 1); });
+  auto made = reshape(environment, {}, counts,
+                      [&](Reshaping<D>& open) { return schedule.apply(*snapshot_, open, steps_done_ + 1); });
+  if (std::any_of(made.begin(), made.end(), [](const Change_outcome& one) { return one.cut.has_value(); }))
+    forget_cells();
+  return made;
+}
+
+/// Cells were replaced: those of contacts may be gone, or their names those of others.
+template <int D>
+void World<D>::forget_cells() {
+  for (Run_contact<D>& met : contacts_) {
+    met.contact.facet = Half_facet::none;
+    met.contact.cell = Cell::none;
+  }
 }
 
 template <int D>

@@ -24,25 +24,30 @@ namespace cellwalk {
 template <int D>
 class Tissue {
  public:
-  /// Reads where the points are now; they are at rest there under the tension of the material.
+  /// Reads where the points are now: without tension they are at rest there, with tension edges are longer
+  /// than they would be.
   /// \param fixed vertices in these stay
-  /// \throw Error(input) if there is no solid cell, or one that is not a simplex
+  /// \throw Error(usage) for a material whose numbers are not as Tissue_material says; Error(input) if there is
+  ///        no solid cell, or one that is not a simplex
   /// Cost: that of sorting the edges.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material, std::span<const Scene_shape<D>> fixed);
 
   /// Where points are to be after a step: what bodies pressed in the last step of a world gives way, the rest
   /// follows. Ascending; points that hardly move are left out.
+  /// \pre follow_changes() was called after changes
+  /// \throw Error(usage) if it was not, and there are new points
   /// Cost: about 50 ns for each sweep over an edge or a cell.
   std::vector<Vertex_move<D>> targets(const World<D>& world);
   /// Takes note of where the points got.
   void follow();
   /// Goes on with the cells as they are now, after some were cut, excavated or filled: what is solid only now
-  /// is at rest where it was when the tissue was made.
-  /// \param points that cuts made, in order
+  /// is at rest where it was when the tissue was made. Where no solid cell is left, nothing moves.
+  /// \param points that cuts made, in order; new points that are not among them are at rest where they are
   /// Cost: that of making it.
   void follow_changes(std::span<const Cut_point> points);
 
-  /// The greatest ratio of an edge to what it would be without tension.
+  /// The greatest ratio of an edge to what it would be without tension. Edges of no length at rest do not
+  /// count: those across a cut that was filled.
   double largest_stretch() const;
   std::size_t edge_count() const { return edges_.size(); }
 

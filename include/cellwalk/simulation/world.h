@@ -79,7 +79,7 @@ class World {
   /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
-  /// met.
+  /// met. Once cells were replaced, as by a cut, they name no facet and no cell any more.
   std::span<const Run_contact<D>> contacts() const { return contacts_; }
   /// The counts of the walks of particles.
   const Walk_counts& counts() const { return counts_; }
@@ -104,6 +104,7 @@ class World {
   void record_contacts(std::size_t particle);
 
   void check_epoch() const;
+  void forget_cells();
   template <class Use>
   auto reshape(Environment<D>& environment, Reshape_options options, Reshape_counts& counts, const Use& use);
 
