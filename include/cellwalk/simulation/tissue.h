@@ -27,8 +27,8 @@ class Tissue {
   /// Reads where the points are now: without tension they are at rest there, with tension edges are longer
   /// than they would be.
   /// \param fixed vertices in these stay
-  /// \throw Error(usage) for a material whose numbers are not as Tissue_material says; Error(input) if there is
-  ///        no solid cell, or one that is not a simplex
+  /// \throw Error(usage) for a material whose numbers are not as Tissue_material says; Error(input) if there
+  ///        is no solid cell, or one that is not a simplex
   /// Cost: that of sorting the edges.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material, std::span<const Scene_shape<D>> fixed);
 
