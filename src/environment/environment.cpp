@@ -123,7 +123,7 @@ void Environment<D>::thaw() {
   const Cell_soup<D> cells = soup_of(snapshot_, &names);
   std::vector<std::uint32_t> facet_of(snapshot_.half_facet_slots(), no_facet);
   for (std::uint32_t f = 0; f < names.size(); ++f) facet_of[to_index(names[f])] = f;
-  // Not by points: cells that meet in a slit stay apart.
+  // From the links of the snapshot, which are what walks go by.
   Gluing gluing;
   gluing.opposite.resize(names.size());
   for_each_parallel(names.size(), [&](std::size_t f) {

@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
-
-#include "scene_shape.h"
 
 namespace cellwalk {
 namespace {
@@ -17,31 +14,6 @@ namespace {
 constexpr std::array change_names{"open", "close", "excavate", "fill", "cut"};
 
 bool is_of_facets(Change_kind kind) { return kind == Change_kind::open || kind == Change_kind::close; }
-
-template <int D>
-Point<D> mean_of_cell(const Cell_view<D>& cell) {
-  Vector<D> sum{};
-  for (std::size_t v = 0; v < cell.vertex_count(); ++v) sum = sum + (cell.point(v) - Point<D>{});
-  return Point<D>{} + (1.0 / static_cast<double>(cell.vertex_count())) * sum;
-}
-
-template <int D>
-Point<D> mean_of_facet(const Cell_view<D>& cell, std::size_t facet) {
-  Vector<D> sum{};
-  const auto loop = cell.loop(facet);
-  for (const std::uint16_t v : loop) sum = sum + (cell.point(v) - Point<D>{});
-  return Point<D>{} + (1.0 / static_cast<double>(loop.size())) * sum;
-}
-
-template <int D>
-bool is_in_shape(const Environment_part<D>& part, const Point<D>& x) {
-  return !part.shape || detail::distance<D>(std::span<const Scene_shape<D>>(&*part.shape, 1), x) == 0;
-}
-
-template <int D>
-bool is_in_front(const Scene_plane<D>& plane, const Point<D>& x) {
-  return dot(x - plane.point, plane.normal) > 0;
-}
 
 /// True if a facet, whose cells are both free, is to become a wall or passable.
 template <int D>
@@ -97,28 +69,6 @@ void sort_once(std::vector<Name>& names) {
 }
 
 }  // namespace
-
-template <int D>
-Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part) {
-  Selection<D> result;
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
-    const Cell cell = snapshot.cell(i);
-    if (cell == Cell::none) continue;
-    const Cell_view<D> view = snapshot.view(cell);
-    const Point<D> mean = mean_of_cell(view);
-    const bool is_front = part.plane && is_in_front(*part.plane, mean);
-    if (is_in_shape(part, mean) && (!part.plane || is_front)) result.cells.push_back(cell);
-    for (std::size_t f = 0; f < view.facet_count(); ++f) {
-      const Half_facet facet = snapshot.half_facet(cell, f);
-      const Cell other = snapshot.neighbour(facet);
-      if (other == Cell::none || snapshot.index(other) < i) continue;
-      if (!is_in_shape(part, mean_of_facet(view, f))) continue;
-      if (part.plane && is_front == is_in_front(*part.plane, mean_of_cell(snapshot.view(other)))) continue;
-      result.facets.push_back(facet);
-    }
-  }
-  return result;
-}
 
 template <int D>
 Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes) {
@@ -224,8 +174,6 @@ Selection<D> Change_schedule<D>::changing(const Snapshot<D>& snapshot) const {
   return result;
 }
 
-template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
-template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
 template class Change_schedule<2>;
 template class Change_schedule<3>;
 

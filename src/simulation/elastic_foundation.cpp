@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/simulation/elastic_foundation.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "contact_yield.h"
-#include "scene_shape.h"
 
 namespace cellwalk {
 namespace {

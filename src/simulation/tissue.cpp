@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/kernel/box.h>
+#include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/tissue.h>
 
@@ -9,7 +10,6 @@
 #include <utility>
 
 #include "contact_yield.h"
-#include "scene_shape.h"
 
 namespace cellwalk {
 namespace {

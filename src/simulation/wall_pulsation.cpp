@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include "scene_shape.h"
 #include "star_smoother.h"
 
 namespace cellwalk {

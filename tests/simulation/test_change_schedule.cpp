@@ -32,38 +32,6 @@ std::vector<std::uint32_t> indices(const Snapshot<2>& snapshot, const std::vecto
   return result;
 }
 
-TEST(Select, CellsByTheirMeansAndFacetsByTheirs) {
-  const auto environment = squares();
-  const Snapshot<2>& snapshot = environment.snapshot();
-  Environment_part<2> part;
-  part.shape = Scene_box<2>{{0, 0}, {2, 1}};
-  const Selection<2> selection = select(snapshot, part);
-  EXPECT_EQ(indices(snapshot, selection.cells), (std::vector<std::uint32_t>{0, 1}));
-  // Between cells 0 and 1, above each of them (their means lie on the side of the box), and at x = 2; those
-  // of the boundary are none.
-  EXPECT_EQ(selection.facets.size(), 4u);
-  EXPECT_EQ(indices(snapshot, select(snapshot, in_ball({2.5, 1.5}, 0.4)).cells),
-            std::vector<std::uint32_t>{6});
-  EXPECT_EQ(select(snapshot, in_ball({2.5, 1.5}, 0.5)).facets.size(), 4u);
-  EXPECT_TRUE(select(snapshot, in_ball({9, 9}, 1)).cells.empty());
-}
-
-TEST(Select, FacetsBetweenTheSidesOfAPlane) {
-  const auto environment = squares();
-  const Snapshot<2>& snapshot = environment.snapshot();
-  Environment_part<2> part;
-  part.plane = Scene_plane<2>{{1.9, 0}, {2, 0}};
-  const Selection<2> all = select(snapshot, part);
-  EXPECT_EQ(all.facets.size(), 3u);
-  for (const Half_facet f : all.facets)
-    for (const std::uint32_t v : snapshot.loop(f)) EXPECT_EQ(snapshot.point(v)[0], 2);
-  EXPECT_EQ(all.cells.size(), 6u) << "those in front of it";
-  part.shape = Scene_ball<2>{{2, 0.5}, 0.25};
-  EXPECT_EQ(select(snapshot, part).facets.size(), 1u);
-  part.plane->normal = {-2, 0};
-  EXPECT_EQ(select(snapshot, part).facets.size(), 1u) << "whichever side is its front";
-}
-
 std::vector<Change_outcome> apply(Environment<2>& environment, Change_schedule<2>& schedule,
                                   std::uint32_t step, const Residents<2>& residents = {}) {
   Reshaping<2> reshaping(environment, residents);

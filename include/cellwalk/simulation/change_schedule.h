@@ -3,6 +3,7 @@
 #ifndef CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 #define CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 
+#include <cellwalk/environment/selection.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/records/environment_change.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -15,19 +16,6 @@
 #include <vector>
 
 namespace cellwalk {
-
-/// Facets between two cells, each seen from one of them, and cells; each once.
-template <int D>
-struct Selection {
-  std::vector<Half_facet> facets;
-  std::vector<Cell> cells;
-};
-
-/// The facets and cells that belong to a part of an environment. Facets of the boundary belong to none.
-/// \pre part.group is empty
-/// Cost: linear.
-template <int D>
-Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part);
 
 /// What came of a change of one facet or cell, or of a cut.
 struct Change_outcome {
@@ -86,8 +74,6 @@ class Change_schedule {
   std::vector<Planned> planned_;
 };
 
-extern template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
-extern template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
 extern template class Change_schedule<2>;
 extern template class Change_schedule<3>;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Distances from parts of a scene.
-#ifndef CELLWALK_SIMULATION_SCENE_SHAPE_H
-#define CELLWALK_SIMULATION_SCENE_SHAPE_H
+#ifndef CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
+#define CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 
-#include <cellwalk/records/scene.h>
+#include <cellwalk/records/environment_change.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,4 +36,4 @@ double distance(std::span<const Scene_shape<D>> shapes, const Point<D>& x) {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_SIMULATION_SCENE_SHAPE_H
+#endif  // CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H

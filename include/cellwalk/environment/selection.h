@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Parts of an environment: the facets and cells that lie somewhere.
+#ifndef CELLWALK_ENVIRONMENT_SELECTION_H
+#define CELLWALK_ENVIRONMENT_SELECTION_H
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/records/environment_change.h>
+
+#include <vector>
+
+namespace cellwalk {
+
+/// Facets between two cells, each seen from one of them, and cells; each once.
+template <int D>
+struct Selection {
+  std::vector<Half_facet> facets;
+  std::vector<Cell> cells;
+};
+
+/// The facets and cells that belong to a part of an environment, in the order of the cells. Facets of the
+/// boundary belong to none.
+/// \pre part.group is empty
+/// Cost: linear.
+template <int D>
+Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part);
+
+/// The mean of the vertices of a facet or cell, rounded: the place that select() goes by.
+/// \pre it exists
+template <int D>
+Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet);
+template <int D>
+Point<D> mean_of(const Snapshot<D>& snapshot, Cell cell);
+
+extern template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
+extern template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
+extern template Point<2> mean_of(const Snapshot<2>&, Half_facet);
+extern template Point<3> mean_of(const Snapshot<3>&, Half_facet);
+extern template Point<2> mean_of(const Snapshot<2>&, Cell);
+extern template Point<3> mean_of(const Snapshot<3>&, Cell);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_SELECTION_H
