@@ -99,6 +99,13 @@ void thaw_environment(benchmark::State& state) {
   report(state, soup.cell_count(), 0);
 }
 
+void compact_environment(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  Environment<3> environment = Environment<3>::build(soup);
+  for (auto _ : state) benchmark::DoNotOptimize(environment.compact());
+  report(state, soup.cell_count(), 0);
+}
+
 void glue_soup(benchmark::State& state) {
   const Cell_soup<3> soup = soup_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(glue(soup));
@@ -135,6 +142,7 @@ BENCHMARK(build_shuffled_environment)->Apply(sizes);
 BENCHMARK(build_frozen_environment)->Apply(sizes);
 BENCHMARK(build_shuffled_frozen_environment)->Apply(sizes);
 BENCHMARK(thaw_environment)->Apply(sizes);
+BENCHMARK(compact_environment)->Apply(sizes);
 BENCHMARK(glue_soup)->Apply(sizes);
 BENCHMARK(compile_snapshot)->Apply(sizes);
 BENCHMARK(certify_snapshot)->Apply(sizes);

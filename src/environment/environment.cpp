@@ -13,6 +13,7 @@
 #include "environment/map/map_matches_snapshot.h"
 #include "environment/soup/parallel.h"
 #include "prepare_soup.h"
+#include "soup_of.h"
 
 namespace cellwalk {
 namespace {
@@ -34,35 +35,6 @@ Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_repo
   soup = split(std::move(soup), report.split, &origin,
                options.simplicial ? Cells_to_split::all_but_simplices : Cells_to_split::invalid);
   if (report.split.cells_split) report.origin = std::move(origin);
-  return soup;
-}
-
-/// The cells of a snapshot in the order of their indices.
-/// \param names if not null, receives the half-facet of each facet of the soup
-template <int D>
-Cell_soup<D> soup_of(const Snapshot<D>& snapshot, std::vector<Half_facet>* names) {
-  Cell_soup<D> soup;
-  soup.points.assign(snapshot.points().begin(), snapshot.points().end());
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
-    const Cell c = snapshot.cell(i);
-    if (c == Cell::none) continue;
-    const std::size_t n = snapshot.facet_count(c);
-    std::size_t facet = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Half_facet f = snapshot.half_facet(c, facet);
-      const std::vector<std::uint32_t> loop = snapshot.loop(f);
-      soup.add_facet(loop, snapshot.is_impassable(f));
-      if (names) names->push_back(f);
-      ++facet;
-      if constexpr (D == 2) {
-        // The snapshot may store the edges of a cell in any order; a soup stores them in order around the
-        // cell.
-        for (std::size_t j = 0; j < n; ++j)
-          if (snapshot.loop(snapshot.half_facet(c, j))[0] == loop[1]) facet = j;
-      }
-    }
-    soup.end_cell(snapshot.is_solid(c));
-  }
   return soup;
 }
 
@@ -121,16 +93,7 @@ void Environment<D>::thaw() {
   if (storage_) return;
   std::vector<Half_facet> names;
   const Cell_soup<D> cells = soup_of(snapshot_, &names);
-  std::vector<std::uint32_t> facet_of(snapshot_.half_facet_slots(), no_facet);
-  for (std::uint32_t f = 0; f < names.size(); ++f) facet_of[to_index(names[f])] = f;
-  // From the links of the snapshot, which are what walks go by.
-  Gluing gluing;
-  gluing.opposite.resize(names.size());
-  for_each_parallel(names.size(), [&](std::size_t f) {
-    const Half_facet other = snapshot_.opposite(names[f]);
-    gluing.opposite[f] = other == Half_facet::none ? no_facet : facet_of[to_index(other)];
-  });
-  std::unique_ptr<Map_storage<D>> storage = build_map(cells, gluing);
+  std::unique_ptr<Map_storage<D>> storage = build_map(cells, gluing_of(snapshot_, names));
   const std::vector<Dart<D>> darts = storage->dart_of_half_facet;
   assign_half_facets<D>(*storage, darts, names, snapshot_.half_facet_slots());
   storage->cell_slots = snapshot_.cell_slots();

@@ -56,6 +56,15 @@ struct Build_report {
   Certificate certificate;  ///< counts, volumes, components, walls
 };
 
+/// What became of the names of an environment that was compacted.
+struct Compaction {
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  std::vector<std::uint32_t> points;    ///< by the old index; `none` for those that no cell had
+  std::vector<Cell> cells;              ///< by the old name; Cell::none for names that no cell had
+  std::vector<Half_facet> half_facets;  ///< by the old name; Half_facet::none for slots without a facet
+};
+
 /// A certified cell complex. Cells are identified by Snapshot's Cell. Their indices are those of the soup
 /// (after a split, of the split soup); point indices are those of the soup without the dropped points.
 template <int D>
@@ -90,6 +99,15 @@ class Environment {
   /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
   /// Cost: about 1 us a tetrahedron; memory 679 bytes a tetrahedron.
   void thaw();
+
+  /// Gives back the memory that edits left behind, and puts cells that edits added beside their neighbours, as
+  /// if the environment had just been built: all indices and names in use, in order. Cells and points keep
+  /// their order; geometry and walls stay. For long runs of edits: without it, later edits reuse what earlier
+  /// ones left. With or without the map. It is an edit: bodies go on after Body::register_again(), particles
+  /// are located again, and a Locator is made anew.
+  /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
+  /// Cost: linear, about that of building; for a moment, the memory of both.
+  Compaction compact();
 
   /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
   /// \throw Error(usage) if there is no such point

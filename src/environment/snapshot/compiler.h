@@ -42,6 +42,8 @@ class Snapshot_compiler {
   void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
+  /// Goes on after the epochs of the snapshot that this one takes the place of.
+  void follow_epochs(const Snapshot<D>& before) { s_.geometry_epoch_ = s_.epoch_ = before.epoch() + 1; }
   /// Makes certificates of cells anew whose points are where they were when these were withdrawn: all is as
   /// it was, and no epoch rises.
   void certify_again(std::span<const Cell> cells) {

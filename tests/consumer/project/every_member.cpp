@@ -50,10 +50,10 @@ void keep_environments() {
       &Locator<D>::particle_at, &Locator<D>::particles_at);
 
   keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
-       &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::thaw, &Environment<D>::soup,
-       &Environment<D>::set_impassable, &Environment<D>::excavate, &Environment<D>::fill,
-       &Environment<D>::move_vertex, &Environment<D>::insert_point, &Environment<D>::certify,
-       &Environment<D>::cells_around);
+       &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::thaw, &Environment<D>::compact,
+       &Environment<D>::soup, &Environment<D>::set_impassable, &Environment<D>::excavate,
+       &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
+       &Environment<D>::certify, &Environment<D>::cells_around);
 
   keep(
       +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
