@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Cuts of solid cells along blades, with what stands in the free ones.
 #include <cellwalk/body/body.h>
-#include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -14,80 +13,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "reshape/tissue_block.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk {
 namespace {
 
-/// A block of simplices, `size` along each axis. Cells below a height along the last axis are solid.
-template <int D>
-Environment<D> tissue(std::uint32_t size, double height, double jitter = 0.15, std::uint64_t seed = 1) {
-  Simplex_grid_options<D> options;
-  options.cells.fill(size);
-  options.jitter = jitter;
-  options.seed = seed;
-  Cell_soup<D> soup;
-  if constexpr (D == 2)
-    soup = triangle_grid(options);
-  else
-    soup = tetrahedral_grid(options);
-  for (std::size_t c = 0; c < soup.cell_count(); ++c) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = soup.facet_begin[soup.cell_begin[c]]; i < soup.facet_begin[soup.cell_begin[c + 1]];
-         ++i) {
-      sum += soup.points[soup.vertices[i]][D - 1];
-      ++count;
-    }
-    soup.solid[c] = sum < height * static_cast<double>(count);
-  }
-  return Environment<D>::build(std::move(soup));
-}
-
-/// The number of parts of solid that hang together through facets.
-template <int D>
-std::size_t solid_parts(const Snapshot<D>& snapshot) {
-  std::vector<char> is_seen(snapshot.cell_slots(), 0);
-  std::size_t parts = 0;
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
-    const Cell first = snapshot.cell(i);
-    if (first == Cell::none || !snapshot.is_solid(first) || is_seen[i]) continue;
-    ++parts;
-    std::vector<Cell> stack{first};
-    is_seen[i] = 1;
-    while (!stack.empty()) {
-      const Cell c = stack.back();
-      stack.pop_back();
-      for (std::size_t f = 0; f < snapshot.facet_count(c); ++f) {
-        const Cell other = snapshot.neighbour(snapshot.half_facet(c, f));
-        if (other == Cell::none || !snapshot.is_solid(other)) continue;
-        char& seen = is_seen[snapshot.index(other)];
-        if (!std::exchange(seen, 1)) stack.push_back(other);
-      }
-    }
-  }
-  return parts;
-}
-
-/// Places of free space.
-template <int D>
-std::vector<Point<D>> free_places(const Snapshot<D>& snapshot, std::size_t count) {
-  const Locator<D> locator(snapshot);
-  Random random(7);
-  std::vector<Point<D>> places;
-  while (places.size() < count) {
-    Point<D> x;
-    for (double& c : x) c = random.real(0, 10);
-    if (locator.locate(x).status == Location_status::free) places.push_back(x);
-  }
-  return places;
-}
+using test::solid_parts, test::tissue;
 
 template <int D>
 Cut_report cut(Environment<D>& environment, const Blade<D>& blade, const Residents<D>& residents = {},
                double opening = 0.02) {
   const Certificate before = environment.certify();
-  const std::vector<Point<D>> places = free_places(environment.snapshot(), 50);
+  const std::vector<Point<D>> places = test::free_places(environment.snapshot(), 50, 10);
   Reshaping<D> reshaping(environment, residents);
   const Cut_report report = reshaping.cut(blade, {.opening = opening});
   reshaping.close();
@@ -130,7 +68,7 @@ TEST(Cut, EndsInsideTissue) {
   EXPECT_EQ(report.rim, 1u);
   EXPECT_EQ(report.opened + report.rim, report.facets + 1);
   EXPECT_EQ(environment.certify().components, 1u);
-  EXPECT_EQ(solid_parts(environment.snapshot()), 1u);
+  EXPECT_EQ(solid_parts(environment.snapshot()).size(), 1u);
 }
 
 TEST(Cut, FollowsABentBlade) {
@@ -146,7 +84,7 @@ TEST(Cut, FollowsABentBlade) {
   EXPECT_EQ(report.refused(), 0u);
   EXPECT_EQ(report.held, 0u);
   EXPECT_EQ(report.rim, 0u) << "both ends lie in free space";
-  EXPECT_EQ(solid_parts(environment.snapshot()), 2u) << "a piece is cut out";
+  EXPECT_EQ(solid_parts(environment.snapshot()).size(), 2u) << "a piece is cut out";
 }
 
 TEST(Cut, PassesThroughVerticesAndAlongFacets) {
@@ -198,7 +136,7 @@ TEST(Cut, OfASweptBladeGoesAround) {
   const Cut_report report = cut(environment, swept_blade(arc, {0, 0, -3}));
   EXPECT_EQ(report.refused(), 0u);
   EXPECT_GT(report.opened, 30u);
-  EXPECT_EQ(solid_parts(environment.snapshot()), 1u) << "it hangs together below";
+  EXPECT_EQ(solid_parts(environment.snapshot()).size(), 1u) << "it hangs together below";
 }
 
 /// What a cut parted goes apart, and a particle falls into the gap.

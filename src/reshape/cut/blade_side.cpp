@@ -15,12 +15,17 @@ namespace cellwalk {
 namespace {
 
 template <int D>
-void check_points(std::span<const Point<D>> points, std::size_t least) {
-  if (points.size() < least)
-    throw Error(Error_code::input, "a blade has at least " + std::to_string(least) + " points");
+void check_finite(std::span<const Point<D>> points) {
   for (const Point<D>& x : points)
     if (!is_finite(x))
       throw Error(Error_code::input, "a point of the blade is not finite: correct its coordinates");
+}
+
+template <int D>
+void check_points(std::span<const Point<D>> points, std::size_t least) {
+  if (points.size() < least)
+    throw Error(Error_code::input, "a blade has at least " + std::to_string(least) + " points");
+  check_finite<D>(points);
 }
 
 }  // namespace
@@ -133,6 +138,7 @@ Vector<3> normal_of(const std::array<Point<3>, 3>& p) { return unit_normal(p[0],
 
 template <int D>
 Blade_side<D>::Blade_side(const Blade<D>& blade) {
+  check_finite<D>(blade.points);
   for (const auto& piece : blade.pieces) {
     Corners corners;
     Box<D> box;

@@ -16,7 +16,7 @@ namespace cellwalk::detail {
 template <int D>
 class Blade_side {
  public:
-  /// \throw Error(input) for a piece that names no point, or has no extent
+  /// \throw Error(input) for a point that is not finite, and a piece that names no point, or has no extent
   explicit Blade_side(const Blade<D>& blade);
 
   const Box<D>& box() const { return box_; }
