@@ -168,8 +168,8 @@ Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& option
     throw Error(Error_code::input, "a cut is opened by a positive length");
   detail::Slitter<D> slitter(state_->environment, tissue, state_->toggle, blade, options);
   detail::Cutter<D> cutter(state_->environment, tissue, blade, options);
-  slitter.prepare();
   cutter.prepare();
+  slitter.prepare();
   return cutter.run(slitter.run());
 }
 

@@ -15,7 +15,7 @@
 namespace cellwalk {
 namespace {
 
-using test::blade, test::tissue;
+using test::blade, test::solid_parts, test::tissue;
 
 template <int D>
 std::vector<Point<D>> straight_blade(double x = 2.1) {
@@ -65,6 +65,90 @@ void refuse_points_that_are_not_finite() {
 
 TEST(CutBlades, MustBeFiniteInThePlane) { refuse_points_that_are_not_finite<2>(); }
 TEST(CutBlades, MustBeFiniteInSpace) { refuse_points_that_are_not_finite<3>(); }
+
+/// Blades as long as one likes cut as short ones do, until doubles cannot tell any more which piece is near.
+template <int D>
+void cut_by_long_blades() {
+  std::size_t split = 0;
+  for (const double more : {0.0, 10.0, 1e3, 1e6, 1e7, 1e12, 1e100, 1e155, 1e200, 1e300, 1.7e308}) {
+    auto environment = block<D>(0);
+    Blade<D> by = blade<D>(straight_blade<D>(2.3));
+    for (Point<D>& x : by.points)
+      for (std::size_t k = 1; k < D; ++k) x[k] += x[k] > 0 ? more : -more;
+    if (more > 1e6) {
+      expect_refused<D>(environment, by, {}, Error_code::input,
+                        "a point of the blade lies too far off: keep it within 2^20 times the size of the "
+                        "environment");
+      continue;
+    }
+    Reshaping<D> reshaping(environment, {});
+    const Cut_report report = reshaping.cut(by);
+    reshaping.close();
+    EXPECT_NO_THROW(environment.certify());
+    EXPECT_EQ(report.refused(), 0u) << more;
+    EXPECT_EQ(report.held, 0u) << more;
+    EXPECT_GT(report.opened, 0u) << more;
+    if (more == 0) split = report.split;
+    EXPECT_EQ(report.split, split) << more;
+    if (D == 2) {
+      EXPECT_EQ(solid_parts(environment.snapshot()).size(), 2u) << more;
+    }
+  }
+}
+
+TEST(CutBlades, MayBeLongInThePlane) { cut_by_long_blades<2>(); }
+TEST(CutBlades, MayBeLongInSpace) { cut_by_long_blades<3>(); }
+
+/// A blade of next to no length passes at most the edge on which it lies.
+TEST(CutBlades, MayBeTiny) {
+  for (const double size : {1e-3, 1e-12, 1e-160, 5e-324}) {
+    auto environment = tissue<2>(4, 3, 0);
+    Reshaping<2> reshaping(environment, {});
+    // About the edge from (0,1) to (0,2) at a quarter, where nothing is rounded but the point itself.
+    const Cut_report report = reshaping.cut(blade<2>({{-size, 1.25}, {size, 1.25}}));
+    EXPECT_LE(report.edges, 1u) << size;
+    EXPECT_EQ(report.opened, 0u) << size;
+    reshaping.close();
+    EXPECT_NO_THROW(environment.certify());
+  }
+}
+
+/// All lengths by the same power of two: the same cut.
+template <int D>
+void cut_at_any_scale() {
+  Cut_report first;
+  for (const int exponent : {0, -20, 20, -90, 90, -220, 220}) {
+    const double scale = std::ldexp(1.0, exponent);
+    Simplex_grid_options<D> options;
+    options.cells.fill(4);
+    options.jitter = 0.15;
+    Cell_soup<D> soup;
+    if constexpr (D == 2)
+      soup = triangle_grid(options);
+    else
+      soup = tetrahedral_grid(options);
+    test::fill_below(soup, 3);
+    for (Point<D>& x : soup.points) x = scale * x;
+    auto environment = Environment<D>::build(std::move(soup));
+    std::vector<Point<D>> points = straight_blade<D>();
+    points[0][0] += 0.3;
+    for (Point<D>& x : points) x = scale * x;
+    Blade<D> by = blade<D>(points);
+    Reshaping<D> reshaping(environment, {});
+    const Cut_report report = reshaping.cut(by, {.opening = 0.02 * scale});
+    reshaping.close();
+    EXPECT_NO_THROW(environment.certify());
+    if (exponent == 0) first = report;
+    EXPECT_GT(report.opened, 0u);
+    EXPECT_EQ(report.split, first.split) << exponent;
+    EXPECT_EQ(report.facets, first.facets) << exponent;
+    EXPECT_EQ(report.opened, first.opened) << exponent;
+    EXPECT_EQ(report.held, first.held) << exponent;
+  }
+}
+
+TEST(CutBlades, CutAtAnyScaleInThePlane) { cut_at_any_scale<2>(); }
+TEST(CutBlades, CutAtAnyScaleInSpace) { cut_at_any_scale<3>(); }
 
 TEST(CutBlades, MustBeOpenedByALength) {
   auto environment = block<2>();

@@ -187,7 +187,7 @@ class Reshaping {
   /// flat or inverted, if a solid cell has both points or no free one, if the boundary has the point, and if
   /// anything is registered in the free cells around it, or a face of a body lies near; held_by has all that.
   /// Later new points may get the index of the point; those before keep theirs.
-  /// 	hrow Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
+  /// \throw Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
   ///        a simplex, in a frozen environment, for a particle near that is not in its cell, and after close()
   /// Degenerate cases: what lies on the border of the cells around the point counts if it is registered in
   /// one of them.
@@ -200,8 +200,8 @@ class Reshaping {
   /// blade, and on the boundary of the environment it stays closed. Membranes of triangles (2D: segments) are
   /// slit as wide as the opening, but where something is registered beside them. All else is never refused;
   /// where something could not be split or parted, the cut is incomplete, and the report says how much of it.
-  /// \throw Error(input) for a blade that is none, or an opening that is no positive length; Error(usage) in
-  ///        a frozen environment, for a particle near that is not in its cell, and after close()
+  /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
+  ///        Error(usage) if frozen or closed, and for a particle near that is not in its cell
   /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.
   Cut_report cut(const Blade<D>& blade, const Cut_options<D>& options = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "blade_side.h"
 
-#include <cellwalk/internal/kernel/orientation_value.h>
+#include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -74,18 +74,10 @@ int sign(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>
   return Exact::orientation(counts, a, b, c, d);
 }
 
-/// The rounded share of uv at which it passes the plane through points.
-template <class... P>
-double share_of(const auto& u, const auto& v, const P&... plane) {
-  const double at_u = determinant<double>(plane..., u).value, at_v = determinant<double>(plane..., v).value;
-  const double share = at_u / (at_u - at_v);
-  return share >= 0 && share <= 1 ? share : 0.5;
-}
-
 std::optional<double> passes_piece(const std::array<Point<2>, 2>& p, const Point<2>& u, const Point<2>& v) {
   if (sign(p[0], p[1], u) * sign(p[0], p[1], v) >= 0 || sign(u, v, p[0]) * sign(u, v, p[1]) > 0)
     return std::nullopt;
-  return share_of(u, v, p[0], p[1]);
+  return crossing_time<2>({u, v, p});
 }
 
 std::optional<double> passes_piece(const std::array<Point<3>, 3>& p, const Point<3>& u, const Point<3>& v) {
@@ -97,7 +89,7 @@ std::optional<double> passes_piece(const std::array<Point<3>, 3>& p, const Point
     high = std::max(high, s);
   }
   if (low < 0 && high > 0) return std::nullopt;
-  return share_of(u, v, p[0], p[1], p[2]);
+  return crossing_time<3>({u, v, p});
 }
 
 bool lies_on_piece(const std::array<Point<2>, 2>& p, const Point<2>& x) {
@@ -107,14 +99,13 @@ bool lies_on_piece(const std::array<Point<3>, 3>& p, const Point<3>& x) {
   return sign(p[0], p[1], p[2], x) == 0 && in_convex_polygon(p, x);
 }
 
-Point<2> nearest_on(const std::array<Point<2>, 2>& p, const Point<2>& x) {
+Point<2> nearest_on(const std::array<Point<2>, 2>& p, const Vector<2>&, const Point<2>& x) {
   const Vector<2> along = p[1] - p[0];
   return p[0] + std::clamp(dot(x - p[0], along) / dot(along, along), 0.0, 1.0) * along;
 }
 
-Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Point<3>& x) {
-  const Vector<3> normal = cross(p[1] - p[0], p[2] - p[0]);
-  const Point<3> foot = x + (-dot(x - p[0], normal) / dot(normal, normal)) * normal;
+Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Vector<3>& normal, const Point<3>& x) {
+  const Point<3> foot = x + (-dot(x - p[0], normal)) * normal;
   bool is_inside = true;
   Point<3> best = p[0];
   double least = std::numeric_limits<double>::infinity();
@@ -130,6 +121,11 @@ Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Point<3>& x) {
   }
   return is_inside ? foot : best;
 }
+
+/// In doubles, the distance of a point from a piece is off by some 2^-50 of that from the corners. Where these
+/// are not farther off than so many times the size of the environment, that is 2^-30 of this size, much less
+/// than cells are wide.
+constexpr double farthest = 0x1p20;
 
 Vector<2> normal_of(const std::array<Point<2>, 2>& p) { return unit_normal(p[0], p[1]); }
 Vector<3> normal_of(const std::array<Point<3>, 3>& p) { return unit_normal(p[0], p[1], p[2]); }
@@ -158,6 +154,19 @@ Blade_side<D>::Blade_side(const Blade<D>& blade) {
     boxes_.push_back(box);
     box_.extend(box);
   }
+}
+
+template <int D>
+void Blade_side<D>::check_reach(const Box<D>& environment) const {
+  double size = 0;
+  for (std::size_t k = 0; k < D; ++k) size = std::max(size, environment.high[k] - environment.low[k]);
+  for (const Corners& piece : pieces_)
+    for (const Point<D>& x : piece)
+      for (std::size_t k = 0; k < D; ++k)
+        if (std::max(environment.low[k] - x[k], x[k] - environment.high[k]) > farthest * size)
+          throw Error(Error_code::input,
+                      "a point of the blade lies too far off: keep it within 2^20 times the size of the "
+                      "environment");
 }
 
 template <int D>
@@ -190,7 +199,7 @@ template <int D>
 double Blade_side<D>::side(const Point<D>& x) const {
   double least = std::numeric_limits<double>::infinity(), result = 0;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const Vector<D> off = x - nearest_on(pieces_[i], x);
+    const Vector<D> off = x - nearest_on(pieces_[i], normals_[i], x);
     const double distance = length(off), height = dot(off, normals_[i]);
     constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off tells
     if (distance > (1 + tie) * least) continue;

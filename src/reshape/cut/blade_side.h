@@ -19,6 +19,9 @@ class Blade_side {
   /// \throw Error(input) for a point that is not finite, and a piece that names no point, or has no extent
   explicit Blade_side(const Blade<D>& blade);
 
+  /// \throw Error(input) for a corner of a piece that lies so far off an environment, given by its box, that
+  ///        doubles do not tell which piece is near a point
+  void check_reach(const Box<D>& environment) const;
   const Box<D>& box() const { return box_; }
   /// True if the box of a piece meets a box.
   bool may_pass(const Box<D>& box) const;

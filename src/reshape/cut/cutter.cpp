@@ -16,6 +16,8 @@ namespace {
 constexpr int most_shifts = 8;
 /// A vertex that is parted goes less far where there is no room, halved so often.
 constexpr int most_halvings = 24;
+/// A blade so near, in half sides of the frame of planes, needs no look at all points.
+constexpr double near_enough = 0x1p18;
 /// Steps towards a direction that is inside of all facets.
 constexpr int most_turns = 200;
 
@@ -35,6 +37,23 @@ Vector<D> inward_normal(const Snapshot<D>& snapshot, Half_facet facet) {
 }
 
 }  // namespace
+
+template <int D>
+void Cutter<D>::check_reach() const {
+  // All points lie in the frame, whose half side is less than twice the size of the environment.
+  const Plane_frame<D>& frame = snapshot().frame();
+  const double reach = near_enough / frame.scale;
+  bool is_near = true;
+  for (std::size_t k = 0; k < D; ++k)
+    is_near = is_near && std::abs(blade_.box().low[k] - frame.centre[k]) <= reach &&
+              std::abs(blade_.box().high[k] - frame.centre[k]) <= reach;
+  if (is_near) return;
+  const auto points = snapshot().points();
+  Box<D> box;
+  for (std::uint32_t p = 0; p < points.size(); ++p)
+    if (snapshot().is_point(p)) box.extend(points[p]);
+  blade_.check_reach(box);
+}
 
 template <int D>
 std::vector<Cell> Cutter<D>::near_cells() const {
@@ -295,6 +314,7 @@ void Cutter<D>::part() {
 
 template <int D>
 void Cutter<D>::prepare() {
+  check_reach();
   label(near_cells());
   for (const auto& [edge, share] : edges_) patch_.open_groups(edge[0], edge[1]);
 }

@@ -38,6 +38,7 @@ class Cutter {
   enum class Side : std::int8_t { back = -1, on = 0, front = 1 };
 
   const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+  void check_reach() const;
   std::vector<Cell> near_cells() const;
   void label(std::span<const Cell> near);
   void split();
