@@ -150,6 +150,31 @@ void cut_at_any_scale() {
 TEST(CutBlades, CutAtAnyScaleInThePlane) { cut_at_any_scale<2>(); }
 TEST(CutBlades, CutAtAnyScaleInSpace) { cut_at_any_scale<3>(); }
 
+/// Openings far wider than cells open as far as there is room, and far smaller ones open.
+template <int D>
+void open_at_any_width() {
+  std::size_t opened = 0;
+  for (const double opening : {0.01, 1e-9, 1.0, 50.0, 1e9, 1e100, 1.7e308}) {
+    auto environment = block<D>();
+    Reshaping<D> reshaping(environment, {});
+    const double before = environment.certify().free_volume;
+    const Cut_report report = reshaping.cut(blade<D>(straight_blade<D>()), {.opening = opening});
+    reshaping.close();
+    Certificate after;
+    ASSERT_NO_THROW(after = environment.certify()) << opening;
+    if (opened == 0) opened = report.opened;
+    EXPECT_EQ(report.opened, opened) << opening;
+    EXPECT_EQ(report.held, 0u) << opening;
+    EXPECT_GT(opened, 1u);
+    EXPECT_GT(after.free_volume, before) << opening;
+    for (const Cut_point& made : report.points)
+      EXPECT_TRUE(is_finite(environment.snapshot().point(made.point)));
+  }
+}
+
+TEST(CutBlades, OpenAtAnyWidthInThePlane) { open_at_any_width<2>(); }
+TEST(CutBlades, OpenAtAnyWidthInSpace) { open_at_any_width<3>(); }
+
 TEST(CutBlades, MustBeOpenedByALength) {
   auto environment = block<2>();
   for (const double opening : {0.0, -1.0, std::nan(""), HUGE_VAL})

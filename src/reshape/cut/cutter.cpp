@@ -270,6 +270,16 @@ Vector<D> Cutter<D>::direction(std::uint32_t vertex, std::span<const Cell> solid
   return is_inside ? unit : Vector<D>{};
 }
 
+/// The longest edge at a vertex of simplices, rounded.
+template <int D>
+double Cutter<D>::longest_edge(std::uint32_t vertex, std::span<const Cell> cells) const {
+  double longest = 0;
+  for (const Cell c : cells)
+    for (const std::uint32_t v : snapshot().view(c).vertices)
+      longest = std::max(longest, length(snapshot().point(v) - snapshot().point(vertex)));
+  return longest;
+}
+
 template <int D>
 void Cutter<D>::part(std::uint32_t vertex) {
   const auto parts = solid_parts(vertex);
@@ -284,9 +294,12 @@ void Cutter<D>::part(std::uint32_t vertex) {
     const Vector<D> into = direction(vertex, part);
     if (into == Vector<D>{}) continue;
     const Point<D> from = snapshot().point(vertex);
+    // No way that stays inside of simplices at the vertex is longer than their edges.
+    double way = options_.opening;
+    for (const double longest = longest_edge(vertex, part); way > longest;) way /= 2;
     std::string reason;
     for (int k = 0; k < most_halvings; ++k) {
-      const auto point = patch_.peel(vertex, part, from + std::ldexp(options_.opening, -k) * into, reason);
+      const auto point = patch_.peel(vertex, part, from + std::ldexp(way, -k) * into, reason);
       if (!point) continue;
       sides_[*point] = Side::front;
       report_.points.push_back({*point, {vertex, vertex}, 0});

@@ -48,6 +48,7 @@ class Cutter {
   void find_facets();
   void part();
   void part(std::uint32_t vertex);
+  double longest_edge(std::uint32_t vertex, std::span<const Cell> cells) const;
   std::vector<std::vector<Cell>> solid_parts(std::uint32_t vertex);
   bool is_held(std::uint32_t vertex);
   Side side_of(std::uint32_t vertex);
