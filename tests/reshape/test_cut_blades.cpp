@@ -188,5 +188,33 @@ TEST(CutBlades, MustBeOpenedByALength) {
                     "a piece of the blade has no extent: its corners coincide or lie in line");
 }
 
+/// A particle that is not in its cell is found before anything is split, wherever it is near the blade.
+template <int D>
+void find_strays_first() {
+  const Blade<D> by = blade<D>(straight_blade<D>(2.4));
+  for (const double off : {0.05, 3.0})
+    for (double height = 0.2; height < 3; height += 0.2) {
+      auto environment = block<D>();
+      Point<D> home;
+      home.fill(0.4);
+      home[D - 1] = 3.6;
+      Particle<D> stray = *Locator<D>(environment.snapshot()).particle_at(home);
+      stray.position.fill(2.4);
+      stray.position[0] += off;
+      stray.position[D - 1] = height;
+      const Residents<D> residents{{}, {std::span(&stray, 1)}};
+      if (off < 1) {
+        expect_refused<D>(environment, by, {}, Error_code::usage,
+                          "particle 0 of those listed does not lie in its cell: locate it again", residents);
+      } else {
+        Reshaping<D> reshaping(environment, residents);
+        EXPECT_GT(reshaping.cut(by).split, 5u) << "it is not near";
+      }
+    }
+}
+
+TEST(CutBlades, FindStraysFirstInThePlane) { find_strays_first<2>(); }
+TEST(CutBlades, FindStraysFirstInSpace) { find_strays_first<3>(); }
+
 }  // namespace
 }  // namespace cellwalk

@@ -201,7 +201,7 @@ class Reshaping {
   /// slit as wide as the opening, but where something is registered beside them. All else is never refused;
   /// where something could not be split or parted, the cut is incomplete, and the report says how much of it.
   /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
-  ///        Error(usage) if frozen or closed, and for a particle near that is not in its cell
+  ///        Error(usage) if frozen or closed, and for a particle near not in its cell; before any change
   /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.
   Cut_report cut(const Blade<D>& blade, const Cut_options<D>& options = {});
 
