@@ -291,6 +291,8 @@ void Cutter<D>::part(std::uint32_t vertex) {
     if (!std::ranges::all_of(part, [&](Cell c) { return side_of(c) == Side::front; })) continue;
     if (!has_back) continue;
     is_tried = true;
+    if (!std::ranges::all_of(part, [&](Cell c) { return snapshot().view(c).vertex_count() == D + 1; }))
+      continue;
     const Vector<D> into = direction(vertex, part);
     if (into == Vector<D>{}) continue;
     const Point<D> from = snapshot().point(vertex);
