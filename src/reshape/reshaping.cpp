@@ -143,6 +143,10 @@ Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid
         std::ranges::find(snapshot.view(c).vertices, vertex) == snapshot.view(c).vertices.end())
       throw Error(Error_code::usage, "cell " + std::to_string(to_index(c)) +
                                          " is no solid simplex with point " + std::to_string(vertex));
+  for (auto c = solid.begin(); c != solid.end(); ++c)
+    if (std::find(solid.begin(), c, *c) != c)
+      throw Error(Error_code::usage, "cell " + std::to_string(to_index(*c)) +
+                                         " is named twice: name each cell that is taken back once");
   if (solid.empty()) throw Error(Error_code::usage, "no cells are to be taken back: name those in front");
   Replacement result;
   const auto point = tissue.peel(vertex, solid, target, result.reason);

@@ -174,7 +174,7 @@ class Reshaping {
   /// Refused if a cell would be flat or inverted, also one of the gap: the target lies strictly inside of all
   /// facets at the vertex between these cells and others.
   /// \param solid simplices around the vertex, joined through facets at it
-  /// \throw Error(usage) for a cell that is not such a simplex, in a frozen environment, and after close();
+  /// \throw Error(usage) for a cell that is no such simplex or named twice, if frozen, and after close();
   ///        Error(input) for a target that is not finite
   /// Cost: some 20 us.
   Replacement peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target);
