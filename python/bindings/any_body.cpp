@@ -175,6 +175,7 @@ void Any_body::register_again() {
 
 py::dict Any_body::counts() const {
   using namespace py::literals;
+  std::visit([](const auto& world) { world.need_not_open_here(); }, *world_);
   const Body_counts done = [this] {
     const py::gil_scoped_release released;
     const std::lock_guard guard(*moving_);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include "bind_edits.h"
 #include "make_environment.h"
 #include "module.h"
 #include "motions.h"
@@ -121,14 +122,33 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
       *self.world);
 }
 
-py::array points(const py::object& self) {
-  const auto& shared = self.cast<const Shared_world&>();
+py::array points(const Shared_world& self) {
   return std::visit(
       [&]<int D>(const World<D>& world) {
-        const auto all = world.points();
-        return view_of(all.data()->data(), all.size(), D, sizeof(Point<D>), self);
+        auto shown = [&] { return typename World<D>::Looking(world).points(); }();
+        const std::vector<Point<D>>& all = *shown;
+        using Kept = std::shared_ptr<const std::vector<Point<D>>>;
+        const py::capsule owner(new Kept(std::move(shown)),
+                                [](void* kept) { delete static_cast<Kept*>(kept); });
+        return view_of(all.data()->data(), all.size(), D, sizeof(Point<D>), owner);
       },
-      *shared.world);
+      *self.world);
+}
+
+/// Facets that are walls, each once.
+template <int D>
+std::size_t wall_count(const Snapshot<D>& snapshot) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
+    const Cell cell = snapshot.cell(i);
+    if (cell == Cell::none) continue;
+    for (std::size_t k = 0; k < snapshot.facet_count(cell); ++k) {
+      const Half_facet f = Snapshot<D>::half_facet(cell, k);
+      const Cell other = snapshot.neighbour(f);
+      count += snapshot.is_impassable(f) && (other == Cell::none || to_index(other) > to_index(cell));
+    }
+  }
+  return count;
 }
 
 void save(const Shared_world& self, const py::object& path) {
@@ -165,24 +185,29 @@ void bind_environment(py::module_& module) {
           "uint32 (N,): the number of sides of walls with free space at the point; 1 off membranes.")
       .def("__len__", [](const Locations& self) { return self.status.size(); });
 
-  py::class_<Shared_world> environment(module, "Environment",
-                                       "A certified complex of convex cells, some of whose facets are walls. "
-                                       "Threads can share it: only reshape() changes it, and waits until it "
-                                       "is alone.");
+  py::class_<Shared_world> environment(
+      module, "Environment",
+      "A certified complex of convex cells, some of whose facets are walls. "
+      "Threads can share it: only reshape() and editing() change it, and wait "
+      "until they are alone.");
   bind_makers(environment);
   bind_reshape(module, environment);
+  bind_edits(module, environment);
   environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
       .def_property_readonly(
           "cell_count",
           [](const Shared_world& self) {
-            return std::visit([](const auto& world) { return world.cell_count(); }, *self.world);
+            return std::visit(
+                []<int D>(const World<D>& world) {
+                  return typename World<D>::Looking(world).snapshot().cell_count();
+                },
+                *self.world);
           },
           "Number of cells, solid ones included.")
       .def_property_readonly(
           "points", points,
-          "float64 (N, dimension): the vertices, as a read-only view, no copy: it changes "
-          "as walls move. While another thread is in reshape() it may show points that are "
-          "tried: copy it before.")
+          "float64 (N, dimension): the vertices, as a read-only view that changes as they move. After edits "
+          "that add points, ask again: earlier views stay as they were.")
       .def_property_readonly("certificate", certificate,
                              "The counts, volumes, walls and components found by certification, which is "
                              "done again when this is "
@@ -226,8 +251,11 @@ void bind_environment(py::module_& module) {
       .def("__repr__", [](const Shared_world& self) {
         return std::visit(
             []<int D>(const World<D>& world) {
-              return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", D, world.cell_count(),
-                                 world.wall_count());
+              const auto [cells, walls] = [&] {
+                const typename World<D>::Looking looking(world);
+                return std::pair(looking.snapshot().cell_count(), wall_count(looking.snapshot()));
+              }();
+              return fmt::format("<cellwalk.Environment, {}D, {} cells, {} walls>", D, cells, walls);
             },
             *self.world);
       });

@@ -18,9 +18,8 @@ void list_all(const std::shared_ptr<Any_world>& world, const py::iterable& given
                                        std::string(py::str(py::type::of(item).attr("__name__"))), type));
     Owner* const owner = item.cast<Owner*>();
     if (owner->world() != world)
-      throw Error(
-          Error_code::usage,
-          fmt::format("{}[{}] lies in another environment: list it in the reshape() of that", name, i));
+      throw Error(Error_code::usage,
+                  fmt::format("{}[{}] lies in another environment: list it where that changes", name, i));
     if (const auto first = std::find(owners.begin(), owners.end(), owner); first != owners.end())
       throw Error(Error_code::usage,
                   fmt::format("{0}[{1}] is {0}[{2}] again: list it once", name, i, first - owners.begin()));

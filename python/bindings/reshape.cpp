@@ -118,6 +118,10 @@ Wall_rows<D> work_off(World<D>& world, const Reshape_request& request,
                       const std::vector<Vertex_move<D>>& moves, const Listed& listed) {
   typename World<D>::Changing changing(world);
   need_simplices(changing.environment(), moves);
+  std::vector<std::uint32_t> points;
+  points.reserve(moves.size());
+  for (const Vertex_move<D>& move : moves) points.push_back(move.point);
+  changing.will_move(std::move(points));
   Wall_rows<D> rows(changing.snapshot(), moves);
   const Listed_residents<D> residents(listed, changing.snapshot());
   Reshaping<D> reshaping(changing.environment(), residents.residents(), request.options);
@@ -152,7 +156,10 @@ Wall_moves reshape(const Shared_world& self, const py::object& points, const py:
   const Listed listed = listed_of(self.world, bodies, particles);
   return std::visit(
       [&]<int D>(World<D>& world) {
-        const std::vector<Vertex_move<D>> moves = moves_of<D>(points, targets, world.points().size());
+        const std::size_t count = [&] {
+          return typename World<D>::Looking(world).snapshot().points().size();
+        }();
+        const std::vector<Vertex_move<D>> moves = moves_of<D>(points, targets, count);
         Wall_rows<D> rows = work_off(world, request, moves, listed);
         std::vector<std::uint32_t> numbers;
         numbers.reserve(moves.size());

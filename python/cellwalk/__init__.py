@@ -10,15 +10,22 @@
 
 Points are C-contiguous float64 arrays of shape (N, 3) or (N, 2). They are read in place; other arrays raise a TypeError.
 Batches run without the interpreter lock, on `threads` threads; the results do not depend on their number. Any number of threads
-may ask one environment; Environment.reshape() moves its walls among what lies in it, and waits until it is alone.
+may ask one environment; Environment.reshape() moves its walls among what lies in it, Environment.editing() opens and closes facets
+and replaces cells, and both wait until they are alone.
 """
 
 from ._cellwalk import (
     Body,
+    Changes,
+    CutReport,
+    Edits,
     Environment,
     Locations,
     Motions,
     Particles,
+    RelaxReport,
+    Replacement,
+    Selection,
     WallMoves,
     __version__,
     build_features,
@@ -28,6 +35,9 @@ from ._errors import Error, InputError, NotCertifiedError, OutsideError, UsageEr
 
 __all__ = [
     "Body",
+    "Changes",
+    "CutReport",
+    "Edits",
     "Environment",
     "Error",
     "Feature",
@@ -39,6 +49,9 @@ __all__ = [
     "OutsideError",
     "Particles",
     "Place",
+    "RelaxReport",
+    "Replacement",
+    "Selection",
     "Status",
     "UsageError",
     "WallMoves",

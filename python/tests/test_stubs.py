@@ -63,7 +63,8 @@ class Stubs(unittest.TestCase):
         self.assertGreaterEqual(compared, 12)
 
     def test_everything_is_documented(self):
-        for name in ("Body", "Environment", "Locations", "Motions", "Particles", "WallMoves"):
+        for name in ("Body", "Changes", "CutReport", "Edits", "Environment", "Locations", "Motions", "Particles", "RelaxReport", "Replacement",
+                     "Selection", "WallMoves"):
             bound = getattr(cellwalk, name)
             self.assertGreater(len(bound.__doc__), 20, name)
             for member, attribute in vars(bound).items():

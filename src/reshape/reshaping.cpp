@@ -141,11 +141,13 @@ Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid
   for (const Cell c : solid)
     if (!snapshot.is_cell(c) || !snapshot.is_solid(c) || snapshot.view(c).vertex_count() != D + 1 ||
         std::ranges::find(snapshot.view(c).vertices, vertex) == snapshot.view(c).vertices.end())
-      throw Error(Error_code::usage, "cell " + std::to_string(to_index(c)) +
-                                         " is no solid simplex with point " + std::to_string(vertex));
+      throw Error(Error_code::usage,
+                  "cell " +
+                      (snapshot.is_cell(c) ? std::to_string(snapshot.index(c)) : "of a name that is gone") +
+                      " is no solid simplex with point " + std::to_string(vertex));
   for (auto c = solid.begin(); c != solid.end(); ++c)
     if (std::find(solid.begin(), c, *c) != c)
-      throw Error(Error_code::usage, "cell " + std::to_string(to_index(*c)) +
+      throw Error(Error_code::usage, "cell " + std::to_string(snapshot.index(*c)) +
                                          " is named twice: name each cell that is taken back once");
   if (solid.empty()) throw Error(Error_code::usage, "no cells are to be taken back: name those in front");
   Replacement result;

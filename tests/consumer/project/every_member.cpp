@@ -147,8 +147,8 @@ void keep_simulation() {
       &Tissue<D>::targets, &Tissue<D>::follow, &Tissue<D>::follow_changes, &Tissue<D>::largest_stretch,
       &Tissue<D>::edge_count);
   keep(
-      &select<D>, +[](const Snapshot<D>& s, Half_facet f) { return mean_of(s, f); },
-      +[](const Snapshot<D>& s, Cell c) { return mean_of(s, c); },
+      &select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&mean_of<D>),
+      static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&mean_of<D>),
       +[](const Snapshot<D>& s, const Environment_changes<D>& c) { return Change_schedule<D>(s, c); },
       &Change_schedule<D>::is_due, &Change_schedule<D>::apply, &Change_schedule<D>::changing);
 }
