@@ -134,6 +134,8 @@ void bind_results(py::module_& module) {
       .def_readonly("point", &Replaced::point,
                     "The number of the point that was added, or of the one that was removed, which later "
                     "points may get; None if there is none.")
+      .def_readonly("held_by", &Replaced::held_by,
+                    "What forbids a merge, with the columns of Changes.held_by; no row otherwise.")
       .def("__bool__", [](const Replaced& self) { return self.is_made; })
       .def("__repr__", [](const Replaced& self) {
         return self.is_made ? fmt::format("<cellwalk.Replacement, {} cells>", self.cells.size())
@@ -141,8 +143,10 @@ void bind_results(py::module_& module) {
       });
   py::class_<Cut_made>(module, "CutReport", "What came of a cut along a blade.")
       .def_property_readonly(
+          "cells", [](const Cut_made& self) { return self.report.cells; }, "Solid ones that the blade met.")
+      .def_property_readonly(
           "edges", [](const Cut_made& self) { return self.report.edges; },
-          "Of solid cells that the blade passes.")
+          "Of solid cells that the blade passes, and of membranes where they cross a border of the slit.")
       .def_property_readonly(
           "split", [](const Cut_made& self) { return self.report.split; }, "Of these edges, split.")
       .def_property_readonly(
@@ -153,6 +157,9 @@ void bind_results(py::module_& module) {
           "Of these edges, neither split nor snapped: the cut is not complete there.")
       .def_property_readonly(
           "facets", [](const Cut_made& self) { return self.report.facets; }, "Of the cut.")
+      .def_property_readonly(
+          "slit", [](const Cut_made& self) { return self.report.slit; },
+          "Facets of membranes that were opened.")
       .def_property_readonly(
           "opened", [](const Cut_made& self) { return self.report.opened; },
           "Points of the cut that were parted.")
@@ -215,6 +222,9 @@ void bind_replacements(py::class_<Edits>& edits) {
            "3D only.")
       .def("collapse", &Edits::collapse, py::arg("u"), py::arg("onto"),
            "Removes the point u by moving it along an edge into the other end.")
+      .def("merge", &Edits::merge, py::arg("point"), py::arg("onto"),
+           "Merges a point of the walls of a gap with one across it, a stitch: the free cells that have both "
+           "vanish. Refused if a cell would be flat, or if anything lies in the free cells around the point.")
       .def("peel", &Edits::peel, py::arg("vertex"), py::arg("cells"), py::arg("target"),
            "Takes solid cells around a point back from it: they get a new point at the target, in their "
            "inside, and free cells fill the gap.")

@@ -97,6 +97,21 @@ void Edits::exit() {
   });
 }
 
+/// Adds rows for all that forbids a change.
+template <int D>
+void add_held(const Listed_residents<D>& residents, const std::vector<Resident>& held_by, std::size_t row,
+              std::vector<Held_row>& rows) {
+  for (Resident resident : held_by) {
+    residents.number(resident);
+    rows.push_back({static_cast<std::uint32_t>(row),
+                    resident.owner,
+                    resident.number,
+                    static_cast<std::uint8_t>(resident.feature),
+                    resident.is_particle,
+                    {}});
+  }
+}
+
 /// Nothing is changed if an argument is wrong; names are looked up before.
 template <class Names, class Change>
 Changes Edits::change_all(const Names& names, const Change& change) {
@@ -114,15 +129,7 @@ Changes Edits::change_all(const Names& names, const Change& change) {
         continue;
       }
       result = change(session.reshaping(), name);
-      for (Resident resident : result.held_by) {
-        session.residents().number(resident);
-        held.push_back({static_cast<std::uint32_t>(results.size() - 1),
-                        resident.owner,
-                        resident.number,
-                        static_cast<std::uint8_t>(resident.feature),
-                        resident.is_particle,
-                        {}});
-      }
+      add_held(session.residents(), result.held_by, results.size() - 1, held);
     }
   });
   Changes changes{py::array_t<bool>(static_cast<py::ssize_t>(results.size())), py::list(),
@@ -154,13 +161,15 @@ template <class Replace>
 Replaced Edits::replace(const Replace& replace) {
   Replacement done;
   std::vector<std::int32_t> numbers;
+  std::vector<Held_row> held;
   with_session([&](auto& session) {
     done = replace(session);
+    add_held(session.residents(), done.held_by, 0, held);
     for (const Cell cell : done.cells) numbers.push_back(number_of(session.snapshot(), cell));
   });
   const bool has_point = done.point != Replacement::none;
   return {done.is_made, std::move(done.reason), to_array(std::move(numbers)),
-          has_point ? py::object(py::int_(done.point)) : py::none()};
+          has_point ? py::object(py::int_(done.point)) : py::none(), to_array(std::move(held))};
 }
 
 Replaced Edits::insert_point(const py::object& cell, const py::object& position) {
@@ -199,6 +208,13 @@ Replaced Edits::collapse(std::uint32_t u, std::uint32_t onto) {
   return replace([&](auto& session) {
     const py::gil_scoped_release released;
     return session.reshaping().collapse(u, onto);
+  });
+}
+
+Replaced Edits::merge(std::uint32_t point, std::uint32_t onto) {
+  return replace([&](auto& session) {
+    const py::gil_scoped_release released;
+    return session.reshaping().merge(point, onto);
   });
 }
 

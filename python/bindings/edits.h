@@ -75,6 +75,7 @@ struct Replaced {
   std::string reason;
   py::array_t<std::int32_t> cells;
   py::object point;
+  py::array held_by;
 };
 
 /// What Python calls CutReport.
@@ -102,6 +103,7 @@ class Edits {
   Replaced flip(const py::object& facet);
   Replaced remove_edge(std::uint32_t u, std::uint32_t v);
   Replaced collapse(std::uint32_t u, std::uint32_t onto);
+  Replaced merge(std::uint32_t point, std::uint32_t onto);
   Replaced peel(std::uint32_t vertex, const py::object& cells, const py::object& target);
 
   Relax_report relax(const py::object& points, const Relax_options& options);

@@ -154,7 +154,35 @@ class Replacing(unittest.TestCase):
                 a, b = environment.points[row["between"]]
                 self.assertAlmostEqual((a + row["share"] * (b - a))[0], environment.points[row["point"], 0])
             self.assertLess(environment.cells()["solid"].sum(), environment.cell_count)
+            self.assertGreater(report.cells, 0)
+            self.assertEqual(report.slit, 0)
         self.assertGreater(environment.certificate["free_volume"], 0)
+        # The gap is sewn up, but for where a particle stands.
+        pairs = [(int(row["point"]), int(row["between"][0])) for row in taken_back[::-1]]
+        cells = environment.cells()
+        gap = cells[~cells["solid"] & (numpy.isin(cells["points"], pairs[0]).sum(axis=1) == 2)]
+        particle = cellwalk.Particles(environment, gap["mean"][:1])
+        with environment.editing(particles=[particle]) as edits:
+            held = edits.merge(*pairs[0])
+            self.assertEqual((held.made, held.point), (False, None))
+            self.assertIn("something lies", held.reason)
+            self.assertEqual(held.held_by[["is_particle", "owner", "feature"]].tolist(), [(True, 0, 0)])
+        with environment.editing() as edits:
+            merged = [edits.merge(*pair) for pair in pairs]
+            self.assertTrue(all(m.made and m.point == p and not len(m.held_by) for m, (p, _) in zip(merged, pairs)))
+            with self.assertRaisesRegex(cellwalk.UsageError, "not with itself"):
+                edits.merge(0, 0)
+        self.assertEqual(environment.certificate["free_volume"], 0)
+
+    def test_slits(self):
+        environment = room((4, 4, 4))
+        facets = environment.facets()
+        with environment.editing() as edits:
+            edits.close(facets[facets["mean"][:, 2] == 2])
+            report = edits.cut([[2.3, 0.7, 1], [2.3, 3.1, 1], [2.3, 3.1, 3], [2.3, 0.7, 3]], opening=0.1)
+            self.assertGreater(report.slit, 5)
+            self.assertEqual((report.facets, report.refused), (0, 0))
+        self.assertEqual(environment.certificate["components"], 1)
 
 
 class Refusals(unittest.TestCase):

@@ -188,7 +188,7 @@ class Reshaping {
   /// anything is registered in the free cells around it, or a face of a body lies near; held_by has all that.
   /// Later new points may get the index of the point; those before keep theirs.
   /// \throw Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
-  ///        a simplex, in a frozen environment, for a particle near that is not in its cell, and after close()
+  ///        a simplex, if frozen, for a particle near that is not in its cell, and after close()
   /// Degenerate cases: what lies on the border of the cells around the point counts if it is registered in
   /// one of them.
   /// Cost: 3 to 5 us a new cell, whatever the size of the environment.
