@@ -181,8 +181,8 @@ class Reshaping {
 
   /// Merges a point of the walls of a gap with one across it, a stitch of a suture: the free cells that
   /// have both vanish, and the others around the point get the other one instead. Where a free cell vanishes
-  /// between two solid ones, the facet that they then share is passable: tissue heals. Between two free ones it
-  /// is a wall if one was on either side of the cell that vanished. A cut is closed by merging the points
+  /// between two solid ones, the facet that they then share is passable: tissue heals. Between two free ones
+  /// it is a wall if one was on either side of the cell that vanished. A cut is closed by merging the points
   /// that it made with those that they were taken back from: Cut_report::points. Refused if a cell would be
   /// flat or inverted, if a solid cell has both points or no free one, if the boundary has the point, and if
   /// anything is registered in the free cells around it, or a face of a body lies near; held_by has all that.
