@@ -77,6 +77,7 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
       const int where = side<Exact>(view, f, position, counts_.walk);
       if (other == Cell::none) {
         if (where != 0) return false;
+        if (!s.is_solid(c)) walls.push_back(facet);
       } else if (!s.is_solid(c) && s.is_impassable(facet)) {
         if (!s.is_solid(other) || where < 0) return false;
         walls.push_back(facet);
