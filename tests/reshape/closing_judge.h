@@ -43,7 +43,7 @@ class Closing_judge {
     // The snapshot changes meanwhile.
     std::set<Half_facet> walls(closed_.begin(), closed_.end());
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
-      for (std::size_t k = 0; k <= D; ++k)
+      for (std::size_t k = 0; k <= D && snapshot.cell(i) != Cell::none; ++k)
         if (const Half_facet f = Snapshot<D>::half_facet(snapshot.cell(i), k); snapshot.is_impassable(f))
           walls.insert(f);
     then_ = {[walls](Half_facet f) { return !walls.contains(f); }, [filled](Cell c) { return c != filled; }};

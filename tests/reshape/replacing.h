@@ -31,13 +31,22 @@ struct Replacement_tally {
   }
 };
 
-/// Tries a random replacement in a cell or around it. Every second new point has few digits.
-/// \param most_cells if there are more, points are removed rather than added
+/// A replacement to be tried, by its place among the names of a tally.
 template <int D>
-Replacement replace_at(Reshaping<D>& reshaping, const Snapshot<D>& snapshot, Cell cell, Random& random,
-                       std::size_t most_cells, Replacement_tally& tally) {
+struct Replacement_request {
+  std::size_t kind;
+  Cell cell;
+  Half_facet facet;
+  std::uint32_t u, v;
+  Point<D> position;
+};
+
+/// A random replacement in a cell or around it. Every second new point has few digits.
+/// \param may_grow if not, points are removed rather than added
+template <int D>
+Replacement_request<D> some_replacement(const Snapshot<D>& snapshot, Cell cell, Random& random,
+                                        bool may_grow) {
   const Cell_view<D> view = snapshot.view(cell);
-  const bool may_grow = snapshot.cell_count() < most_cells;
   std::size_t kind = random.below(5);
   if (kind < 2 && !may_grow) kind = 4;
   if (kind == 3 && D == 2) kind = 2;
@@ -55,29 +64,40 @@ Replacement replace_at(Reshaping<D>& reshaping, const Snapshot<D>& snapshot, Cel
     }
     return x;
   };
-  ++tally.tried[kind];
-  Replacement result;
-  switch (kind) {
-    case 0:
-      result = reshaping.insert_point(cell, inside());
-      break;
-    case 1: {
-      Point<D> x = between();
-      if (random.chance(0.5)) x = x + 0.125 * (inside() - x);
-      result = reshaping.split_edge(u, v, x);
-      break;
-    }
-    case 2:
-      result = reshaping.flip(Snapshot<D>::half_facet(cell, i));
-      break;
-    case 3:
-      result = reshaping.remove_edge(u, v);
-      break;
-    default:
-      result = reshaping.collapse(u, v);
-      break;
+  Replacement_request<D> request{kind, cell, Snapshot<D>::half_facet(cell, i), u, v, {}};
+  if (kind == 0) request.position = inside();
+  if (kind == 1) {
+    request.position = between();
+    if (random.chance(0.5)) request.position = request.position + 0.125 * (inside() - request.position);
   }
-  tally.made[kind] += result.is_made;
+  return request;
+}
+
+template <int D>
+Replacement replace(Reshaping<D>& reshaping, const Replacement_request<D>& request) {
+  switch (request.kind) {
+    case 0:
+      return reshaping.insert_point(request.cell, request.position);
+    case 1:
+      return reshaping.split_edge(request.u, request.v, request.position);
+    case 2:
+      return reshaping.flip(request.facet);
+    case 3:
+      return reshaping.remove_edge(request.u, request.v);
+    default:
+      return reshaping.collapse(request.u, request.v);
+  }
+}
+
+/// Tries a random replacement in a cell or around it.
+/// \param most_cells if there are more, points are removed rather than added
+template <int D>
+Replacement replace_at(Reshaping<D>& reshaping, const Snapshot<D>& snapshot, Cell cell, Random& random,
+                       std::size_t most_cells, Replacement_tally& tally) {
+  const auto request = some_replacement<D>(snapshot, cell, random, snapshot.cell_count() < most_cells);
+  ++tally.tried[request.kind];
+  const Replacement result = replace(reshaping, request);
+  tally.made[request.kind] += result.is_made;
   return result;
 }
 

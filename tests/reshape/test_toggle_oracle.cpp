@@ -6,68 +6,17 @@
 #include <cstdio>
 #include <string>
 
-#include "reshape/closing_judge.h"
 #include "reshape/toggle_world.h"
+#include "reshape/toggling.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk {
 namespace {
 
 template <int D>
-std::vector<bool> with_faces(const test::Toggle_world<D>& world) {
-  std::vector<bool> result;
-  for (const auto& body : world.bodies) result.push_back(!body->faces().empty());
-  return result;
-}
-
-struct Growth_tally {
-  int opened = 0, excavated = 0, kept = 0;
-};
-
-template <int D>
-void toggle_somewhere(test::Toggle_world<D>& world, Reshaping<D>& reshaping, test::Closing_tally& tally,
-                      Growth_tally& growth) {
-  const Snapshot<D>& snapshot = world.snapshot;
-  const Cell cell = world.cell();
-  const Half_facet f = Snapshot<D>::half_facet(cell, world.random.below(D + 1));
-  const Cell other = snapshot.neighbour(f);
-  const bool is_cell = world.random.chance(0.4);
-  const Cell subject = is_cell && other != Cell::none && world.random.chance(0.5) ? other : cell;
-  if (is_cell ? snapshot.is_solid(subject) : snapshot.is_impassable(f)) {
-    const bool is_possible =
-        is_cell || (other != Cell::none && snapshot.is_solid(other) == snapshot.is_solid(cell));
-    const Change_result result = is_cell ? reshaping.excavate(subject) : reshaping.open(f);
-    ASSERT_EQ(result.is_made, is_possible);
-    ASSERT_EQ(result.reason.empty(), is_possible);
-    ASSERT_TRUE(result.held_by.empty());
-    ++(!is_possible ? growth.kept : is_cell ? growth.excavated : growth.opened);
-    if (is_possible) {
-      ASSERT_FALSE(is_cell ? snapshot.is_solid(subject) : snapshot.is_impassable(f));
-    }
-    return;
-  }
-  if (!is_cell && snapshot.is_solid(cell)) return;
-  std::vector<Half_facet> closed;
-  for (std::size_t k = 0; k <= D; ++k) {
-    const Half_facet g = is_cell ? Snapshot<D>::half_facet(subject, k) : f;
-    if (!snapshot.is_impassable(g)) closed.insert(closed.end(), {g, snapshot.opposite(g)});
-    if (!is_cell) break;
-  }
-  test::Closing_judge<D> judge(snapshot, world.bodies, world.particles, closed,
-                               is_cell ? subject : Cell::none, with_faces(world));
-  const Change_result result = is_cell ? reshaping.fill(subject) : reshaping.close(f);
-  judge.judge(result, world.bodies, world.particles, tally);
-  ASSERT_EQ(result.reason.empty(), result.is_made);
-  for (const Half_facet g : closed) ASSERT_EQ(snapshot.is_impassable(g), result.is_made);
-  if (is_cell) {
-    ASSERT_EQ(snapshot.is_solid(subject), result.is_made);
-  }
-}
-
-template <int D>
 void expect_all_right(bool generic, std::size_t worlds) {
   test::Closing_tally tally;
-  Growth_tally growth;
+  test::Growth_tally growth;
   const std::size_t count = std::max(oracle::scaled_count(worlds), worlds / 4 + 1);
   for (std::size_t n = 0; n < count; ++n) {
     SCOPED_TRACE("world " + std::to_string(n));
@@ -80,7 +29,7 @@ void expect_all_right(bool generic, std::size_t worlds) {
       Reshaping<D> reshaping(world.environment, world.residents());
       for (int k = 0; k < 10; ++k) {
         SCOPED_TRACE("phase " + std::to_string(phase) + ", change " + std::to_string(k));
-        ASSERT_NO_FATAL_FAILURE(toggle_somewhere<D>(world, reshaping, tally, growth));
+        ASSERT_NO_FATAL_FAILURE(test::toggle_somewhere<D>(world, reshaping, tally, growth));
         ASSERT_EQ(tally.wrong(), 0) << tally.missed << " missed, " << tally.false_blocks << " false blocks, "
                                     << tally.wrong_registrations << " registrations, " << tally.wrong_holders
                                     << " holders" << tally.last;

@@ -102,7 +102,9 @@ class Toggle_world {
 
   /// A cell, of a resident in most cases.
   Cell cell() {
-    if (bodies.empty() || random.chance(0.1)) return snapshot.cell(random.below(snapshot.cell_slots()));
+    if (bodies.empty() || random.chance(0.1))
+      for (;;)
+        if (const Cell c = snapshot.cell(random.below(snapshot.cell_slots())); c != Cell::none) return c;
     if (!particles.empty() && random.chance(0.2)) return particles[random.below(particles.size())].cell;
     Body<D>& body = *bodies[random.below(bodies.size())];
     if (const auto& chain = body.chain(random.below(body.edges().size()));
