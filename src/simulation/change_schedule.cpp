@@ -139,7 +139,7 @@ void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& r
       if (is_there)
         outcome.result = change(name, outcome);
       else
-        outcome.result.reason = "a cut replaced it";
+        outcome.result.reason = "a cut, or relaxing, replaced it";
       if (is_there && !outcome.result.is_made) *kept++ = {name, std::move(points)};
     }
     all.erase(kept, all.end());

@@ -50,6 +50,15 @@ Move_report<D> World<D>::move_walls(Environment<D>& environment, std::span<const
 }
 
 template <int D>
+Relax_report World<D>::relax(Environment<D>& environment, std::span<const std::uint32_t> points,
+                             const Relax_options& options, Reshape_counts& counts) {
+  const Relax_report report =
+      reshape(environment, {}, counts, [&](Reshaping<D>& open) { return open.relax(points, options); });
+  if (report.operations() > report.smoothed) forget_cells();
+  return report;
+}
+
+template <int D>
 std::vector<Change_outcome> World<D>::change(Environment<D>& environment, Change_schedule<D>& schedule,
                                              Reshape_counts& counts) {
   if (!schedule.is_due(steps_done_ + 1)) return {};

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
+#include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "reshape/grids.h"
 #include "simulation/worlds.h"
 
 namespace cellwalk {
@@ -207,6 +210,54 @@ TEST(World, IsOfTheEnvironmentAsItWasWhenItWasMade) {
     EXPECT_EQ(world.particles()[i].position, before[i].position);
   World<2> anew(snapshot, scene);
   EXPECT_NO_THROW(anew.step());
+}
+
+/// Cells are replaced among particles that fly on as if nothing had happened.
+template <int D>
+void relax_among_particles() {
+  auto environment = test::simplex_grid<D>(4);
+  const Snapshot<D>& snapshot = environment.snapshot();
+  const auto scene = cloud_scene<D>(60, 30, 5);
+  World<D> world(snapshot, scene);
+  while (world.contacts().empty()) world.step();
+  Random random(7);
+  std::vector<Vertex_move<D>> moves;
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t v = 0; v < snapshot.points().size(); ++v) {
+    points.push_back(v);
+    Point<D> x = snapshot.point(v);
+    if (std::ranges::any_of(x, [](double c) { return c == 0 || c == 4; })) continue;
+    for (double& c : x) c += random.real(-0.9, 0.9);
+    moves.push_back({v, x});
+  }
+  Reshape_counts counts;
+  world.move_walls(environment, moves, {}, counts);
+  EXPECT_NE(world.contacts()[0].contact.facet, Half_facet::none);
+  const Relax_report report = world.relax(environment, points, {}, counts);
+  EXPECT_GT(report.flipped, 0u);
+  EXPECT_GT(report.least_after, report.least_before);
+  EXPECT_EQ(world.contacts()[0].contact.facet, Half_facet::none) << "its name may be another's now";
+  environment.certify();
+  std::size_t met = 0;
+  const auto anew = test::simplex_grid<D>(4);
+  World<D> other(anew.snapshot(), scene);
+  EXPECT_THROW(other.relax(environment, points, {}, counts), Error);
+  while (other.steps_done() < world.steps_done()) other.step();
+  for (int i = 0; i < 20; ++i) {
+    world.step();
+    other.step();
+    world.validate();
+    met += world.contacts().size();
+    EXPECT_EQ(world.contacts().size(), other.contacts().size());
+    for (std::size_t k = 0; k < world.particles().size(); ++k)
+      EXPECT_LT(length(world.particles()[k].position - other.particles()[k].position), 1e-9);
+  }
+  EXPECT_GT(met, 10u);
+}
+
+TEST(World, RelaxesCellsAmongWhatMoves) {
+  relax_among_particles<2>();
+  relax_among_particles<3>();
 }
 
 }  // namespace

@@ -38,11 +38,24 @@ export const scenes = {
   },
 };
 
+/** Tables beside the scenes: a solid square that goes through a grid, whose cells are replaced before it. */
+const wayOfSquare = Array.from({ length: 20 }, (_, i) => [[2, 1], [3, 1], [2, 2], [3, 2]].map(([x, y]) =>
+  `${i + 1},${x + 9 * y},${x + 0.1 * (i + 1)},${y}`)).flat();
+const tables = { 'square.csv': ['step,point,x,y', ...wayOfSquare, ''].join('\n') };
+scenes.relaxed = {
+  dimension: 2, environment: { generate: 'triangles', cells: [8, 4] },
+  particles: [{ position: [0.5, 0.5] }],
+  walls: { motion: 'square.csv', relax: {} },
+  changes: [{ step: 1, fill: { box: [[2, 1], [3, 2]] } }],
+  time_step: 0.02, steps: 20, output: { frame_every: 5, motion_every: 1 },
+};
+
 export class Folder {
   constructor() { this.path = mkdtempSync(join(tmpdir(), 'cellwalk-viewer-')); }
   file(name) { return join(this.path, name); }
   cellwalk(...words) { return execFileSync(process.env.CELLWALK_PROGRAM, words, { cwd: this.path, encoding: 'utf8' }); }
   run(name) {
+    for (const table of Object.keys(tables)) writeFileSync(this.file(table), tables[table]);
     writeFileSync(this.file(`${name}.json`), JSON.stringify(scenes[name]));
     this.cellwalk('run', `${name}.json`, '-o', name);
     this.cellwalk('view', name, '-o', `${name}.html`);

@@ -130,6 +130,16 @@ struct Tissue_material {
   std::uint32_t sweeps = 10;  ///< over all edges and cells in a step
 };
 
+/// Cells around points that would make one of them flat are made better before the points go on: vertices
+/// between walls move, and cells are replaced.
+struct Wall_relaxation {
+  double good_enough = 0.3;         ///< quality, 0 (flat) to 1 (regular), at which cells are left alone
+  std::uint32_t rings = 2;          ///< of cells around such a point that are looked at
+  std::uint32_t rounds = 4;         ///< through these cells, each time
+  std::uint32_t operations = 1000;  ///< at most, each time
+  std::uint32_t tries = 8;          ///< in a step
+};
+
 /// How the walls of an environment move.
 template <int D>
 struct Scene_walls {
@@ -140,6 +150,7 @@ struct Scene_walls {
   std::optional<Tissue_material> tissue;
   /// A table of positions of points (relative to the scene's folder); empty: none.
   std::string motion;
+  std::optional<Wall_relaxation> relax;  ///< of cells around points of `motion`; none: they are as they are
 };
 
 struct Picture_request {

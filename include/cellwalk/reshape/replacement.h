@@ -40,6 +40,8 @@ struct Relax_options {
   /// Edges longer than this are split, shorter ones collapsed, in units of the mean of all edges around the
   /// points, measured at the start.
   double longest = 2, shortest = 0.4;
+  /// Points that stay: they are not moved, and not removed, so that they keep their indices.
+  std::vector<std::uint32_t> keep{};
 };
 
 /// What Reshaping::relax() did.

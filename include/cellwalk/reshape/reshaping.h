@@ -163,7 +163,8 @@ class Reshaping {
 
   /// Makes cells around some points better, worst first: flips and removals of edges, moves of vertices that
   /// have no wall, and where edges are very short or long, collapses and splits, each if it raises the least
-  /// quality of the cells that it touches. Deterministic. Walls stay where they are.
+  /// quality of the cells that it touches. Deterministic. Walls stay where they are, and so do points that
+  /// the options name.
   /// \throw Error(usage) for a point that does not exist or a cell around one that is not a simplex, and as
   ///        the replacements above
   /// Cost: that of the operations, and some us for each that is only considered.

@@ -28,7 +28,7 @@
 namespace cellwalk {
 
 /// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
-/// snapshot, which must outlive it and is edited by move_walls() and change() only.
+/// snapshot, which must outlive it and is edited by move_walls(), relax() and change() only.
 template <int D>
 class World {
  public:
@@ -59,6 +59,13 @@ class World {
   /// Cost: that of Reshaping::move().
   Move_report<D> move_walls(Environment<D>& environment, std::span<const Vertex_move<D>> moves,
                             Reshape_options options, Reshape_counts& counts);
+
+  /// Makes cells around some points better, with everything that lies in them, as Reshaping::relax() does.
+  /// \pre `environment` is that of the snapshot
+  /// \throw Error(usage) if it is not, or was edited since the world was made; and as Reshaping::relax()
+  /// Cost: that of Reshaping::relax().
+  Relax_report relax(Environment<D>& environment, std::span<const std::uint32_t> points,
+                     const Relax_options& options, Reshape_counts& counts);
 
   /// Makes the changes of facets and cells that are due before the step that is next, with everything that
   /// moves in the environment; what is held stays as it is.

@@ -131,7 +131,8 @@ template <int D>
 Wall_motion wall_motion(const Scene<D>& scene) {
   const bool has_cut = std::any_of(scene.changes.list.begin(), scene.changes.list.end(),
                                    [](const auto& change) { return change.kind == Change_kind::cut; });
-  return {scene.walls.has_value() || has_cut, !scene.changes.list.empty()};
+  const bool is_relaxed = scene.walls && scene.walls->relax;
+  return {scene.walls.has_value() || has_cut, !scene.changes.list.empty() || is_relaxed};
 }
 
 template <int D>

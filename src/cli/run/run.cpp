@@ -74,9 +74,10 @@ Prepared_environment prepare(const Environment_source& source, const Scene_walls
                              const Environment_changes<D>& changes, const std::string& scene) {
   const bool has_cut = std::any_of(changes.list.begin(), changes.list.end(),
                                    [](const auto& change) { return change.kind == Change_kind::cut; });
+  const bool needs_map = !changes.list.empty() || (walls != nullptr && walls->relax);
   if (const auto* file = std::get_if<std::string>(&source)) {
     Build_options options;
-    options.keep_map = !changes.list.empty();
+    options.keep_map = needs_map;
     options.simplicial = walls != nullptr || has_cut;
     Loaded_environment loaded = load_with_progress(*file, options);
     if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
@@ -89,7 +90,7 @@ Prepared_environment prepare(const Environment_source& source, const Scene_walls
     constexpr int dimension = std::tuple_size_v<typename decltype(soup.points)::value_type>;
     Build_options options = build_of_generated;
     options.simplicial = walls != nullptr || has_cut;
-    options.keep_map = !changes.list.empty();
+    options.keep_map = needs_map;
     return Environment<dimension>::build(std::move(soup), options, &report);
   };
   try {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/counts_json.h"
@@ -33,6 +35,14 @@ Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& env
   material_ = walls.tissue;
   fixed_ = walls.fixed;
   if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
+  relaxation_ = walls.relax;
+  if (!relaxation_) return;
+  relax_options_.good_enough = relaxation_->good_enough;
+  relax_options_.most_rounds = static_cast<int>(relaxation_->rounds);
+  relax_options_.most_operations = relaxation_->operations;
+  std::set<std::uint32_t> named;
+  for (const Timed_move<D>& timed : motion_) named.insert(timed.move.point);
+  relax_options_.keep.assign(named.begin(), named.end());
 }
 
 /// Where points are to be after a step, as far as they are not there for sure.
@@ -78,7 +88,11 @@ void Run_walls<D>::step(World<D>& world) {
 
 template <int D>
 void Run_walls<D>::move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves) {
-  const Move_report<D> report = world.move_walls(environment_, moves, options_, counts_);
+  Move_report<D> report = world.move_walls(environment_, moves, options_, counts_);
+  record(step, report);
+  for (std::uint32_t i = 0; relaxation_ && i < relaxation_->tries && relax(world, report.short_of_target);
+       ++i)
+    go_on(world, step, moves, report.short_of_target);
   moves_ += moves.size();
   ends_[static_cast<std::size_t>(Move_end::reached)] += moves.size() - report.short_of_target.size();
   std::map<std::uint32_t, Point<D>> left;
@@ -88,7 +102,49 @@ void Run_walls<D>::move(World<D>& world, std::uint32_t step, const std::vector<V
   }
   pending_ = std::move(left);
   if (foundation_) foundation_->follow(moves, report);
+}
+
+/// Makes cells around the points better that would make one flat. Returns whether anything was done.
+template <int D>
+bool Run_walls<D>::relax(World<D>& world, std::span<const Vertex_result<D>> short_of_target) {
+  std::set<std::uint32_t> points;
+  for (const Vertex_result<D>& result : short_of_target)
+    if (result.end == Move_end::cell) points.insert(result.point);
+  if (points.empty()) return false;
+  for (std::uint32_t ring = 0; ring < relaxation_->rings; ++ring)
+    for (const std::uint32_t point : std::vector(points.begin(), points.end()))
+      for (const Cell cell : environment_.cells_around(point)) {
+        const auto vertices = environment_.snapshot().view(cell).vertices;
+        points.insert(vertices.begin(), vertices.end());
+      }
+  const std::vector<std::uint32_t> around(points.begin(), points.end());
+  const Relax_report made = world.relax(environment_, around, relax_options_, counts_);
+  relaxed_.smoothed += made.smoothed;
+  relaxed_.flipped += made.flipped;
+  relaxed_.edges_removed += made.edges_removed;
+  relaxed_.split += made.split;
+  relaxed_.collapsed += made.collapsed;
+  return made.operations() > 0;
+}
+
+/// Moves the points again that would have made a cell flat.
+template <int D>
+void Run_walls<D>::go_on(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves,
+                         std::vector<Vertex_result<D>>& short_of_target) {
+  std::map<std::uint32_t, Point<D>> targets;
+  for (const auto& [point, target] : moves) targets[point] = target;
+  std::vector<Vertex_move<D>> again;
+  std::vector<Vertex_result<D>> left;
+  for (const Vertex_result<D>& result : short_of_target) {
+    if (result.end == Move_end::cell)
+      again.push_back({result.point, targets.at(result.point)});
+    else
+      left.push_back(result);
+  }
+  const Move_report<D> report = world.move_walls(environment_, again, options_, counts_);
   record(step, report);
+  left.insert(left.end(), report.short_of_target.begin(), report.short_of_target.end());
+  short_of_target = std::move(left);
 }
 
 template <int D>
@@ -134,6 +190,12 @@ nlohmann::ordered_json Run_walls<D>::report() const {
   json["contacts"] = hits_;
   if (foundation_) json["soft"] = {{"largest_yield", largest_yield_}, {"largest_force", largest_force_}};
   if (tissue_) json["tissue"] = {{"edges", tissue_->edge_count()}, {"largest_stretch", largest_stretch_}};
+  if (relaxation_)
+    json["relaxed"] = {{"smoothed", relaxed_.smoothed},
+                       {"flipped", relaxed_.flipped},
+                       {"edges_removed", relaxed_.edges_removed},
+                       {"split", relaxed_.split},
+                       {"collapsed", relaxed_.collapsed}};
   json["counts"] = to_json(counts_);
   json["counts"]["walk"] = to_json(counts_.walk);
   return json;
@@ -148,6 +210,7 @@ std::string Run_walls<D>::describe() const {
   if (foundation_)
     soft = fmt::format("; they yield by up to {:.3g} to forces up to {:.3g}", largest_yield_, largest_force_);
   if (tissue_) soft = fmt::format("; edges of tissue are stretched by up to {:.3g}", largest_stretch_);
+  if (relaxation_) soft = fmt::format("; {} operations made cells better", relaxed_.operations());
   return fmt::format("{} moves of points: {} {}{}; {} contacts, {} pushes{}", moves_, ends_[0],
                      move_end_names[0], ends, hits_, counts_.pushes, soft);
 }

@@ -53,6 +53,9 @@ class Run_walls {
  private:
   std::vector<Vertex_move<D>> targets(const World<D>& world, std::uint32_t step);
   void move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves);
+  bool relax(World<D>& world, std::span<const Vertex_result<D>> short_of_target);
+  void go_on(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves,
+             std::vector<Vertex_result<D>>& short_of_target);
   void record(std::uint32_t step, const Move_report<D>& report);
   void record_forces(std::uint32_t step);
 
@@ -72,7 +75,10 @@ class Run_walls {
   std::vector<Timed_move<D>> motion_;
   std::size_t next_ = 0;                       ///< of the motion
   std::map<std::uint32_t, Point<D>> pending_;  ///< places of the motion that points did not reach yet
-  std::uint64_t moves_ = 0;                    ///< of points, asked for
+  std::optional<Wall_relaxation> relaxation_;
+  Relax_options relax_options_;
+  Relax_report relaxed_;     ///< operations of all steps
+  std::uint64_t moves_ = 0;  ///< of points, asked for
   std::array<std::uint64_t, move_end_names.size()> ends_{};
   std::uint64_t hits_ = 0;
   Reshape_counts counts_;

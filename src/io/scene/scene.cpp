@@ -17,6 +17,7 @@ constexpr std::uint64_t most_steps = 100'000'000;
 constexpr double default_twist = 10;  // degrees a step
 constexpr std::uint64_t most_spread = 1000;
 constexpr std::uint64_t most_sweeps = 1000;
+constexpr std::uint64_t most_rings = 100, most_operations = 1'000'000;
 constexpr double most_tension = 0.9, most_compliance = 1e6;
 
 Environment_source environment_source(const Json_node& node) {
@@ -131,9 +132,23 @@ Tissue_material tissue(const Json_node& node) {
   return result;
 }
 
+Wall_relaxation relax(const Json_node& node) {
+  node.expect_keys({"good_enough", "rings", "rounds", "operations", "tries"});
+  Wall_relaxation result;
+  if (const auto quality = node.find("good_enough")) result.good_enough = quality->number_in(0, 1);
+  const auto count = [&](const char* key, std::uint64_t most, std::uint32_t& to) {
+    if (const auto given = node.find(key)) to = static_cast<std::uint32_t>(given->integer_in(1, most));
+  };
+  count("rings", most_rings, result.rings);
+  count("rounds", most_sweeps, result.rounds);
+  count("operations", most_operations, result.operations);
+  count("tries", most_sweeps, result.tries);
+  return result;
+}
+
 template <int D>
 Scene_walls<D> walls(const Json_node& node) {
-  node.expect_keys({"at_contact", "fixed", "pulsation", "soft", "tissue", "motion"});
+  node.expect_keys({"at_contact", "fixed", "pulsation", "soft", "tissue", "motion", "relax"});
   Scene_walls<D> result;
   if (const auto at_contact = node.find("at_contact")) {
     const std::string word = at_contact->string();
@@ -149,6 +164,7 @@ Scene_walls<D> walls(const Json_node& node) {
   }
   if (const auto s = node.find("soft")) result.soft = soft(*s);
   if (const auto t = node.find("tissue")) result.tissue = tissue(*t);
+  if (const auto r = node.find("relax")) result.relax = relax(*r);
   if (!result.pulsation && !result.soft && !result.tissue && result.motion.empty())
     node.fail("nothing moves the walls: give \"pulsation\", \"soft\", \"tissue\" or \"motion\"");
   for (const char* key : {"pulsation", "soft"})
@@ -156,6 +172,8 @@ Scene_walls<D> walls(const Json_node& node) {
   for (const char* key : {"pulsation", "soft", "tissue", "fixed"})
     if (!result.motion.empty() && node.has(key))
       node.at(key).fail("a table, \"motion\", says alone which points move: leave one of them out");
+  if (result.relax && result.motion.empty())
+    node.at("relax").fail("only cells at points that follow a table, \"motion\", are relaxed: leave it out");
   return result;
 }
 

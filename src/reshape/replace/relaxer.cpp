@@ -18,7 +18,11 @@ constexpr double least_gain = 1 + 0x1p-10;
 template <int D>
 Relaxer<D>::Relaxer(Environment<D>& environment, Replacer<D>& replacer, const Relax_options& options,
                     std::function<bool(std::uint32_t, const Point<D>&)> move)
-    : environment_(environment), replacer_(replacer), options_(options), move_(std::move(move)) {}
+    : environment_(environment),
+      replacer_(replacer),
+      options_(options),
+      kept_(options.keep.begin(), options.keep.end()),
+      move_(std::move(move)) {}
 
 /// All cells around the points, each once, by name.
 template <int D>
@@ -79,7 +83,7 @@ template <int D>
 bool Relaxer<D>::smooth(const Candidate& candidate) {
   const Snapshot<D>& snapshot = replacer_.snapshot();
   for (const std::uint32_t v : candidate.corners) {
-    if (!replacer_.is_off_walls(v)) continue;
+    if (kept_.contains(v) || !replacer_.is_off_walls(v)) continue;
     const std::vector<Cell> star = environment_.cells_around(v);
     std::set<std::uint32_t> neighbours;
     for (const Cell c : star) {
@@ -131,7 +135,8 @@ bool Relaxer<D>::remove_edges(const Candidate& candidate) {
 
 template <int D>
 bool Relaxer<D>::collapse(const Candidate& candidate) {
-  for (const std::uint32_t u : candidate.corners)
+  for (const std::uint32_t u : candidate.corners) {
+    if (kept_.contains(u)) continue;
     for (const std::uint32_t v : candidate.corners) {
       if (u == v || !(length(u, v) < options_.shortest * edge_)) continue;
       std::string reason;
@@ -141,6 +146,7 @@ bool Relaxer<D>::collapse(const Candidate& candidate) {
       points_.insert(v);
       return true;
     }
+  }
   return false;
 }
 
@@ -169,6 +175,7 @@ bool Relaxer<D>::improve(const Candidate& candidate) {
 template <int D>
 Relax_report Relaxer<D>::run(std::span<const std::uint32_t> points) {
   replacer_.check_points(points);
+  replacer_.check_points(options_.keep);
   points_ = {points.begin(), points.end()};
   const Snapshot<D>& snapshot = replacer_.snapshot();
   edge_ = mean_edge();

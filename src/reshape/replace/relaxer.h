@@ -44,6 +44,7 @@ class Relaxer {
   Environment<D>& environment_;
   Replacer<D>& replacer_;
   Relax_options options_;
+  std::set<std::uint32_t> kept_;
   std::function<bool(std::uint32_t, const Point<D>&)> move_;
   std::set<std::uint32_t> points_;
   double edge_ = 0;  ///< the mean length at the start

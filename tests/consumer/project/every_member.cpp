@@ -134,7 +134,7 @@ void keep_simulation() {
       &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
       static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
       static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate,
-      &World<D>::move_walls, &World<D>::change);
+      &World<D>::move_walls, &World<D>::relax, &World<D>::change);
   keep(
       +[](const Snapshot<D>& s, const Pulsation<D>& p) { return Wall_pulsation<D>(s, p, {}); },
       &Wall_pulsation<D>::targets,

@@ -69,6 +69,24 @@ TEST(SceneWalls, FollowATableBesideTheScene) {
                    .walls);
 }
 
+TEST(SceneWalls, AreRelaxed) {
+  const auto scene = std::get<Scene<3>>(
+      parse_scene("s.json", scene_with(R"({"motion": "m.csv", "relax": {"good_enough": 0.25, "rings": 3,
+                  "rounds": 5, "operations": 70, "tries": 2}})")));
+  ASSERT_TRUE(scene.walls->relax);
+  EXPECT_EQ(scene.walls->relax->good_enough, 0.25);
+  EXPECT_EQ(scene.walls->relax->rings, 3u);
+  EXPECT_EQ(scene.walls->relax->rounds, 5u);
+  EXPECT_EQ(scene.walls->relax->operations, 70u);
+  EXPECT_EQ(scene.walls->relax->tries, 2u);
+  const auto plain =
+      std::get<Scene<2>>(parse_scene("s.json", scene_with(R"({"motion": "m.csv", "relax": {}})", 2)));
+  ASSERT_TRUE(plain.walls->relax);
+  EXPECT_EQ(plain.walls->relax->good_enough, Wall_relaxation{}.good_enough);
+  EXPECT_EQ(plain.walls->relax->operations, Wall_relaxation{}.operations);
+  EXPECT_FALSE(std::get<Scene<3>>(parse_scene("s.json", scene_with(R"({"motion": "m.csv"})"))).walls->relax);
+}
+
 TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
   struct Refusal {
     const char *walls, *message;
@@ -101,6 +119,19 @@ TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
             "s.json: walls.pulsation.smooth: expected an integer from 0 to 1000, not 1001"},
            {R"({"pulsation": {"amplitude": 1, "period": 1, "quality_floor": 2}})",
             "s.json: walls.pulsation.quality_floor: expected a number from 0 to 1, not 2"},
+           {R"({"soft": {}, "relax": {}})",
+            "s.json: walls.relax: only cells at points that follow a table, \"motion\", are relaxed: leave "
+            "it "
+            "out"},
+           {R"({"motion": "m.csv", "relax": {"good_enough": 2}})",
+            "s.json: walls.relax.good_enough: expected a number from 0 to 1, not 2"},
+           {R"({"motion": "m.csv", "relax": {"rings": 0}})",
+            "s.json: walls.relax.rings: expected an integer from 1 to 100, not 0"},
+           {R"({"motion": "m.csv", "relax": {"tries": 0.5}})",
+            "s.json: walls.relax.tries: expected an integer from 1 to 1000, not 0.5"},
+           {R"({"motion": "m.csv", "relax": {"much": 1}})",
+            "s.json: walls.relax.much: unknown key; known here: good_enough, operations, rings, rounds, "
+            "tries"},
            {R"({"at_contact": "hold"})", "s.json: walls.at_contact: expected \"push\" or \"stop\""},
            {R"({"fixed": [{}]})", "s.json: walls.fixed[0]: expected either \"box\" or \"ball\""},
            {R"({"fixed": [{"box": [[0, 0, 0]]}]})",
