@@ -78,6 +78,32 @@ TEST(Tissue, ReturnsToItsShape) {
   go_back<3>();
 }
 
+/// Points between free cells above the wall follow it.
+template <int D>
+void take_along() {
+  Tissue_lab<D> lab({.compliance = 1e12, .incompressible = 0, .damping = 1});
+  const std::uint32_t v = lab.on_wall();
+  Point<D> above = lab.environment.snapshot().point(v);
+  above[D - 1] += 1;
+  std::uint32_t follower = 0;
+  for (std::uint32_t u = 1; u < lab.points().size(); ++u)
+    if (length(lab.points()[u] - above) < length(lab.points()[follower] - above)) follower = u;
+  const double start = lab.height_of(follower);
+  lab.move(v, 0.3);
+  lab.steps(1);
+  const double up = lab.height_of(follower) - start;
+  EXPECT_GT(up, 0.01) << "as the mean of what is around it";
+  EXPECT_LT(up, 0.3);
+  lab.move(v, -0.3);
+  lab.steps(20);
+  EXPECT_NEAR(lab.height_of(follower), start, 0.001);
+}
+
+TEST(Tissue, TakesPointsBetweenFreeCellsAlong) {
+  take_along<2>();
+  take_along<3>();
+}
+
 /// The more compliant, the less of the way is undone in a step; in the limit none.
 template <int D>
 void comply() {
