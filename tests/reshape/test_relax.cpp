@@ -98,6 +98,42 @@ TEST(Relax, KeepsToItsBudget) {
   EXPECT_THROW(reshaping.relax(unknown), Error);
 }
 
+/// Points that are kept stay where they are and keep their indices; the others make up for it.
+template <int D>
+void keep_some() {
+  Bad_cells<D> bad;
+  const Snapshot<D>& snapshot = bad.environment.snapshot();
+  Relax_options options{.good_enough = 0.6, .shortest = 0.8};
+  for (std::uint32_t v = 0; v < bad.points.size(); v += 2) options.keep.push_back(v);
+  const std::vector<Point<D>> before(snapshot.points().begin(), snapshot.points().end());
+  Reshaping<D> reshaping(bad.environment, {});
+  const Relax_report report = reshaping.relax(bad.points, options);
+  for (const std::uint32_t v : options.keep) {
+    EXPECT_TRUE(snapshot.is_point(v)) << v;
+    EXPECT_EQ(snapshot.point(v), before[v]) << v;
+  }
+  EXPECT_GT(report.smoothed, 0u);
+  EXPECT_GT(report.collapsed, 0u);
+  // Without it, points of both kinds go.
+  Bad_cells<D> other;
+  Reshaping<D> all(other.environment, {});
+  std::vector<std::uint32_t> kept;
+  options.keep.swap(kept);
+  all.relax(other.points, options);
+  std::size_t gone = 0, moved = 0;
+  for (const std::uint32_t v : kept) {
+    gone += !other.environment.snapshot().is_point(v);
+    moved += other.environment.snapshot().is_point(v) && other.environment.snapshot().point(v) != before[v];
+  }
+  EXPECT_GT(gone, 0u);
+  EXPECT_GT(moved, 0u);
+  options.keep = {9999};
+  EXPECT_THROW(all.relax(other.points, options), Error);
+}
+
+TEST(Relax, KeepsPointsThatOthersKnow2D) { keep_some<2>(); }
+TEST(Relax, KeepsPointsThatOthersKnow3D) { keep_some<3>(); }
+
 /// An edge of a tenth of the others is collapsed, one that is too long is split.
 TEST(Relax, CollapsesShortEdgesAndSplitsLongOnes) {
   Environment<2> environment = test::simplex_grid<2>(4);
