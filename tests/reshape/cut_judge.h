@@ -22,19 +22,27 @@ struct Exact_simplex {
   std::vector<std::uint32_t> points;
   Cell cell;
 
+  Point<D> low, high;
+
   Exact_simplex(const Snapshot<D>& snapshot, Cell c) : cell(c) {
     const auto vertices = snapshot.view(c).vertices;
     points.assign(vertices.begin(), vertices.end());
-    for (std::size_t k = 0; k <= D; ++k) corners[k] = exact_place<D>(snapshot.point(points[k]), 0);
+    low = high = snapshot.point(points[0]);
+    for (std::size_t k = 0; k <= D; ++k) {
+      const Point<D>& x = snapshot.point(points[k]);
+      corners[k] = exact_place<D>(x, 0);
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        low[axis] = std::min(low[axis], x[axis]);
+        high[axis] = std::max(high[axis], x[axis]);
+      }
+    }
+  }
+  bool is_same(const Exact_simplex& other) const {
+    return cell == other.cell && points == other.points && corners == other.corners;
   }
   bool may_meet(const Exact_simplex& other) const {
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      const auto less = [&](const Place<D>& a, const Place<D>& b) { return a[axis] < b[axis]; };
-      const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), less);
-      const auto [other_low, other_high] =
-          std::minmax_element(other.corners.begin(), other.corners.end(), less);
-      if ((*high)[axis] < (*other_low)[axis] || (*other_high)[axis] < (*low)[axis]) return false;
-    }
+    for (std::size_t axis = 0; axis < D; ++axis)
+      if (high[axis] < other.low[axis] || other.high[axis] < low[axis]) return false;
     return true;
   }
 };
@@ -132,35 +140,46 @@ class Cut_judge {
     });
   }
 
+  /// What has become of all cells, and which are in front and behind.
   /// \param plane of the blade
   /// \param is_rim whether a point lies at the rim of the cut, where both sides hold together
   template <class Is_rim>
   Cut_findings judge(const std::array<Point<D>, static_cast<std::size_t>(D)>& plane,
                      const Is_rim& is_rim) const {
-    Cut_findings found;
-    Fraction volume_now;
+    Cut_findings found = changes();
     std::vector<Exact_simplex<D>> solid;
     for_each_cell([&](Cell c) {
-      const Exact_simplex<D> simplex(snapshot_, c);
-      const Fraction size = size_of(simplex);
-      found.flat += size.sign() <= 0;
-      volume_now += size;
-      judge_marks(c, found);
-      if (snapshot_.is_solid(c))
-        solid.push_back(simplex);
-      else
-        found.gap_cells += std::ranges::any_of(
-            solid_, [&](const auto& before) { return meeting(before, simplex) == Meeting::inside; });
+      if (snapshot_.is_solid(c)) solid.emplace_back(snapshot_, c);
     });
-    found.has_same_volume = volume_now == volume_;
-    for (const auto& now : solid)
-      for (const auto& before : free_) found.entered += meeting(now, before) == Meeting::inside;
     std::vector<int> sides;
     for (const auto& simplex : solid) {
       sides.push_back(side_of(simplex, plane));
       ++(sides.back() > 0 ? found.front : sides.back() < 0 ? found.back : found.mixed);
     }
     judge_parts(solid, sides, is_rim, found);
+    return found;
+  }
+
+  /// What has become of all cells.
+  Cut_findings changes() const {
+    Cut_findings found;
+    Fraction volume_now;
+    for_each_cell([&](Cell c) {
+      const Exact_simplex<D> simplex(snapshot_, c);
+      const Fraction size = size_of(simplex);
+      found.flat += size.sign() <= 0;
+      volume_now += size;
+      judge_marks(c, found);
+      if (std::ranges::any_of(snapshot_.is_solid(c) ? solid_ : free_,
+                              [&](const auto& before) { return before.is_same(simplex); }))
+        return;
+      const auto is_met = [&](const auto& before) { return meeting(before, simplex) == Meeting::inside; };
+      if (snapshot_.is_solid(c))
+        found.entered += static_cast<std::size_t>(std::ranges::count_if(free_, is_met));
+      else
+        found.gap_cells += std::ranges::any_of(solid_, is_met);
+    });
+    found.has_same_volume = volume_now == volume_;
     return found;
   }
 

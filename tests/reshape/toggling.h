@@ -23,7 +23,7 @@ struct Growth_tally {
   int opened = 0, excavated = 0, kept = 0;
 };
 
-/// Opens, closes, excavates or fills a facet or a cell near what lies in a world, and judges it by the oracle.
+/// Opens, closes, excavates or fills a facet or a cell near what lies in a world; the oracle judges it.
 template <int D, class World>
 void toggle_somewhere(World& world, Reshaping<D>& reshaping, Closing_tally& tally, Growth_tally& growth) {
   const Snapshot<D>& snapshot = world.snapshot;
