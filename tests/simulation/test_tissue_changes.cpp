@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Elastic tissue that is cut, excavated and filled.
+#include <cellwalk/kernel/error.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
