@@ -54,6 +54,24 @@ class Replacement_judge {
     return has_gap;
   }
 
+  /// Whether a point may be merged with another one if nothing lies there.
+  bool may_be_merged(std::uint32_t point, std::uint32_t onto) const {
+    bool has_gap = false;
+    for (const Cell c : cells_at(point, point)) {
+      for (std::size_t k = 0; k <= D; ++k)
+        if (const Half_facet f = Snapshot<D>::half_facet(c, k);
+            has_both(f, point, point) && snapshot_.neighbour(f) == Cell::none)
+          return false;
+      if (!has(c, onto)) {
+        if (!keeps_sense(c, point, snapshot_.point(onto))) return false;
+        continue;
+      }
+      if (snapshot_.is_solid(c)) return false;
+      has_gap = true;
+    }
+    return has_gap;
+  }
+
  private:
   using Simplex = std::array<Place<D>, static_cast<std::size_t>(D) + 1>;
 

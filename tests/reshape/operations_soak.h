@@ -5,6 +5,9 @@
 #define CELLWALK_TESTS_RESHAPE_OPERATIONS_SOAK_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/kernel/policies.h>
 
 #include <gtest/gtest.h>
 
@@ -29,7 +32,8 @@ struct Operation_tally {
   std::uint64_t operations = 0, undecided = 0;
   std::uint64_t relaxations = 0, improvements = 0;
   std::uint64_t peels = 0, peeled = 0;
-  std::uint64_t cuts = 0, split = 0, opened = 0, held = 0;
+  std::uint64_t merges = 0, merged = 0, merges_held = 0;
+  std::uint64_t cuts = 0, split = 0, opened = 0, held = 0, slit = 0;
   std::uint64_t moves = 0, moved = 0, contacts = 0;
 
   void print(const char* world) const {
@@ -39,11 +43,13 @@ struct Operation_tally {
       std::printf("%s %llu/%llu, ", replacements.names[k], number(replacements.made[k]),
                   number(replacements.tried[k]));
     std::printf(
-        "relax %llu/%llu, close and fill %d/%d, open %d, excavate %d, peel %llu/%llu, cut %llu (%llu edges "
-        "split, %llu vertices parted, %llu held), move %llu/%llu (%llu contacts)\n",
+        "relax %llu/%llu, close and fill %d/%d, open %d, excavate %d, peel %llu/%llu, merge %llu/%llu (%llu "
+        "held), cut %llu (%llu edges "
+        "split, %llu vertices parted, %llu held, %llu facets slit), move %llu/%llu (%llu contacts)\n",
         number(improvements), number(relaxations), closings.made, closings.changes, growths.opened,
-        growths.excavated, number(peeled), number(peels), number(cuts), number(split), number(opened),
-        number(held), number(moved), number(moves), number(contacts));
+        growths.excavated, number(peeled), number(peels), number(merged), number(merges), number(merges_held),
+        number(cuts), number(split), number(opened), number(held), number(slit), number(moved), number(moves),
+        number(contacts));
     std::fflush(stdout);
   }
 };
@@ -96,7 +102,7 @@ class Operations {
 
  private:
   const char* operate(Reshaping<D>& reshaping) {
-    switch (random_.below(12)) {
+    switch (random_.below(14)) {
       case 0:
       case 1:
       case 2:
@@ -112,6 +118,9 @@ class Operations {
         return peel(reshaping), "peel";
       case 9:
         return cut(reshaping), "cut";
+      case 10:
+      case 11:
+        return merge(reshaping), "merge";
       default:
         return move(reshaping), "move";
     }
@@ -189,6 +198,65 @@ class Operations {
     EXPECT_EQ(result.reason.empty(), result.is_made);
   }
 
+  /// A point that was taken back and the one that it was taken from, or any two of a cell.
+  void merge(Reshaping<D>& reshaping) {
+    const auto vertices = snapshot_.view(world_.cell()).vertices;
+    std::array<std::uint32_t, 2> pair{vertices[random_.below(D + 1)], vertices[random_.below(D + 1)]};
+    if (!stitches_.empty() && random_.chance(0.6)) {
+      pair = stitches_.back();
+      stitches_.pop_back();
+      if (!snapshot_.is_point(pair[0]) || !snapshot_.is_point(pair[1])) return;
+    }
+    if (pair[0] == pair[1]) return;
+    const std::vector<Cell> star = world_.environment.cells_around(pair[0]);
+    const bool may_be = Replacement_judge<D>(snapshot_).may_be_merged(pair[0], pair[1]);
+    const bool is_empty = !has_any(star, false), has_inside = has_any(star, true);
+    const Replacement result = reshaping.merge(pair[0], pair[1]);
+    ++tally_.merges;
+    tally_.merged += result.is_made;
+    tally_.merges_held += !result.held_by.empty();
+    EXPECT_EQ(result.reason.empty(), result.is_made);
+    EXPECT_LE(result.is_made + !result.held_by.empty(), 1);
+    EXPECT_EQ(result.is_made || !result.held_by.empty(), may_be) << result.reason;
+    if (is_empty) {
+      EXPECT_TRUE(result.held_by.empty()) << "nothing lies there";
+    }
+    if (has_inside) {
+      EXPECT_FALSE(result.is_made) << "something lies in a free cell";
+    }
+  }
+
+  /// Whether a vertex lies in one of some free cells, strictly; or else, whether anything may touch one.
+  bool has_any(const std::vector<Cell>& cells, bool strictly) const {
+    for (const Cell c : cells) {
+      if (snapshot_.is_solid(c)) continue;
+      const detail::Box<D> box = detail::box_of<D>(snapshot_, std::vector<Cell>{c});
+      const auto meets = [&](const std::vector<Point<D>>& points) {
+        detail::Box<D> own;
+        for (const Point<D>& x : points) own.extend(x);
+        return !strictly && own.meets(box);
+      };
+      const auto lies_in = [&](const Point<D>& x) {
+        if (!strictly) return meets({x});
+        Walk_counts uncounted;
+        for (std::size_t k = 0; k < snapshot_.facet_count(c); ++k)
+          if (detail::side<Exact>(snapshot_.view(c), k, x, uncounted) >= 0) return false;
+        return true;
+      };
+      for (const auto& p : world_.particles)
+        if (lies_in(p.position)) return true;
+      for (const auto& body : world_.bodies) {
+        for (const Point<D>& x : body->positions())
+          if (lies_in(x)) return true;
+        for (const auto& [u, v] : body->edges())
+          if (meets({body->positions()[u], body->positions()[v]})) return true;
+        for (const auto& [u, v, w] : body->faces())
+          if (meets({body->positions()[u], body->positions()[v], body->positions()[w]})) return true;
+      }
+    }
+    return false;
+  }
+
   void cut(Reshaping<D>& reshaping) {
     if (snapshot_.cell_count() > most_cells) return;
     const Point<D> middle = centroid(snapshot_, world_.cell());
@@ -210,6 +278,9 @@ class Operations {
     tally_.split += report.split;
     tally_.opened += report.opened;
     tally_.held += report.held;
+    tally_.slit += report.slit;
+    for (const Cut_point& made : report.points)
+      if (made.between[0] == made.between[1]) stitches_.push_back({made.point, made.between[0]});
     expects_more_vertices_ = report.points.size();
   }
 
@@ -284,6 +355,7 @@ class Operations {
   Operation_tally& tally_;
   Certificate before_;
   std::uint32_t inserted_ = Replacement::none;
+  std::vector<std::array<std::uint32_t, 2>> stitches_;  ///< of cuts, not sewn yet
   bool may_move_boundary_ = false, expects_same_volumes_ = false;
   std::optional<std::size_t> expects_more_vertices_;
 };

@@ -40,6 +40,9 @@ void soak(bool generic, std::size_t worlds) {
   EXPECT_GT(tally.closings.refused, static_cast<int>(count / 4));
   EXPECT_GT(tally.growths.opened + tally.growths.excavated, static_cast<int>(count));
   EXPECT_GT(tally.peeled, count);
+  EXPECT_GT(tally.merged, count / 2);
+  EXPECT_GT(tally.merges_held, count / 16);
+  EXPECT_GT(tally.slit, count / 16);
   EXPECT_GT(tally.peels, tally.peeled);
   EXPECT_GT(tally.split, count);
   EXPECT_GT(tally.opened, count / 16);

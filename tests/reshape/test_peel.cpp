@@ -76,7 +76,7 @@ void refuse_cells_named_twice() {
   for (const Cell c : peeled.front) {
     std::vector<Cell> cells = peeled.front;
     cells.push_back(c);
-    EXPECT_EQ(peeled.refusal(cells), "cell " + std::to_string(to_index(c)) +
+    EXPECT_EQ(peeled.refusal(cells), "cell " + std::to_string(peeled.environment.snapshot().index(c)) +
                                          " is named twice: name each cell that is taken back once");
   }
   EXPECT_EQ(peeled.environment.certify().cells, before.cells);

@@ -135,7 +135,8 @@ bool Cutter<D>::split_edge(std::uint32_t u, std::uint32_t v, double share) {
   for (const double x : middle) size = std::max(size, std::abs(x));
   for (int k = 0; k <= most_shifts; ++k) {
     const double shift = k == 0 ? 0 : std::ldexp(unit_in_last_place(size), k);
-    if (const auto point = patch_.split_edge(u, v, middle + shift * inward)) {
+    if (const auto point =
+            patch_.split_edge(u, v, middle + shift * inward, Tissue_patch<D>::Walls::retreat)) {
       sides_[*point] = Side::on;
       report_.points.push_back({*point, {u, v}, share});
       return true;

@@ -70,7 +70,7 @@ void Slitter<D>::split(Border border) {
       continue;
     }
     const Point<D> at = point_on<D>(snapshot().point(edge[0]), snapshot().point(edge[1]), share);
-    const auto point = patch_.split_edge(edge[0], edge[1], at);
+    const auto point = patch_.split_edge(edge[0], edge[1], at, Tissue_patch<D>::Walls::move_among_nothing);
     if (!point) continue;
     ++report_.split;
     report_.points.push_back({*point, edge, share});

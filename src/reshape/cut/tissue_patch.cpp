@@ -132,7 +132,7 @@ void Tissue_patch<D>::open_groups(std::uint32_t u, std::uint32_t v) {
 
 template <int D>
 std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::uint32_t v,
-                                                         const Point<D>& position) {
+                                                         const Point<D>& position, Walls walls_there) {
   const Snapshot<D>& s = snapshot();
   const std::vector<Cell> cells = cells_at(u, v);
   std::vector<Cell> free;
@@ -161,10 +161,11 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::u
   }
   counts_.opened += groups_.open(box_of<D>(s, cells));
   relinker_.note(free);
-  if (!may_move_walls(cells, u, v, position) &&
-      !(keeps_boundary(cells, edge, position) && !relinker_.has_any() &&
-        groups_.faces_near(box_of<D>(s, free)).empty()))
-    return std::nullopt;
+  const bool may_be = walls_there == Walls::retreat
+                          ? may_move_walls(cells, u, v, position)
+                          : keeps_boundary(cells, edge, position) && !relinker_.has_any() &&
+                                groups_.faces_near(box_of<D>(s, free)).empty();
+  if (!may_be) return std::nullopt;
   is_broken_ = true;
   const std::vector<Cell> added = replace(cells, soup, position);
   free.clear();

@@ -36,12 +36,19 @@ class Tissue_patch {
   /// \throw Error(usage) for a particle that does not lie in its cell
   void open_groups(std::uint32_t u, std::uint32_t v);
 
+  /// What walls do at an edge that is split.
+  enum class Walls : std::uint8_t {
+    /// Solid retreats: the point lies on the free side of no wall. No wall there parts free cells from each
+    /// other, free cells meet the edge on one side only, and no body's face rests on a wall there.
+    retreat,
+    /// They go wherever the point is: nothing is registered in the free cells around, and no face lies near.
+    move_among_nothing
+  };
+
   /// Splits an edge of walls at a point on or near it, which lies on the planes of all boundary facets at the
-  /// edge. Walls retreat: the point lies on the free side of none of them. If they do not, or part free cells
-  /// from each other, or free cells meet the edge on several sides, nothing may be registered in the free
-  /// cells around it, nor a face lie near. Returns the new point; none if that is refused, if a body's face
-  /// rests on a wall there, or if a cell would be flat or inverted.
-  std::optional<std::uint32_t> split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
+  /// edge. Returns the new point; none if the walls would do otherwise, or a cell would be flat or inverted.
+  std::optional<std::uint32_t> split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position,
+                                          Walls walls);
 
   /// Takes solid cells back from a vertex: they get another vertex instead, and free cells fill the gap that
   /// they leave. Its facets to free cells become passable. Returns the new vertex, or why it cannot be made.
