@@ -5,11 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <vector>
 
-#include "reshape/grids.h"
 #include "reshape/star_scene.h"
 
 namespace cellwalk {
@@ -52,30 +49,6 @@ TEST(Relinking, DoesNotPassBehindWalls) {
   EXPECT_TRUE(report.contacts.empty()) << "it lay above the walls";
   body.step(std::vector<Point<2>>{{-0.5, 0.5}, {2.5, -1}}, {}, report, counts);
   EXPECT_FALSE(report.contacts.empty()) << "and passes them no more than before";
-}
-
-/// Cells elsewhere get the names of those that are gone: what lay in these is not looked for there.
-TEST(Relinking, ForgetsCellsThatAreGone) {
-  Environment<2> environment = test::simplex_grid<2>(6);
-  const Snapshot<2>& snapshot = environment.snapshot();
-  const Locator<2> locator(snapshot);
-  const Body_soup<2> soup{{{0.3, 0.2}, {0.8, 0.6}}, {{0, 1}}, {}};
-  Body<2> body(snapshot, locator, soup);
-  const Cell gone = body.particles()[0].cell;
-  const Cell far = locator.locate({5.6, 5.3}).cells.front();
-  const std::vector<std::uint32_t> corners(snapshot.view(far).vertices.begin(),
-                                           snapshot.view(far).vertices.end());
-  Reshaping<2> reshaping(environment, {{&body}, {}});
-  ASSERT_TRUE(reshaping.insert_point(gone, test::centroid(snapshot, gone)).is_made);
-  const Replacement made = reshaping.insert_point(far, test::centroid(snapshot, far));
-  ASSERT_TRUE(made.is_made);
-  ASSERT_NE(std::ranges::find(made.cells, gone), made.cells.end()) << "a cell has the name again";
-  const std::uint64_t edges = reshaping.counts().edges;
-  EXPECT_EQ(reshaping.ask(made.point, snapshot.point(made.point) + Vector<2>{0.01, 0.01}).end,
-            Move_end::reached);
-  EXPECT_EQ(reshaping.counts().edges, edges);
-  reshaping.close();
-  EXPECT_NO_THROW(body.validate());
 }
 
 }  // namespace
