@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -234,6 +235,39 @@ TEST(CutShapes, OfManyBladesInThePlane) {
 }
 TEST(CutShapes, OfManyBladesInSpace) {
   cut_by_many_shapes<3>(std::max<std::size_t>(oracle::scaled_count(24), 8));
+}
+
+/// A blade that bends around a triangle, through all of its corners: that lies behind the blade, whichever side is
+/// its front, and so keeps its corners.
+TEST(CutShapes, PutCellsThatTheyPassAllAroundBehind) {
+  int found = 0;
+  for (const bool is_reversed : {false, true}) {
+    auto environment = test::tissue<2>(6, 5, 0);
+    const Snapshot<2>& snapshot = environment.snapshot();
+    for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
+      const Cell_view<2> view = snapshot.view(snapshot.cell(i));
+      const std::set<Point<2>> corners{view.point(0), view.point(1), view.point(2)};
+      // The right angle at (3, 2), one leg upwards.
+      if (!corners.contains({3, 2}) || !corners.contains({3, 3})) continue;
+      const Point<2> end = corners.contains({4, 2}) ? Point<2>{4, 2} : Point<2>{2, 2};
+      if (!corners.contains(end)) continue;
+      ++found;
+      const std::set<std::uint32_t> before(view.vertices.begin(), view.vertices.end());
+      const Point<2> middle = test::centroid(snapshot, snapshot.cell(i));
+      std::vector<Point<2>> points{{3, 7}, {3, 2}, end};
+      if (is_reversed) std::reverse(points.begin(), points.end());
+      const Cut_report report = sound_cut<2>(environment, test::blade<2>(points), 0.05);
+      EXPECT_EQ(report.split, 0u);
+      EXPECT_GT(report.opened, 2u);
+      std::set<std::uint32_t> now;
+      for (std::size_t k = 0; k < snapshot.cell_slots(); ++k)
+        if (const Cell c = snapshot.cell(k); in_closure(snapshot, c, middle))
+          now.insert(snapshot.view(c).vertices.begin(), snapshot.view(c).vertices.end());
+      EXPECT_EQ(now, before) << is_reversed;
+      break;
+    }
+  }
+  EXPECT_EQ(found, 2);
 }
 
 /// Cubes around a vertical edge in the middle, numbered around it. Those that are left out are in no cell.
