@@ -20,6 +20,19 @@ struct Selected {
   py::array facets, cells;
 };
 
+/// The part of a group that is left.
+/// \throw ValueError if there is no such group
+template <int D>
+Selection<D> group_of(const typename World<D>::Looking& looking, const std::string& name) {
+  Groups<D> groups = looking.groups();
+  const auto found = groups.find(name);
+  if (found != groups.end()) return std::move(found->second);
+  std::string names;
+  for (const auto& [known, selection] : groups) names += (names.empty() ? "" : ", ") + known;
+  throw py::value_error(
+      fmt::format("there is no group \"{}\": the environment has {}", name, names.empty() ? "none" : names));
+}
+
 template <int D>
 std::array<Point<D>, 2> two_points(const py::object& given, const char* name) {
   try {
@@ -50,7 +63,7 @@ Environment_part<D> part_of(const py::object& box, const py::object& ball, const
   if (!box.is_none() && !ball.is_none())
     throw Error(Error_code::usage, "box and ball exclude each other: give one");
   if (box.is_none() && ball.is_none() && plane.is_none())
-    throw Error(Error_code::usage, "select() takes a box, a ball or a plane: give one");
+    throw Error(Error_code::usage, "select() takes a box, a ball, a plane or a group: give one");
   if (!box.is_none()) {
     const auto [lower, upper] = two_points<D>(box, "box");
     need_finite<D>(lower, "box");
@@ -79,13 +92,16 @@ Environment_part<D> part_of(const py::object& box, const py::object& ball, const
 }
 
 Selected select(const Shared_world& self, const py::object& box, const py::object& ball,
-                const py::object& plane) {
+                const py::object& plane, const std::optional<std::string>& group) {
   return std::visit(
       [&]<int D>(const World<D>& world) {
-        const Environment_part<D> part = part_of<D>(box, ball, plane);
+        if (group && !(box.is_none() && ball.is_none() && plane.is_none()))
+          throw Error(Error_code::usage, "a group and places exclude each other: give one");
+        const Environment_part<D> part = group ? Environment_part<D>{} : part_of<D>(box, ball, plane);
         const auto [facets, cells] = [&] {
           const typename World<D>::Looking looking(world);
-          const Selection<D> found = cellwalk::select(looking.snapshot(), part);
+          const Selection<D> found =
+              group ? group_of<D>(looking, *group) : cellwalk::select(looking.snapshot(), part);
           return std::pair(cell_table_of<D>(looking.snapshot(), std::span(found.facets)),
                            cell_table_of<D>(looking.snapshot(), std::span(found.cells)));
         }();
@@ -106,7 +122,7 @@ py::array all_rows(const Shared_world& self, bool of_facets) {
       *self.world));
 }
 
-void bind_results(py::module_& module) {
+void bind_edit_results(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Held_row, row, owner, feature, body, is_particle);
   PYBIND11_NUMPY_DTYPE(Cut_point_row, share, between, point);
   py::class_<Selected>(module, "Selection", "Facets and cells of a part of an environment.")
@@ -286,7 +302,7 @@ void bind_class(py::module_& module) {
 }  // namespace
 
 void bind_edits(py::module_& module, py::class_<Shared_world>& environment) {
-  bind_results(module);
+  bind_edit_results(module);
   bind_class(module);
   environment
       .def(
@@ -317,15 +333,25 @@ void bind_edits(py::module_& module, py::class_<Shared_world>& environment) {
           "All cells, by number: a structured array of cell, solid, mean (of its points) and points (-1 "
           "after "
           "the last one).")
-      .def("select", &select, py::kw_only(), py::arg("box") = py::none(), py::arg("ball") = py::none(),
-           py::arg("plane") = py::none(),
-           "Facets and cells by place. A cell belongs to the selection if its mean lies in the shape and in "
-           "front of the plane; a facet between two cells, if its mean lies in the shape, and the means of "
-           "its "
-           "cells on either side of the plane.\n\n"
-           "box: its lower and its upper corner.\n"
-           "ball: its centre and its radius.\n"
-           "plane: a point of it, and its normal, which points to its front.")
+      .def(
+          "select", &select, py::kw_only(), py::arg("box") = py::none(), py::arg("ball") = py::none(),
+          py::arg("plane") = py::none(), py::arg("group") = py::none(),
+          "Facets and cells by place. A cell belongs to the selection if its mean lies in the shape and in "
+          "front of the plane; a facet between two cells, if its mean lies in the shape, and the means of "
+          "its "
+          "cells on either side of the plane.\n\n"
+          "box: its lower and its upper corner.\n"
+          "ball: its centre and its radius.\n"
+          "plane: a point of it, and its normal, which points to its front.\n"
+          "group: instead of a place, the name of a group, see `groups`: its facets and cells that are left, "
+          "those on the boundary too.")
+      .def_property_readonly(
+          "groups",
+          [](const Shared_world& self) {
+            return std::visit([](const auto& world) { return world.group_names(); }, *self.world);
+          },
+          "The names of the groups of facets and cells that the file of the environment has, in order. Edits "
+          "that replace cells take them out of their groups, and save() writes what is left.")
       .def(
           "freeze",
           [](const Shared_world& self) {

@@ -19,11 +19,13 @@
 
 namespace cellwalk::python {
 
-Shared_world share(Any_environment environment, const Certificate& certificate, std::string report) {
+Shared_world share(Any_environment environment, const Certificate& certificate, std::string report,
+                   const Any_groups& groups) {
   return std::visit(
       [&]<int D>(Environment<D>& built) -> Shared_world {
         built.freeze();
-        return {std::make_shared<Any_world>(std::in_place_type<World<D>>, std::move(built), certificate),
+        return {std::make_shared<Any_world>(std::in_place_type<World<D>>, std::move(built), certificate,
+                                            std::get<Groups<D>>(groups)),
                 std::move(report)};
       },
       environment);
@@ -155,9 +157,12 @@ void save(const Shared_world& self, const py::object& path) {
   const std::string name = py::str(path);
   std::visit(
       [&]<int D>(const World<D>& world) {
-        const Cell_soup<D> soup = [&] { return typename World<D>::Reading(world).environment().soup(); }();
+        const auto [soup, groups] = [&] {
+          const typename World<D>::Reading reading(world);
+          return std::pair(reading.environment().soup(), soup_groups(reading.snapshot(), reading.groups()));
+        }();
         const py::gil_scoped_release released;
-        io::write_ovm(name, soup);
+        io::write_ovm(name, soup, groups);
       },
       *self.world);
 }

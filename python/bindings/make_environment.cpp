@@ -38,7 +38,7 @@ Shared_world build(Cell_soup<D> soup, const Build_options& options) {
   Environment<D> environment = Environment<D>::build(std::move(soup), options, &built);
   const nlohmann::ordered_json report{{"changed", to_json(built)},
                                       {"certificate", to_json(built.certificate, D)}};
-  return share(std::move(environment), built.certificate, report.dump());
+  return share(std::move(environment), built.certificate, report.dump(), Groups<D>{});
 }
 
 void add_cell(Cell_soup<2>& soup, std::span<const std::uint32_t> v) { add_polygon(soup, v); }
@@ -92,7 +92,7 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
   const nlohmann::ordered_json report{
       {"read", {{"file", name}, {"format", loaded.read.format}, {"notes", loaded.read.notes}}},
       {"changed", to_json(loaded.built)}};
-  return share(std::move(loaded.environment), loaded.built.certificate, report.dump());
+  return share(std::move(loaded.environment), loaded.built.certificate, report.dump(), loaded.groups);
 }
 
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
@@ -108,7 +108,8 @@ Shared_world import_mesh(const py::object& path, const std::vector<py::object>& 
   options.build = to_build_options(duplicates, split, simplicial);
   // The interpreter waits: TetGen is not thread-safe.
   Imported_environment imported = import_environment(name, options);
-  return share(std::move(imported.environment), imported.built.certificate, imported.report.json.dump());
+  return share(std::move(imported.environment), imported.built.certificate, imported.report.json.dump(),
+               imported.groups);
 }
 
 /// Numbers, sequences of numbers and truth values, as generators take them.

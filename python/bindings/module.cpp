@@ -9,7 +9,9 @@
 
 #include <pybind11/stl.h>
 
+#include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cellwalk::python {
@@ -53,7 +55,7 @@ PYBIND11_MODULE(_cellwalk, module) {
   error_class(Error_code::other);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Error& error) {
       PyErr_SetString(error_class(error.code()).ptr(), error.what());
     }

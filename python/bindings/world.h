@@ -4,6 +4,7 @@
 #ifndef CELLWALK_PYTHON_WORLD_H
 #define CELLWALK_PYTHON_WORLD_H
 
+#include <cellwalk/environment/groups.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/walk/locate.h>
@@ -42,8 +43,9 @@ class World {
  public:
   static constexpr int dimension = D;
 
-  World(Environment<D> built, const Certificate& certificate)
+  World(Environment<D> built, const Certificate& certificate, const Groups<D>& groups)
       : environment_(std::move(built)),
+        groups_(environment_.snapshot(), groups),
         certificate_(certificate),
         certified_(environment_.snapshot().epoch()),
         locator_(environment_.snapshot()),
@@ -70,6 +72,8 @@ class World {
 
     const Environment<D>& environment() const { return world_.environment_; }
     const Snapshot<D>& snapshot() const { return environment().snapshot(); }
+    /// What is left of the groups of the file.
+    Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// Made anew if points moved since the last one. Not to be called from tasks of oneTBB.
     const Locator<D>& locator() const { return world_.current_locator(); }
     /// Of the environment as it is: certified again if points moved.
@@ -90,6 +94,8 @@ class World {
       if (!world.is_open_here()) lock_ = std::shared_lock(world.lock_);
     }
     const Snapshot<D>& snapshot() const { return world_.environment_.snapshot(); }
+    /// What is left of the groups of the file.
+    Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// The points for arrays. They are kept like the environment as long as points are not added.
     std::shared_ptr<const std::vector<Point<D>>> points() const {
       const std::lock_guard making(world_.making_);
@@ -146,6 +152,8 @@ class World {
     World& world_;
     std::unique_lock<Turn_lock> lock_;
   };
+
+  std::vector<std::string> group_names() const { return groups_.names(); }
 
  private:
   bool is_open_here() const { return opened_by_ == std::this_thread::get_id(); }
@@ -209,6 +217,7 @@ class World {
 
   mutable Turn_lock lock_;
   Environment<D> environment_;
+  Lasting_groups<D> groups_;
   std::atomic<std::thread::id> opened_by_{};
   mutable std::mutex making_;  ///< of what follows
   mutable Certificate certificate_;
@@ -231,7 +240,9 @@ struct Shared_world {
 };
 
 /// Takes an environment over, and frees its map.
-Shared_world share(Any_environment environment, const Certificate& certificate, std::string report);
+/// \param groups of the same dimension
+Shared_world share(Any_environment environment, const Certificate& certificate, std::string report,
+                   const Any_groups& groups);
 
 }  // namespace cellwalk::python
 

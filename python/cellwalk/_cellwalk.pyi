@@ -280,7 +280,10 @@ class Environment:
         box: Union[tuple[Sequence[float], Sequence[float]], None] = None,
         ball: Union[tuple[Sequence[float], float], None] = None,
         plane: Union[tuple[Sequence[float], Sequence[float]], None] = None,
+        group: Union[str, None] = None,
     ) -> Selection: ...
+    @property
+    def groups(self) -> list[str]: ...
     def freeze(self) -> None: ...
 
 @final

@@ -78,7 +78,7 @@ class Selecting(unittest.TestCase):
 
     def test_refusals(self):
         environment = plane()
-        for message, part in (("takes a box, a ball or a plane", {}), ("exclude each other", {"box": ((0, 0), (1, 1)), "ball": ((0, 0), 1)})):
+        for message, part in (("takes a box, a ball, a plane or a group", {}), ("exclude each other", {"box": ((0, 0), (1, 1)), "ball": ((0, 0), 1)})):
             with self.assertRaisesRegex(cellwalk.UsageError, message):
                 environment.select(**part)
         for message, part in (("lower one in all coordinates", {"box": ((0, 1), (1, 0))}), ("positive number", {"ball": ((0, 0), 0)}),

@@ -81,7 +81,8 @@ void import(Options& options) {
   Imported_environment imported = import_environment(options.mesh, options.import);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
-        io::write_ovm(*file, environment.soup());
+        io::write_ovm(*file, environment.soup(),
+                      soup_groups(environment.snapshot(), std::get<Groups<D>>(imported.groups)));
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         progress.reset();
         imported.report.json["edge_cells"] = to_json(edges);

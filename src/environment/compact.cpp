@@ -8,7 +8,7 @@
 
 #include "environment/map/map_matches_snapshot.h"
 #include "environment/snapshot/compiler.h"
-#include "soup_of.h"
+#include "snapshot_soup.h"
 
 namespace cellwalk {
 

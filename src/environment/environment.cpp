@@ -13,7 +13,7 @@
 #include "environment/map/map_matches_snapshot.h"
 #include "environment/soup/parallel.h"
 #include "prepare_soup.h"
-#include "soup_of.h"
+#include "snapshot_soup.h"
 
 namespace cellwalk {
 namespace {

@@ -30,11 +30,11 @@ Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet) {
 }
 
 template <int D>
-Point<D> mean_of(const Snapshot<D>& snapshot, Cell of) {
-  const Cell_view<D> cell = snapshot.view(of);
+Point<D> mean_of(const Snapshot<D>& snapshot, Cell cell) {
+  const Cell_view<D> view = snapshot.view(cell);
   Vector<D> sum{};
-  for (std::size_t v = 0; v < cell.vertex_count(); ++v) sum = sum + (cell.point(v) - Point<D>{});
-  return Point<D>{} + (1.0 / static_cast<double>(cell.vertex_count())) * sum;
+  for (std::size_t v = 0; v < view.vertex_count(); ++v) sum = sum + (view.point(v) - Point<D>{});
+  return Point<D>{} + (1.0 / static_cast<double>(view.vertex_count())) * sum;
 }
 
 template <int D>

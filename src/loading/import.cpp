@@ -37,8 +37,8 @@ class Import {
                                                  io::kind_name(file.mesh)));
     if (const auto* domain = std::get_if<Planar_domain>(&file.mesh))
       return build_meshed(naming(path_, [&] { return mesh_domain(*domain, options_.mesher); }));
-    if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build(std::move(*soup));
-    return build(std::move(std::get<Cell_soup<3>>(file.mesh)));
+    if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build(std::move(*soup), file.groups);
+    return build(std::move(std::get<Cell_soup<3>>(file.mesh)), file.groups);
   }
 
  private:
@@ -87,30 +87,35 @@ class Import {
   Imported_environment build_meshed(Meshed<D> meshed) {
     report_.stages.push_back({"meshed", std::move(meshed.lines)});
     report_.json["meshed"] = std::move(meshed.report);
-    return build(std::move(meshed.soup));
+    return build(std::move(meshed.soup), {});
   }
 
   template <int D>
-  Imported_environment build(Cell_soup<D> soup) {
+  Imported_environment build(Cell_soup<D> soup, const Soup_groups& groups) {
     begin("splitting, gluing and certifying " + path_);
     Build_report built;
+    const Group_places<D> places = naming(path_, [&] { return Group_places<D>(soup, groups); });
     auto environment =
         naming(path_, [&] { return Environment<D>::build(std::move(soup), options_.build, &built); });
     report_.stages.push_back({"changed", changes(built)});
     report_.json["changed"] = to_json(built);
+    Groups<D> found = places.find(environment.snapshot(), built.origin);
     if (options_.tissue != 0) {
       if constexpr (D == 3)
-        environment = naming(path_, [&] { return in_tissue(environment.soup(), built.certificate); });
+        environment = naming(path_, [&] { return in_tissue(environment, found, built.certificate); });
       else
         throw Error(Error_code::usage, fmt::format("--tissue goes with 3D, and {} is 2D", path_));
     }
     report_.json["certificate"] = to_json(built.certificate, D);
-    return {std::move(environment), std::move(built), std::move(report_)};
+    return {std::move(environment), std::move(built), std::move(report_), std::move(found)};
   }
 
   /// The cells surrounded by solid ones, and certified again.
-  Environment<3> in_tissue(Cell_soup<3> cells, Certificate& certificate) {
+  Environment<3> in_tissue(const Environment<3>& alone, Groups<3>& groups, Certificate& certificate) {
     begin("meshing the tissue around " + path_);
+    Cell_soup<3> cells = alone.soup();
+    // They keep their numbers and points.
+    const Group_places<3> places(cells, soup_groups(alone.snapshot(), groups));
     Meshed<3> meshed = add_tissue(std::move(cells), options_.tissue, options_.mesher);
     report_.stages.push_back({"tissue", std::move(meshed.lines)});
     report_.json["tissue"] = std::move(meshed.report);
@@ -118,6 +123,7 @@ class Import {
     Build_report built;
     auto environment = Environment<3>::build(std::move(meshed.soup), options_.build, &built);
     certificate = built.certificate;
+    groups = places.find(environment.snapshot(), built.origin);
     return environment;
   }
 

@@ -71,9 +71,14 @@ void sort_once(std::vector<Name>& names) {
 }  // namespace
 
 template <int D>
-Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes) {
-  std::map<std::string, Selection<D>> groups;
-  for (const auto& [name, part] : changes.groups) groups[name] = select(snapshot, part);
+Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes,
+                                    const Groups<D>& of_file) {
+  Groups<D> groups = of_file;
+  for (const auto& [name, part] : changes.groups)
+    if (!groups.emplace(name, select(snapshot, part)).second)
+      throw Error(
+          Error_code::input,
+          fmt::format("groups.{}: the file of the environment has a group of that name: rename one", name));
   for (std::size_t i = 0; i < changes.list.size(); ++i) {
     const Environment_change<D>& change = changes.list[i];
     Planned& planned = planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}, {}, {}});
@@ -82,6 +87,12 @@ Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environme
       continue;
     }
     const auto group = groups.find(change.part.group);
+    if (group == groups.end() && !change.part.group.empty())
+      throw Error(
+          Error_code::input,
+          fmt::format("changes[{}].{}: there is no such group: name it in \"groups\", or in the file of "
+                      "the environment",
+                      i, change_names[static_cast<std::size_t>(change.kind)]));
     const Selection<D> part = group == groups.end() ? select(snapshot, change.part) : group->second;
     const bool of_facets = is_of_facets(change.kind);
     if (of_facets)

@@ -2,6 +2,7 @@
 // Changes of facets and cells among bodies, as `cellwalk edit` makes, reports and refuses them.
 #include <nlohmann/json.hpp>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,67 @@ TEST_F(Edit, RefusesToFillACellInWhichABodyLies) {
   ASSERT_GE(rows.size(), 3u) << "at least its vertices";
   for (const Row& row : rows) EXPECT_EQ(row[3], "refused");
   EXPECT_EQ(report_["certificate"]["solid_cells"], 0);
+}
+
+/// The edges of a 2D .ovm file whose ends have the same first coordinate, as flags.
+std::string edges_at(const std::string& ovm, const std::string& x) {
+  std::istringstream in(ovm);
+  std::string word;
+  std::vector<std::string> first;
+  std::size_t count = 0;
+  while (in >> word && word != "Vertices") {
+  }
+  in >> count;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string y, z;
+    in >> first.emplace_back() >> y >> z;
+  }
+  in >> word >> count;
+  std::string flags;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t u = 0, v = 0;
+    in >> u >> v;
+    flags += first.at(u) == x && first.at(v) == x ? " 1" : " 0";
+  }
+  return flags + "\n";
+}
+
+TEST_F(Edit, ChangesGroupsOfTheFileAndKeepsThem) {
+  succeed({"generate", "squares", "--cells", "4", "3", "-o", "env.ovm"});
+  const std::string plain = text("env.ovm");
+  write("env.ovm", plain + "EProp bool \"group door\"\n" + edges_at(plain, "2") +
+                       "FProp bool \"group plug\"\n1 1 0 0 0 0 0 0 0 0 0 0\n");
+  auto rows = edit(R"({"changes": [{"close": "door"}, {"fill": "plug"}]})");
+  ASSERT_EQ(rows.size(), 5u);
+  for (const Row& row : rows) EXPECT_EQ(row[3], "made");
+  EXPECT_EQ(report_["certificate"]["solid_cells"], 2);
+  // The environment written has them, too; so has that which `import` and `deform` write.
+  succeed({"import", "out.ovm", "-o", "env.ovm"});
+  rows = edit(R"({"changes": [{"excavate": "plug"}, {"open": "door"}]})");
+  EXPECT_EQ(rows.size(), 2u + 2u) << "one facet of the door opens as its cell becomes free";
+  EXPECT_EQ(report_["certificate"]["solid_cells"], 0);
+  EXPECT_EQ(report_["certificate"]["membranes"], 0);
+  succeed({"import", "out.ovm", "--simplicial", "-o", "env.ovm"});
+  rows = edit(R"({"changes": [{"close": "door"}, {"fill": "plug"}]})");
+  EXPECT_EQ(rows.size(), 3u + 4u) << "a square is two triangles";
+  write("moves.csv", "point,x,y\n0,0,0.125\n");
+  succeed({"deform", "out.ovm", "moves.csv", "-o", "env.ovm"});
+  EXPECT_EQ(edit(R"({"changes": [{"excavate": "plug"}]})").size(), 4u);
+  // A scene has them as well.
+  write("s.json",
+        R"({"dimension": 2, "environment": "env.ovm", "particles": [{"position": [3.5, 2.5]}],
+                      "steps": 2, "changes": [{"step": 1, "open": "door"}]})");
+  succeed({"run", "s.json", "-o", "out"});
+  EXPECT_EQ(read_table(path("out/changes.csv")).size(), 1u + 2u);
+  // A group twice, and one that nobody has.
+  const auto refuse = [&](const std::string& changes, const std::string& said) {
+    write("changes.json", changes);
+    expect_failure(3, {"edit", "env.ovm", "changes.json", "-o", "other.ovm"}, {said});
+  };
+  refuse(R"({"groups": {"door": {"plane": [[2, 0], [1, 0]]}}, "changes": [{"close": "door"}]})",
+         "changes.json: groups.door: the file of the environment has a group of that name: rename one");
+  refuse(R"({"changes": [{"close": "gate"}]})",
+         "changes.json: changes[0].close: there is no such group: name it in \"groups\", or in the file of");
 }
 
 TEST_F(Edit, RefusesWhatIsWrongAndWritesNothing) {

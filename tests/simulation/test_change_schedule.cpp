@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Facets and cells by parts of space, and changes of them at steps.
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/change_schedule.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -30,6 +32,17 @@ std::vector<std::uint32_t> indices(const Snapshot<2>& snapshot, const std::vecto
   for (const Cell c : cells) result.push_back(snapshot.index(c));
   std::sort(result.begin(), result.end());
   return result;
+}
+
+/// The facet between cells 0 and 1, and cells 4 and 5, as the file of an environment may name them.
+Groups<2> groups_of_file(const Snapshot<2>& snapshot) {
+  Groups<2> groups;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (const Half_facet f = Snapshot<2>::half_facet(snapshot.cell(0), k);
+        snapshot.neighbour(f) == snapshot.cell(1))
+      groups["valve"].facets.push_back(f);
+  groups["plug"].cells = {snapshot.cell(4), snapshot.cell(5)};
+  return groups;
 }
 
 std::vector<Change_outcome> apply(Environment<2>& environment, Change_schedule<2>& schedule,
@@ -160,6 +173,46 @@ TEST(ChangeSchedule, RefusesAChangeOfNothing) {
       EXPECT_EQ(e.code(), Error_code::input);
     }
   }
+}
+
+TEST(ChangeSchedule, KnowsTheGroupsOfTheFile) {
+  auto environment = squares();
+  const Snapshot<2>& snapshot = environment.snapshot();
+  const Groups<2> groups = groups_of_file(snapshot);
+  Environment_changes<2> changes;
+  changes.groups["corner"] = in_ball({3.5, 2.5}, 0.1);
+  changes.list.resize(3);
+  changes.list[0].kind = Change_kind::close;
+  changes.list[0].part.group = "valve";
+  changes.list[1].kind = changes.list[2].kind = Change_kind::fill;
+  changes.list[1].part.group = "plug";
+  changes.list[2].part.group = "corner";
+  Change_schedule<2> schedule(snapshot, changes, groups);
+  const auto outcomes = apply(environment, schedule, 1);
+  ASSERT_EQ(outcomes.size(), 4u);
+  EXPECT_EQ(outcomes[0].facet, groups.at("valve").facets[0]);
+  EXPECT_TRUE(snapshot.is_impassable(groups.at("valve").facets[0]));
+  for (const std::size_t i : {4, 5, 11}) EXPECT_TRUE(snapshot.is_solid(snapshot.cell(i)));
+
+  const auto refusal = [&](const Groups<2>& of_file) {
+    try {
+      Change_schedule<2>(snapshot, changes, of_file);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Error_code::input);
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(
+      refusal({}),
+      "changes[0].close: there is no such group: name it in \"groups\", or in the file of the environment");
+  Groups<2> twice = groups;
+  twice["corner"];
+  EXPECT_EQ(refusal(twice),
+            "groups.corner: the file of the environment has a group of that name: rename one");
+  Groups<2> empty = groups;
+  empty["valve"].facets.clear();
+  EXPECT_EQ(refusal(empty), "changes[0].close: no facet between two cells of the environment lies there");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #define CELLWALK_IO_MESH_FILE_H
 
 #include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/soup_groups.h>
 #include <cellwalk/records/surface_soup.h>
 
 #include <cstddef>
@@ -30,6 +31,7 @@ using Mesh = std::variant<Surface_soup, Cell_soup<3>, Cell_soup<2>, Planar_domai
 struct Mesh_file {
   Mesh mesh;
   Read_report report;
+  Soup_groups groups{};  ///< of cells; both sides of each facet
 };
 
 /// "surface", "volume", "planar cells" or "planar domain".

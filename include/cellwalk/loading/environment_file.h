@@ -4,6 +4,7 @@
 #define CELLWALK_LOADING_ENVIRONMENT_FILE_H
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/environment/groups.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
@@ -17,11 +18,14 @@
 namespace cellwalk {
 
 using Any_environment = std::variant<Environment<2>, Environment<3>>;
+/// Of the same dimension.
+using Any_groups = std::variant<Groups<2>, Groups<3>>;
 
 struct Loaded_environment {
   Any_environment environment;
   Build_report built;
   io::Read_report read;
+  Any_groups groups{};  ///< that the file names
 };
 
 /// Runs `work`, and prepends `path: ` to the message of an Error that does not name the file.
@@ -65,6 +69,7 @@ struct Imported_environment {
   Any_environment environment;
   Build_report built;
   Import_report report;
+  Any_groups groups{};  ///< that the file names
 };
 
 /// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed

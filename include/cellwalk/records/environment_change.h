@@ -42,7 +42,7 @@ struct Scene_plane {
 /// vertices lies in the shape, and the means of its two cells on either side of the plane.
 template <int D>
 struct Environment_part {
-  std::string group;  ///< its name; empty: the conditions count
+  std::string group;  ///< its name, here or in the file of the environment; empty: the conditions count
   std::optional<Scene_shape<D>> shape;
   std::optional<Scene_plane<D>> plane;
 };

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 #define CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 
-#include <cellwalk/environment/selection.h>
+#include <cellwalk/environment/groups.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/records/environment_change.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -32,8 +32,11 @@ struct Change_outcome {
 template <int D>
 class Change_schedule {
  public:
-  /// \throw Error(input) naming a change that has no facet or cell
-  Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes);
+  /// \param of_file groups that the file of the environment names, besides those of the changes
+  /// \throw Error(input) naming a change that has no facet or cell, or a group that is not there, or there
+  ///        twice
+  Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes,
+                  const Groups<D>& of_file = {});
 
   /// True if apply() would do something before a step.
   bool is_due(std::uint32_t step) const;

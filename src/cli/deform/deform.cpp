@@ -87,7 +87,8 @@ At_contact reshape_rule(Contact_rule rule) {
 }
 
 template <int D>
-void deform_environment(const Deform_options& options, Deform_files& files, Environment<D>& environment) {
+void deform_environment(const Deform_options& options, Deform_files& files, Environment<D>& environment,
+                        const Groups<D>& groups) {
   const std::vector<Vertex_move<D>> moves = read_moves(options.moves, environment);
   Standing_bodies<D> bodies(options.bodies, environment.snapshot());
   const bool asks = options.at_contact == Contact_rule::ask;
@@ -102,7 +103,8 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
     const Progress progress("certifying " + name);
     return naming(name, [&] { return environment.certify(); });
   }();
-  if (!asks) io::write_ovm(*files.environment, environment.soup());
+  if (!asks)
+    io::write_ovm(*files.environment, environment.soup(), soup_groups(environment.snapshot(), groups));
   nlohmann::ordered_json json{{"environment", name}, {"certificate", to_json(certificate, D)}};
   json.update(moves_json(results, bodies, reshaping.counts()));
   write_json(files.json, json);
@@ -115,7 +117,11 @@ void deform(const Deform_options& options) {
   Deform_files files(options);
   Loaded_environment loaded = load_with_progress(options.environment, options.build);
   refuse_other_numbers(options.environment, loaded.built);
-  std::visit([&](auto& environment) { deform_environment(options, files, environment); }, loaded.environment);
+  std::visit(
+      [&]<int D>(Environment<D>& environment) {
+        deform_environment(options, files, environment, std::get<Groups<D>>(loaded.groups));
+      },
+      loaded.environment);
 }
 
 }  // namespace

@@ -49,11 +49,13 @@ struct Edit_files {
 };
 
 template <int D>
-void edit_environment(const Edit_options& options, Edit_files& files, Environment<D>& environment) {
+void edit_environment(const Edit_options& options, Edit_files& files, Environment<D>& environment,
+                      const Groups<D>& groups) {
   const Snapshot<D>& snapshot = environment.snapshot();
   const Environment_changes<D> changes = io::read_changes<D>(options.changes);
   Change_schedule<D> schedule =
-      naming(options.changes, [&] { return Change_schedule<D>(snapshot, changes); });
+      naming(options.changes, [&] { return Change_schedule<D>(snapshot, changes, groups); });
+  const Lasting_groups<D> lasting(snapshot, groups);
   Standing_bodies<D> bodies(options.bodies, snapshot);
   std::optional<Changes_table<D>> table;
   if (files.report)
@@ -71,7 +73,7 @@ void edit_environment(const Edit_options& options, Edit_files& files, Environmen
     const Progress progress("certifying " + options.output);
     return naming(options.output, [&] { return environment.certify(); });
   }();
-  io::write_ovm(*files.environment, environment.soup());
+  io::write_ovm(*files.environment, environment.soup(), soup_groups(snapshot, lasting.now(snapshot)));
   nlohmann::ordered_json json{{"environment", options.output}, {"certificate", to_json(certificate, D)}};
   json["changes"] = table->to_json();
   json["bodies"] = bodies.to_json();
@@ -86,7 +88,11 @@ void edit_environment(const Edit_options& options, Edit_files& files, Environmen
 void edit(const Edit_options& options) {
   Edit_files files(options);
   Loaded_environment loaded = load_with_progress(options.environment, options.build);
-  std::visit([&](auto& environment) { edit_environment(options, files, environment); }, loaded.environment);
+  std::visit(
+      [&]<int D>(Environment<D>& environment) {
+        edit_environment(options, files, environment, std::get<Groups<D>>(loaded.groups));
+      },
+      loaded.environment);
 }
 
 }  // namespace

@@ -11,9 +11,10 @@ namespace cellwalk::cli {
 
 template <int D>
 Run_changes<D>::Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
-                            const Environment_changes<D>& changes, const std::string& scene)
+                            const Environment_changes<D>& changes, const Groups<D>& groups,
+                            const std::string& scene)
     : environment_(environment),
-      schedule_(naming(scene, [&] { return Change_schedule<D>(environment.snapshot(), changes); })),
+      schedule_(naming(scene, [&] { return Change_schedule<D>(environment.snapshot(), changes, groups); })),
       table_(environment.snapshot(), folder / "changes.csv") {}
 
 template <int D>

@@ -20,10 +20,11 @@ template <int D>
 class Run_changes {
  public:
   /// \param folder for the table
+  /// \param groups that the file of the environment names
   /// \param scene names the scene in errors
   /// \throw Error(input) for a change that has no facet or cell
   Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
-              const Environment_changes<D>& changes, const std::string& scene);
+              const Environment_changes<D>& changes, const Groups<D>& groups, const std::string& scene);
 
   /// Makes what is due before the step that is next. Returns what came of it.
   std::vector<Change_outcome> step(World<D>& world);

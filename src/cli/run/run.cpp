@@ -66,6 +66,7 @@ struct Run_outputs {
 struct Prepared_environment {
   Any_environment environment;
   Certificate certificate;
+  Any_groups groups{};  ///< that its file names
 };
 
 /// \param walls how they move; null: they stand still
@@ -81,7 +82,7 @@ Prepared_environment prepare(const Environment_source& source, const Scene_walls
     options.simplicial = walls != nullptr || has_cut;
     Loaded_environment loaded = load_with_progress(*file, options);
     if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
-    return {std::move(loaded.environment), loaded.built.certificate};
+    return {std::move(loaded.environment), loaded.built.certificate, std::move(loaded.groups)};
   }
   const auto& generator_call = std::get<Generator_call>(source);
   const Progress progress("generating and certifying the environment");
@@ -111,6 +112,7 @@ struct Run {
   Run_outputs& outputs;
   Environment<D>& environment;
   const Certificate& certificate;
+  const Groups<D>& groups;  ///< that the file of the environment names
   const Scene_bodies<D>& bodies;
 
   std::uint32_t steps() const { return options.steps > 0 ? options.steps : scene.steps; }
@@ -147,7 +149,7 @@ void Run<D>::operator()() const {
   std::optional<Run_walls<D>> walls;
   if (scene.walls) walls.emplace(folder, environment, scene, options.scene);
   std::optional<Run_changes<D>> changes;
-  if (!scene.changes.list.empty()) changes.emplace(folder, environment, scene.changes, options.scene);
+  if (!scene.changes.list.empty()) changes.emplace(folder, environment, scene.changes, groups, options.scene);
   std::optional<Run_recording<D>> motion;
   if (const std::uint32_t every = motion_interval(scene, environment.snapshot(), world, steps()); every > 0)
     motion.emplace(folder / "motion.gz", environment.snapshot(), world,
@@ -309,7 +311,9 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
     throw Error(Error_code::input,
                 fmt::format("{}: dimension: the environment is of dimension {}, the scene of {}",
                             options.scene, 5 - D, D));
-  Run<D>{scene, options, outputs, *environment, prepared.certificate, bodies}();
+  const auto* const known = std::get_if<Groups<D>>(&prepared.groups);  // none are generated
+  const Groups<D> groups = known ? *known : Groups<D>{};
+  Run<D>{scene, options, outputs, *environment, prepared.certificate, groups, bodies}();
 }
 
 void run(Run_options options) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "io/files/text.h"
@@ -22,6 +23,11 @@ struct Raw {
   std::vector<std::uint32_t> face_begin{0}, face_halfedges;
   std::vector<std::uint32_t> cell_begin{0}, cell_halffaces;
   std::vector<std::uint8_t> edge_impassable, face_impassable, face_solid, cell_solid;
+  /// The groups of a name, as flags of all; empty where the file has none of that kind.
+  struct Group {
+    std::vector<std::uint8_t> edges, faces, cells;
+  };
+  std::map<std::string, Group> groups;
   std::optional<int> dimension;
 
   std::size_t face_count() const { return face_begin.size() - 1; }
@@ -29,6 +35,9 @@ struct Raw {
   std::uint32_t tail(std::uint32_t halfedge) const { return edges[halfedge / 2][halfedge % 2]; }
   std::uint32_t head(std::uint32_t halfedge) const { return edges[halfedge / 2][1 - halfedge % 2]; }
 };
+
+/// A property of this name, and then that of a group, is the group.
+constexpr std::string_view group_prefix = "group ";
 
 class Ovm_reader {
  public:
@@ -143,6 +152,7 @@ class Ovm_reader {
       if (same_word(entity, "CProp")) return flags(raw_.cell_solid, raw_.cell_count());
     }
     if (same_word(entity, "MProp") && same_word(type, "int") && name == "dimension") return dimension();
+    if (name == "group" || name.starts_with(group_prefix)) return group(entity, type, name);
     if (name == "impassable" || name == "solid")
       in_.fail(fmt::format(
           "'{} {} \"{}\"' has a meaning only as 'FProp bool' (walls), 'CProp bool' (solid cells); in 2D "
@@ -152,6 +162,20 @@ class Ovm_reader {
     // Values of unknown types cannot be parsed: skip to the next line that opens a property.
     while (in_.next_line())
       if (is_property(in_.word())) return in_.unread();
+  }
+
+  void group(const std::string& entity, const std::string& type, std::string_view property) {
+    const std::string name(property.substr(std::min(property.size(), group_prefix.size())));
+    if (name.empty()) in_.fail("a group without a name: write \"group NAME\"");
+    if (same_word(type, "bool")) {
+      if (same_word(entity, "EProp")) return flags(raw_.groups[name].edges, raw_.edges.size());
+      if (same_word(entity, "FProp")) return flags(raw_.groups[name].faces, raw_.face_count());
+      if (same_word(entity, "CProp")) return flags(raw_.groups[name].cells, raw_.cell_count());
+    }
+    in_.fail(fmt::format(
+        "'{} {} \"{}\"': a group is 'FProp bool' (facets) or 'CProp bool' (cells), in 2D 'EProp bool' and "
+        "'FProp bool': rename or change it",
+        shown(entity), shown(type), shown(property)));
   }
 
   void flags(std::vector<std::uint8_t>& values, std::size_t count) {
@@ -215,7 +239,32 @@ class Ovm_reader {
       }
       soup.end_cell(flag(raw_.cell_solid, c));
     }
+    std::vector<std::uint32_t> face_of(raw_.cell_halffaces.size());
+    for (std::size_t i = 0; i < face_of.size(); ++i) face_of[i] = raw_.cell_halffaces[i] / 2;
+    for (const auto& [name, group] : raw_.groups) {
+      if (!group.edges.empty())
+        report_.notes.push_back(
+            fmt::format("group \"{}\" of edges has no meaning in 3D: ignored", shown(name)));
+      if (!group.faces.empty() || !group.cells.empty()) add_group(name, group.faces, face_of, group.cells);
+    }
     return finish(std::move(soup));
+  }
+
+  /// \param facet_of the facet of the file of which each half-facet of the soup is a side
+  void add_group(const std::string& name, const std::vector<std::uint8_t>& facets,
+                 const std::vector<std::uint32_t>& facet_of, const std::vector<std::uint8_t>& cells) {
+    Soup_group& group = groups_[name];
+    std::vector<std::uint8_t> unused = facets;
+    for (std::uint32_t f = 0; f < facet_of.size(); ++f)
+      if (flag(facets, facet_of[f])) {
+        group.facets.push_back(f);
+        unused[facet_of[f]] = 0;
+      }
+    for (std::uint32_t c = 0; c < cells.size(); ++c)
+      if (cells[c]) group.cells.push_back(c);
+    if (const auto count = std::count(unused.begin(), unused.end(), 1))
+      report_.notes.push_back(
+          fmt::format("group \"{}\": {} of its facets belong to no cell: left out", shown(name), count));
   }
 
   Mesh_file planar() {
@@ -232,6 +281,10 @@ class Ovm_reader {
       }
       soup.end_cell(flag(raw_.face_solid, f));
     }
+    std::vector<std::uint32_t> edge_of(raw_.face_halfedges.size());
+    for (std::size_t i = 0; i < edge_of.size(); ++i) edge_of[i] = raw_.face_halfedges[i] / 2;
+    for (const auto& [name, group] : raw_.groups)
+      if (!group.edges.empty() || !group.faces.empty()) add_group(name, group.edges, edge_of, group.faces);
     return finish(std::move(soup));
   }
 
@@ -241,12 +294,13 @@ class Ovm_reader {
     report_.points = soup.points.size();
     report_.cells = soup.cell_count();
     report_.facets = soup.facet_count();
-    return {std::move(soup), std::move(report_)};
+    return {std::move(soup), std::move(report_), std::move(groups_)};
   }
 
   Line_reader in_;
   Raw raw_;
   Read_report report_;
+  Soup_groups groups_;
 };
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <limits>
 
+#include "io/files/text.h"
+
 namespace cellwalk::io {
 namespace {
 
@@ -154,7 +156,11 @@ class Writer {
 
   /// Writes a flag of each entity; omitted if all are zero.
   void property(std::string_view entity, std::string_view name, const std::vector<std::uint8_t>& values) {
-    if (std::find(values.begin(), values.end(), 1) == values.end()) return;
+    if (std::find(values.begin(), values.end(), 1) != values.end()) whole_property(entity, name, values);
+  }
+
+  void whole_property(std::string_view entity, std::string_view name,
+                      const std::vector<std::uint8_t>& values) {
     line("{} bool \"{}\"", entity, name);
     for (std::uint8_t v : values) line("{}", v ? 1 : 0);
   }
@@ -186,7 +192,35 @@ void check(const Cell_soup<D>& soup) {
     throw Error(Error_code::input, "the mesh is too large for 32-bit indices");
 }
 
-void write_cells(Writer& out, const Cell_soup<3>& soup) {
+template <int D>
+void check(const Cell_soup<D>& soup, const std::string& name, const Soup_group& group) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(Error_code::input, fmt::format("group \"{}\" {}", shown(name), why));
+  };
+  if (name.empty() ||
+      std::ranges::any_of(name, [](char c) { return c == '"' || static_cast<unsigned char>(c) < ' '; }))
+    refuse("needs a name without quotes and control characters");
+  for (const std::uint32_t facet : group.facets)
+    if (facet >= soup.facet_count()) refuse(fmt::format("has facet {} of {}", facet, soup.facet_count()));
+  for (const std::uint32_t cell : group.cells)
+    if (cell >= soup.cell_count()) refuse(fmt::format("has cell {} of {}", cell, soup.cell_count()));
+}
+
+/// Writes the groups; one without facets has its cells, even if there are none.
+/// \param side of each facet: twice the number of the entity that it is written as, or one more
+void write_groups(Writer& out, const Soup_groups& groups, std::string_view facets, std::string_view cells,
+                  const std::vector<std::uint32_t>& side, std::size_t facet_count, std::size_t cell_count) {
+  for (const auto& [name, group] : groups) {
+    const std::string title = "group " + name;
+    std::vector<std::uint8_t> of_facets(facet_count), of_cells(cell_count);
+    for (const std::uint32_t f : group.facets) of_facets[side[f] / 2] = 1;
+    for (const std::uint32_t c : group.cells) of_cells[c] = 1;
+    if (!group.facets.empty()) out.whole_property(facets, title, of_facets);
+    if (!group.cells.empty() || group.facets.empty()) out.whole_property(cells, title, of_cells);
+  }
+}
+
+void write_cells(Writer& out, const Cell_soup<3>& soup, const Soup_groups& groups) {
   const Faces faces(soup);
   std::vector<std::uint32_t> begin{0}, vertices;
   for (std::uint32_t f : faces.first()) {
@@ -204,9 +238,10 @@ void write_cells(Writer& out, const Cell_soup<3>& soup) {
         std::span(faces.halfface()).subspan(soup.cell_begin[c], soup.cell_begin[c + 1] - soup.cell_begin[c]));
   out.property("FProp", "impassable", faces.impassable());
   out.property("CProp", "solid", soup.solid);
+  write_groups(out, groups, "FProp", "CProp", faces.halfface(), faces.first().size(), soup.cell_count());
 }
 
-void write_cells(Writer& out, const Cell_soup<2>& soup) {
+void write_cells(Writer& out, const Cell_soup<2>& soup, const Soup_groups& groups) {
   // The facets of a cell are its edges in order, so that their first vertices are its loop.
   std::vector<std::uint32_t> vertices;
   for (std::size_t f = 0; f < soup.facet_count(); ++f) vertices.push_back(soup.facet(f)[0]);
@@ -226,13 +261,15 @@ void write_cells(Writer& out, const Cell_soup<2>& soup) {
   out.line("Polyhedra\n0");
   out.property("EProp", "impassable", impassable);
   out.property("FProp", "solid", soup.solid);
+  write_groups(out, groups, "EProp", "FProp", edges.halfedge, edges.ends.size(), soup.cell_count());
 }
 
 }  // namespace
 
 template <int D>
-void write_ovm(Atomic_file& file, const Cell_soup<D>& soup) {
+void write_ovm(Atomic_file& file, const Cell_soup<D>& soup, const Soup_groups& groups) {
   check(soup);
+  for (const auto& [name, group] : groups) check(soup, name, group);
   Writer out(file);
   out.line("OVM ASCII\nVertices\n{}", soup.points.size());
   for (const Point<D>& p : soup.points) {
@@ -241,20 +278,20 @@ void write_ovm(Atomic_file& file, const Cell_soup<D>& soup) {
     else
       out.line("{} {} 0", p[0], p[1]);
   }
-  write_cells(out, soup);
+  write_cells(out, soup, groups);
   out.dimension(D);
 }
 
 template <int D>
-void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup) {
+void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup, const Soup_groups& groups) {
   Atomic_file file(path);
-  write_ovm(file, soup);
+  write_ovm(file, soup, groups);
   file.commit();
 }
 
-template void write_ovm<2>(Atomic_file&, const Cell_soup<2>&);
-template void write_ovm<3>(Atomic_file&, const Cell_soup<3>&);
-template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&);
-template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&);
+template void write_ovm<2>(Atomic_file&, const Cell_soup<2>&, const Soup_groups&);
+template void write_ovm<3>(Atomic_file&, const Cell_soup<3>&, const Soup_groups&);
+template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&, const Soup_groups&);
+template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&, const Soup_groups&);
 
 }  // namespace cellwalk::io

@@ -68,8 +68,7 @@ Blade_stroke<D> blade(const Json_node& node) {
 }
 
 template <int D>
-Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
-                             const Environment_changes<D>& known) {
+Environment_change<D> change(const Json_node& node, std::uint64_t most_steps) {
   if (most_steps == 0)
     node.expect_keys({"open", "close", "excavate", "fill", "cut"});
   else
@@ -90,8 +89,7 @@ Environment_change<D> change(const Json_node& node, std::uint64_t most_steps,
       continue;
     }
     result.part.group = part->string();
-    if (!known.groups.contains(result.part.group))
-      part->fail("there is no such group: name it in \"groups\"");
+    if (result.part.group.empty()) part->fail("a group needs a name");
   }
   if (found != 1) node.fail("expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\"");
   if (most_steps == 0) return result;
@@ -118,8 +116,7 @@ Environment_changes<D> changes(const Json_node& node, std::uint64_t most_steps) 
       result.groups[name] = conditions<D>(groups->at(name));
     }
   if (const auto list = node.find("changes"))
-    for (const Json_node& entry : list->elements())
-      result.list.push_back(change<D>(entry, most_steps, result));
+    for (const Json_node& entry : list->elements()) result.list.push_back(change<D>(entry, most_steps));
   if (!result.groups.empty() && result.list.empty())
     node.at("groups").fail("no change names a group: give \"changes\" as well");
   return result;

@@ -2,6 +2,7 @@
 // Every public member of the classes and every function that headers declare `extern template`, so that a
 // program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
 #include <cellwalk/cellwalk.h>
+#include <cellwalk/environment/groups.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/changes_file.h>
@@ -54,6 +55,12 @@ void keep_environments() {
        &Environment<D>::soup, &Environment<D>::set_impassable, &Environment<D>::excavate,
        &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
        &Environment<D>::certify, &Environment<D>::cells_around);
+
+  keep(
+      +[](const Cell_soup<D>& s, const Soup_groups& g) { return Group_places<D>(s, g); },
+      &Group_places<D>::find,
+      +[](const Snapshot<D>& s, const Groups<D>& g) { return Lasting_groups<D>(s, g); },
+      &Lasting_groups<D>::names, &Lasting_groups<D>::now, &soup_groups<D>);
 
   keep(
       +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
@@ -156,9 +163,10 @@ void keep_simulation() {
 template <int D>
 void keep_readers() {
   keep(&io::read_body<D>,
-       static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&)>(&io::write_ovm<D>),
-       static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&)>(&io::write_ovm<D>), &io::vtu_of_cells<D>,
-       &io::vtu_of_walls<D>, &io::read_changes<D>, &io::parse_changes<D>);
+       static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&, const Soup_groups&)>(
+           &io::write_ovm<D>),
+       static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&, const Soup_groups&)>(&io::write_ovm<D>),
+       &io::vtu_of_cells<D>, &io::vtu_of_walls<D>, &io::read_changes<D>, &io::parse_changes<D>);
 }
 
 }  // namespace

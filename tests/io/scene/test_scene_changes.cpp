@@ -11,16 +11,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* scene = R"({ // a comment
+constexpr const char* changed_scene = R"({ // a comment
   "environment": {"generate": "hexes", "cells": [10, 10, 10]}, "steps": 5,
   "bodies": [{"shape": "box", "count": 3}, {"shape": "hexahedron", "count": 4}]})";
 
 json changed(const std::vector<std::string>& changes) {
-  return json::parse(change_scene("s.json", scene, changes));
+  return json::parse(change_scene("s.json", changed_scene, changes));
 }
 
 TEST(SceneChanges, ReplaceValues) {
-  json expected = json::parse(scene, nullptr, true, true);
+  json expected = json::parse(changed_scene, nullptr, true, true);
   EXPECT_EQ(changed({}), expected);
   expected["environment"]["cells"] = {46, 46, 47};
   expected["bodies"][1]["count"] = 225;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "soup_of.h"
+#include "snapshot_soup.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The cells of a snapshot as a soup again.
-#ifndef CELLWALK_ENVIRONMENT_SOUP_OF_H
-#define CELLWALK_ENVIRONMENT_SOUP_OF_H
+#ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_SOUP_H
+#define CELLWALK_ENVIRONMENT_SNAPSHOT_SOUP_H
 
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
@@ -22,4 +22,4 @@ Gluing gluing_of(const Snapshot<D>& snapshot, const std::vector<Half_facet>& nam
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_ENVIRONMENT_SOUP_OF_H
+#endif  // CELLWALK_ENVIRONMENT_SNAPSHOT_SOUP_H

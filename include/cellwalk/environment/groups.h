@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Named groups of facets and cells: from the soup of which an environment is built, through edits, and back.
+#ifndef CELLWALK_ENVIRONMENT_GROUPS_H
+#define CELLWALK_ENVIRONMENT_GROUPS_H
+
+#include <cellwalk/environment/selection.h>
+#include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/soup_groups.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cellwalk {
+
+/// Facets are seen from the cell of lower number; those of the boundary are among them.
+template <int D>
+using Groups = std::map<std::string, Selection<D>>;
+
+/// Where the groups of a soup are, to be found in what is built of it: building may split cells and facets,
+/// and drop and merge points.
+template <int D>
+class Group_places {
+ public:
+  /// \throw Error(input) for a facet or cell that the soup does not have, naming the group
+  /// Cost: that of the facets and cells named.
+  Group_places(const Cell_soup<D>& soup, const Soup_groups& groups);
+
+  /// The parts of the cells and facets named.
+  /// \param origin the input cell of each cell, or empty: as Build_report has it
+  /// \pre the environment is built of the soup, and was not edited
+  /// Cost: linear, if there are groups.
+  Groups<D> find(const Snapshot<D>& snapshot, std::span<const std::uint32_t> origin) const;
+
+ private:
+  struct Place {
+    std::uint32_t cell;
+    std::string group;
+    std::vector<Point<D>> points;  ///< of a facet, ascending; none for the cell
+  };
+  std::vector<std::string> names_;
+  std::vector<Place> places_;  ///< by cell
+};
+
+/// Groups through edits: a facet or cell stays in its group as long as it is there. Edits that replace cells
+/// give their names to others; therefore the points are remembered too.
+template <int D>
+class Lasting_groups {
+ public:
+  Lasting_groups() = default;
+  Lasting_groups(const Snapshot<D>& snapshot, const Groups<D>& groups);
+
+  /// Their names, ascending.
+  std::vector<std::string> names() const;
+  /// What is left of the groups, each of them, even if nothing is.
+  Groups<D> now(const Snapshot<D>& snapshot) const;
+
+ private:
+  template <class Name>
+  struct Pointed {
+    Name name;
+    std::vector<std::uint32_t> points;  ///< ascending
+  };
+  struct Group {
+    std::vector<Pointed<Half_facet>> facets;
+    std::vector<Pointed<Cell>> cells;
+  };
+  std::map<std::string, Group> groups_;
+};
+
+/// The same groups by the numbers of Environment::soup(), as files have them.
+template <int D>
+Soup_groups soup_groups(const Snapshot<D>& snapshot, const Groups<D>& groups);
+
+extern template class Group_places<2>;
+extern template class Group_places<3>;
+extern template class Lasting_groups<2>;
+extern template class Lasting_groups<3>;
+extern template Soup_groups soup_groups(const Snapshot<2>&, const Groups<2>&);
+extern template Soup_groups soup_groups(const Snapshot<3>&, const Groups<3>&);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_ENVIRONMENT_GROUPS_H
