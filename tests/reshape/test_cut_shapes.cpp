@@ -237,8 +237,8 @@ TEST(CutShapes, OfManyBladesInSpace) {
   cut_by_many_shapes<3>(std::max<std::size_t>(oracle::scaled_count(24), 8));
 }
 
-/// A blade that bends around a triangle, through all of its corners: that lies behind the blade, whichever side is
-/// its front, and so keeps its corners.
+/// A blade that bends around a triangle, through all of its corners: that lies behind the blade, whichever
+/// side is its front, and so keeps its corners.
 TEST(CutShapes, PutCellsThatTheyPassAllAroundBehind) {
   int found = 0;
   for (const bool is_reversed : {false, true}) {

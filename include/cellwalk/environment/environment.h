@@ -100,7 +100,7 @@ class Environment {
   /// Cost: about 1 us a tetrahedron; memory 679 bytes a tetrahedron.
   void thaw();
 
-  /// Gives back the memory that edits left behind, and puts cells that edits added beside their neighbours, as
+  /// Gives back the memory that edits left behind, and puts cells that they added beside their neighbours, as
   /// if the environment had just been built: all indices and names in use, in order. Cells and points keep
   /// their order; geometry and walls stay. For long runs of edits: without it, later edits reuse what earlier
   /// ones left. With or without the map. It is an edit: bodies go on after Body::register_again(), particles
