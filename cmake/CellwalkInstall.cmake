@@ -42,7 +42,9 @@ install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/c
 set(installed_internals
   environment/cell_clusters.h
   environment/planes.h
+  environment/tissue_boxes.h
   io/output.h
+  kernel/box.h
   kernel/predicates.h
   walk/certified_exit.h
   walk/in_boundary.h
