@@ -60,7 +60,7 @@ class Opening(unittest.TestCase):
             said.append("stepped")
 
         with self.environment.editing(bodies=[self.body], particles=[self.particles]) as edits:
-            threads = [threading.Thread(target=f) for f in (ask, step)]
+            threads = [threading.Thread(target=f) for f in (ask, step, lambda: said.append(self.environment.facets()["wall"].sum()))]
             for t in threads:
                 t.start()
             asked.wait()
@@ -167,6 +167,8 @@ class Opening(unittest.TestCase):
         with self.environment.editing(bodies=[self.body], particles=[self.particles]) as edits:
             report = edits.relax(numpy.arange(27), good_enough=0.99, flip=False, split=False, collapse=False)
             self.assertGreater(report.smoothed, 0)
+        self.assertNotEqual(view[13].tolist(), [1, 1, 1.25], "it follows where nobody asks again")
+        with self.environment.editing(bodies=[self.body], particles=[self.particles]) as edits:
             now = self.environment.points
             self.assertTrue((now == view).all())
         self.assertNotEqual(view[13].tolist(), [1, 1, 1.25])

@@ -50,8 +50,8 @@ bool is_there(const Snapshot<D>& snapshot, Cell cell) {
 
 void check_number(const std::string& group, const char* what, std::uint32_t number, std::size_t count) {
   if (number < count) return;
-  throw Error(Error_code::input, "group \"" + group + "\" names " + what + " " + std::to_string(number) +
-                                     " of " + std::to_string(count));
+  throw Error(Error_code::input, "group " + group + " names " + what + " " + std::to_string(number) + " of " +
+                                     std::to_string(count));
 }
 
 }  // namespace

@@ -186,8 +186,8 @@ TEST(Groups, OfNumbersThatAreNotThereAreRefused) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(refused({{6}, {}}), "group \"g\" names facet 6 of 6");
-  EXPECT_EQ(refused({{}, {1}}), "group \"g\" names cell 1 of 1");
+  EXPECT_EQ(refused({{6}, {}}), "group g names facet 6 of 6");
+  EXPECT_EQ(refused({{}, {1}}), "group g names cell 1 of 1");
   EXPECT_EQ(refused({{5}, {0}}), "accepted");
 }
 
