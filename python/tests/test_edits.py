@@ -179,7 +179,8 @@ class Replacing(unittest.TestCase):
         facets = environment.facets()
         with environment.editing() as edits:
             edits.close(facets[facets["mean"][:, 2] == 2])
-            report = edits.cut([[2.3, 0.7, 1], [2.3, 3.1, 1], [2.3, 3.1, 3], [2.3, 0.7, 3]], opening=0.1)
+            blade = numpy.array([[2.3, 0.7, 1], [2.3, 3.1, 1], [2.3, 3.1, 3], [2.3, 0.7, 3]])
+            report = edits.cut(blade, opening=0.1)
             self.assertGreater(report.slit, 5)
             self.assertEqual((report.facets, report.refused), (0, 0))
         self.assertEqual(environment.certificate["components"], 1)
