@@ -89,11 +89,13 @@ Groups<D> Group_places<D>::find(const Snapshot<D>& snapshot, std::span<const std
     const std::uint32_t index = snapshot.index(cell);
     return origin.empty() ? index : origin[index];
   };
-  const auto cell_of_place = [](const Place& place) { return place.cell; };
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
     if (cell == Cell::none) continue;
-    for (const Place& place : std::ranges::equal_range(places_, origin_of(cell), {}, cell_of_place)) {
+    const std::uint32_t input = origin_of(cell);
+    for (auto at = std::ranges::lower_bound(places_, input, {}, &Place::cell);
+         at != places_.end() && at->cell == input; ++at) {
+      const Place& place = *at;
       if (place.points.empty()) {
         groups[place.group].cells.push_back(cell);
         continue;
