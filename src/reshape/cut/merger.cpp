@@ -66,6 +66,7 @@ std::vector<Resident> Merger<D>::find_holders(std::span<const Cell> free) {
   std::vector<Member> vertices, edges;
   groups_.find(free, vertices, edges);
   std::vector<Resident> holders;
+  holders.reserve(vertices.size() + edges.size());
   for (const Member v : vertices) holders.push_back(groups_.at(v, Body_feature::vertex));
   for (const Member e : edges) {  // the table may still name cells that an edge has left
     const auto ends = groups_.all()[e.group].edges[e.number];
