@@ -2,22 +2,10 @@
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/internal/records/scene_shape.h>
 
-#include <span>
-
 namespace cellwalk {
-namespace {
 
-template <int D>
-bool is_in_shape(const Environment_part<D>& part, const Point<D>& x) {
-  return !part.shape || detail::distance<D>(std::span<const Scene_shape<D>>(&*part.shape, 1), x) == 0;
-}
-
-template <int D>
-bool is_in_front(const Scene_plane<D>& plane, const Point<D>& x) {
-  return dot(x - plane.point, plane.normal) > 0;
-}
-
-}  // namespace
+using detail::is_in_front;
+using detail::is_in_shape;
 
 template <int D>
 Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet) {

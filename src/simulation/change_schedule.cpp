@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/change_schedule.h>
 
@@ -11,7 +12,8 @@
 namespace cellwalk {
 namespace {
 
-constexpr std::array change_names{"open", "close", "excavate", "fill", "cut"};
+constexpr std::array<const char*, change_kind_count> change_names{"open", "close", "excavate",
+                                                                  "fill", "cut",   "sew"};
 
 bool is_of_facets(Change_kind kind) { return kind == Change_kind::open || kind == Change_kind::close; }
 
@@ -62,6 +64,21 @@ Blade<D> blade_of(const Blade_stroke<D>& stroke) {
   return blade_along<D>(stroke.points);
 }
 
+template <int D>
+bool lies_in(const Environment_part<D>& part, const Point<D>& x) {
+  return detail::is_in_shape(part, x) && (!part.plane || detail::is_in_front(*part.plane, x));
+}
+
+/// True if some cut is made before a suture runs out.
+template <int D>
+bool follows_a_cut(const std::vector<Environment_change<D>>& list, std::size_t suture) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].kind == Change_kind::cut &&
+        (list[i].step < list[suture].until || (list[i].step == list[suture].until && i < suture)))
+      return true;
+  return false;
+}
+
 template <class Name>
 void sort_once(std::vector<Name>& names) {
   std::sort(names.begin(), names.end());
@@ -81,9 +98,17 @@ Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environme
           fmt::format("groups.{}: the file of the environment has a group of that name: rename one", name));
   for (std::size_t i = 0; i < changes.list.size(); ++i) {
     const Environment_change<D>& change = changes.list[i];
-    Planned& planned = planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}, {}, {}});
+    Planned& planned =
+        planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}, {}, {}, {}});
     if (change.kind == Change_kind::cut) {
       planned.blade = change.blade;
+      continue;
+    }
+    if (change.kind == Change_kind::sew) {
+      if (!follows_a_cut(changes.list, i))
+        throw Error(Error_code::input,
+                    fmt::format("changes[{}].sew: no cut comes before it: cut first, or let it last", i));
+      planned.suture = change.part;
       continue;
     }
     const auto group = groups.find(change.part.group);
@@ -117,28 +142,74 @@ template <int D>
 std::vector<Change_outcome> Change_schedule<D>::apply(const Snapshot<D>& snapshot, Reshaping<D>& reshaping,
                                                       std::uint32_t step) {
   std::vector<Change_outcome> outcomes;
-  for (Planned& planned : planned_)
-    if (planned.step <= step && step <= planned.until) apply_once(snapshot, reshaping, planned, outcomes);
+  for (Planned& planned : planned_) {
+    if (step < planned.step || planned.until < step) continue;
+    if (planned.suture)
+      sew(snapshot, reshaping, planned, step, outcomes);
+    else if (planned.blade)
+      make_cut(reshaping, planned, outcomes);
+    else
+      apply_once(snapshot, reshaping, planned, outcomes);
+  }
   return outcomes;
 }
 
 template <int D>
 void Change_schedule<D>::make_cut(Reshaping<D>& reshaping, Planned& planned,
-                                  std::vector<Change_outcome>& outcomes) const {
+                                  std::vector<Change_outcome>& outcomes) {
   Change_outcome& outcome = outcomes.emplace_back();
   outcome.change = planned.number;
   outcome.kind = planned.kind;
   outcome.cut = reshaping.cut(blade_of<D>(*planned.blade), {.opening = planned.blade->opening});
-  outcome.result.is_made = outcome.cut->opened != 0;
-  if (!outcome.result.is_made) outcome.result.reason = "the blade parts no solid cells";
+  outcome.result.is_made = outcome.cut->opened != 0 || outcome.cut->slit != 0;
+  if (!outcome.result.is_made)
+    outcome.result.reason = "the blade parts no solid cells, and slits no membrane";
   planned.blade.reset();
+  // A new point may have the index of one that is gone.
+  for (const Cut_point& made : outcome.cut->points)
+    std::erase_if(stitches_, [&](const Stitch& s) { return s.point == made.point || s.onto == made.point; });
+  for (const auto& [point, between, share] : outcome.cut->points)
+    if (between[0] == between[1]) stitches_.push_back({point, between[0]});
+}
+
+/// Makes the stitches that gape in a part. Those that are refused are kept.
+template <int D>
+void Change_schedule<D>::sew(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
+                             std::uint32_t step, std::vector<Change_outcome>& outcomes) {
+  const auto note = [&] {
+    Change_outcome& outcome = outcomes.emplace_back();
+    outcome.change = planned.number;
+    outcome.kind = planned.kind;
+    planned.has_sewn = true;
+    return &outcome;
+  };
+  for (std::size_t i = stitches_.size(); i-- > 0;) {
+    const Stitch stitch = stitches_[i];
+    if (!snapshot.is_point(stitch.point) || !snapshot.is_point(stitch.onto)) {  // relaxing took one away
+      stitches_.erase(stitches_.begin() + static_cast<std::ptrdiff_t>(i));
+      continue;
+    }
+    const Point<D>& x = snapshot.point(stitch.onto);
+    if (!lies_in(*planned.suture, x + 0.5 * (snapshot.point(stitch.point) - x))) continue;
+    Change_outcome& outcome = *note();
+    outcome.stitch = stitch;
+    Replacement made = reshaping.merge(stitch.point, stitch.onto);
+    outcome.result = {made.is_made, std::move(made.reason), std::move(made.held_by)};
+    if (!made.is_made) continue;
+    stitches_.erase(stitches_.begin() + static_cast<std::ptrdiff_t>(i));
+    // What was taken back from the point that is gone now gapes from the other one.
+    for (Stitch& other : stitches_)
+      if (other.onto == stitch.point) other.onto = stitch.onto;
+  }
+  if (step < planned.until) return;
+  if (!planned.has_sewn) note()->result.reason = "no cut gapes there";
+  planned.suture.reset();
 }
 
 /// Keeps what is refused.
 template <int D>
 void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
                                     std::vector<Change_outcome>& outcomes) const {
-  if (planned.blade) return make_cut(reshaping, planned, outcomes);
   const auto change_all = [&](auto& all, const auto& change) {
     auto kept = all.begin();
     for (auto& [name, points] : all) {

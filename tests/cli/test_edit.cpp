@@ -113,6 +113,25 @@ TEST_F(Edit, RefusesToFillACellInWhichABodyLies) {
   EXPECT_EQ(report_["certificate"]["solid_cells"], 0);
 }
 
+TEST_F(Edit, CutsAndSewsUp) {
+  succeed({"generate", "triangles", "--cells", "8", "-o", "env.ovm"});
+  const std::string cut = R"({"fill": {"box": [[0, 0], [8, 4]]}}, {"cut": {"blade": [[4.1, 5], [4.3, 1]]}})";
+  edit(R"({"changes": [)" + cut + "]}");
+  EXPECT_GT(report_["certificate"]["free_volume"], 32.001) << "the gap";
+  const auto rows = edit(R"({"changes": [)" + cut + R"(, {"sew": {"box": [[0, 0], [8, 8]]}}]})");
+  const std::size_t sewn = report_["changes"]["sewn"];
+  EXPECT_GE(sewn, 3u);
+  ASSERT_GT(rows.size(), sewn);
+  for (std::size_t i = rows.size() - sewn; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i][2], "sew");
+    EXPECT_EQ(rows[i][3], "made");
+    EXPECT_EQ(rows[i][4], "");
+    EXPECT_NEAR(std::stod(rows[i][6]), 4.2, 0.7) << "where it is";
+  }
+  EXPECT_EQ(report_["changes"]["left"], 0);
+  EXPECT_NEAR(report_["certificate"]["free_volume"].get<double>(), 32, 1e-9);
+}
+
 /// The edges of a 2D .ovm file whose ends have the same first coordinate, as flags.
 std::string edges_at(const std::string& ovm, const std::string& x) {
   std::istringstream in(ovm);
@@ -186,6 +205,8 @@ TEST_F(Edit, RefusesWhatIsWrongAndWritesNothing) {
          {"changes.json: changes[0].close: there is no such group"});
   refuse(3, R"({"changes": [{"close": {"ball": [[9, 9], 1]}}]})",
          {"changes.json: changes[0].close: no facet between two cells of the environment lies there"});
+  refuse(3, R"({"changes": [{"sew": {"ball": [[1, 1], 1]}}]})",
+         {"changes.json: changes[0].sew: no cut comes before it: cut first, or let it last"});
 }
 
 }  // namespace

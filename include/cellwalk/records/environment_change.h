@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Changes of an environment, by parts of space or by name: facets are opened and closed, cells excavated,
-// filled and cut. See docs/cutting.md.
+// filled and cut, and cuts are sewn up. See docs/cutting.md.
 #ifndef CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
 #define CELLWALK_RECORDS_ENVIRONMENT_CHANGE_H
 
 #include <cellwalk/kernel/point.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,7 +40,8 @@ struct Scene_plane {
 
 /// A part of an environment: a group, or what fulfils all conditions given, at least one. A cell belongs to
 /// it if the mean of its vertices lies in the shape and in front of the plane; a facet, if the mean of its
-/// vertices lies in the shape, and the means of its two cells on either side of the plane.
+/// vertices lies in the shape, and the means of its two cells on either side of the plane. A stitch belongs
+/// to it if the mean of its two points lies in the shape and in front of the plane.
 template <int D>
 struct Environment_part {
   std::string group;  ///< its name, here or in the file of the environment; empty: the conditions count
@@ -52,8 +54,10 @@ enum class Change_kind : std::uint8_t {
   close,     ///< facets between free cells become walls
   excavate,  ///< solid cells become free
   fill,      ///< free cells become solid
-  cut        ///< solid cells are cut along a blade
+  cut,       ///< solid cells are cut along a blade
+  sew        ///< what cuts parted is joined again, point by point
 };
+constexpr std::size_t change_kind_count = 6;
 
 /// A blade that cuts solid cells, and how far they are opened.
 template <int D>
@@ -67,7 +71,7 @@ struct Blade_stroke {
 template <int D>
 struct Environment_change {
   Change_kind kind = Change_kind::open;
-  Environment_part<D> part;  ///< of cuts: none
+  Environment_part<D> part;  ///< of cuts: none; of sutures: no group
   Blade_stroke<D> blade{};   ///< of cuts only
   /// Before which step of a run it is made, from 1; what is refused is tried again before each step up to
   /// `until`.

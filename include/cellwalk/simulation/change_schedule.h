@@ -17,7 +17,12 @@
 
 namespace cellwalk {
 
-/// What came of a change of one facet or cell, or of a cut.
+/// A point that a cut took back, and the one from which it did, which a suture makes one again.
+struct Stitch {
+  std::uint32_t point, onto;
+};
+
+/// What came of a change of one facet or cell, of a cut, or of a stitch of a suture.
 struct Change_outcome {
   std::size_t change = 0;  ///< in the list of changes
   Change_kind kind = Change_kind::open;
@@ -25,6 +30,7 @@ struct Change_outcome {
   Cell cell = Cell::none;               ///< that is excavated or filled; of a facet, one of its two
   Change_result result;
   std::optional<Cut_report> cut;  ///< of cuts only, which name neither facet nor cell
+  std::optional<Stitch> stitch;   ///< of sutures only, likewise
 };
 
 /// Changes with the facets and cells that they have, found when it is made: later motion of walls affects
@@ -34,7 +40,7 @@ class Change_schedule {
  public:
   /// \param of_file groups that the file of the environment names, besides those of the changes
   /// \throw Error(input) naming a change that has no facet or cell, or a group that is not there, or there
-  ///        twice
+  ///        twice, or a suture before which nothing is cut
   Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes,
                   const Groups<D>& of_file = {});
 
@@ -42,6 +48,7 @@ class Change_schedule {
   bool is_due(std::uint32_t step) const;
 
   /// Makes all changes of a step, in order, and tries those again that were refused and have not run out.
+  /// A suture joins what the cuts of this schedule parted, the last first, where it gapes at that time.
   /// What need not change has no outcome: a facet that is a wall is not closed, a facet of a solid cell
   /// neither opened nor closed, a free cell not excavated.
   /// \pre the steps of calls ascend
@@ -68,13 +75,19 @@ class Change_schedule {
     std::vector<Pointed<Cell>> cells;
     std::optional<Blade_stroke<D>> blade;
 
-    bool is_done() const { return facets.empty() && cells.empty() && !blade; }
+    std::optional<Environment_part<D>> suture;  // until it runs out
+    bool has_sewn = false;                      // or tried to
+
+    bool is_done() const { return facets.empty() && cells.empty() && !blade && !suture; }
   };
-  void make_cut(Reshaping<D>& reshaping, Planned& planned, std::vector<Change_outcome>& outcomes) const;
+  void make_cut(Reshaping<D>& reshaping, Planned& planned, std::vector<Change_outcome>& outcomes);
+  void sew(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned, std::uint32_t step,
+           std::vector<Change_outcome>& outcomes);
   void apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
                   std::vector<Change_outcome>& outcomes) const;
 
   std::vector<Planned> planned_;
+  std::vector<Stitch> stitches_;  // not made yet, of all cuts
 };
 
 extern template class Change_schedule<2>;

@@ -18,11 +18,12 @@ struct Change_words {
 };
 
 /// By Change_kind.
-constexpr std::array<Change_words, 5> words{{{"open", "opened", "facet"},
-                                             {"close", "closed", "facet"},
-                                             {"excavate", "excavated", "cell"},
-                                             {"fill", "filled", "cell"},
-                                             {"cut", "made", "cut"}}};
+constexpr std::array<Change_words, change_kind_count> words{{{"open", "opened", "facet"},
+                                                             {"close", "closed", "facet"},
+                                                             {"excavate", "excavated", "cell"},
+                                                             {"fill", "filled", "cell"},
+                                                             {"cut", "made", "cut"},
+                                                             {"sew", "sewn", "point"}}};
 
 const std::vector<std::string> columns{"step", "change", "kind", "status",   "cell",    "facet",  "x",
                                        "y",    "z",      "body", "particle", "feature", "number", "reason"};
@@ -61,7 +62,9 @@ Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, std::filesystem::pa
 template <int D>
 void Changes_table<D>::add(std::uint32_t step, const std::vector<Change_outcome>& outcomes) {
   for (const Change_outcome& outcome : outcomes) {
-    const std::array<std::uint64_t, 3> what{outcome.change, to_index(outcome.facet), to_index(outcome.cell)};
+    // A stitch may have another point to go to when it is tried again.
+    const std::uint64_t thing = outcome.stitch ? outcome.stitch->point : to_index(outcome.facet);
+    const std::array<std::uint64_t, 3> what{outcome.change, thing, to_index(outcome.cell)};
     if (outcome.result.is_made) {
       ++made_[static_cast<std::size_t>(outcome.kind)];
       left_.erase(what);
@@ -88,11 +91,12 @@ void Changes_table<D>::write(std::uint32_t step, const Change_outcome& outcome) 
   // In the plane the third coordinate is left empty, as the writer does with what is not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   // A cut has no place, nor has what one replaced.
-  const bool has_place = outcome.cell != Cell::none;
+  const bool has_cell = outcome.cell != Cell::none;
   Point<D> x;
   x.fill(nothing);
-  if (has_place) x = place_of(snapshot_, outcome);
-  const std::string cell = has_place ? std::to_string(snapshot_.index(outcome.cell)) : "";
+  if (has_cell) x = place_of(snapshot_, outcome);
+  if (outcome.stitch) x = snapshot_.point(outcome.stitch->onto);
+  const std::string cell = has_cell ? std::to_string(snapshot_.index(outcome.cell)) : "";
   const std::string facet =
       outcome.facet == Half_facet::none ? "" : std::to_string(snapshot_.facet_of(outcome.facet));
   const auto row = [&](const char* status, const std::string& body, const std::string& particle,

@@ -46,7 +46,7 @@ class Changes_table {
 
   const Snapshot<D>& snapshot_;
   std::optional<io::Csv_writer> table_;
-  std::array<std::uint64_t, 5> made_{};  ///< by Change_kind
+  std::array<std::uint64_t, change_kind_count> made_{};  ///< by Change_kind
   std::uint64_t refusals_ = 0;
   Cut_report cuts_;  ///< all together, without their points
   /// What was refused and not made since: change, facet, cell.

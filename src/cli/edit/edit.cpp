@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk edit ENV CHANGES.json -o OUT.ovm: opens and closes facets, excavates and fills cells, as far as
-// the bodies in the environment allow.
+// cellwalk edit ENV CHANGES.json -o OUT.ovm: opens and closes facets, excavates, fills and cuts cells, and
+// sews cuts up, as far as the bodies in the environment allow.
 #include <cellwalk/io/changes_file.h>
 #include <cellwalk/io/ovm.h>
 

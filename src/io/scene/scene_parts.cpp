@@ -8,11 +8,13 @@
 namespace cellwalk::io::detail {
 namespace {
 
-constexpr std::array<std::pair<const char*, Change_kind>, 5> kinds{{{"open", Change_kind::open},
-                                                                    {"close", Change_kind::close},
-                                                                    {"excavate", Change_kind::excavate},
-                                                                    {"fill", Change_kind::fill},
-                                                                    {"cut", Change_kind::cut}}};
+constexpr std::array<std::pair<const char*, Change_kind>, change_kind_count> kinds{
+    {{"open", Change_kind::open},
+     {"close", Change_kind::close},
+     {"excavate", Change_kind::excavate},
+     {"fill", Change_kind::fill},
+     {"cut", Change_kind::cut},
+     {"sew", Change_kind::sew}}};
 
 template <int D>
 Scene_shape<D> box_or_ball(const Json_node& node) {
@@ -70,9 +72,9 @@ Blade_stroke<D> blade(const Json_node& node) {
 template <int D>
 Environment_change<D> change(const Json_node& node, std::uint64_t most_steps) {
   if (most_steps == 0)
-    node.expect_keys({"open", "close", "excavate", "fill", "cut"});
+    node.expect_keys({"open", "close", "excavate", "fill", "cut", "sew"});
   else
-    node.expect_keys({"step", "until", "open", "close", "excavate", "fill", "cut"});
+    node.expect_keys({"step", "until", "open", "close", "excavate", "fill", "cut", "sew"});
   Environment_change<D> result;
   std::size_t found = 0;
   for (const auto& [key, kind] : kinds) {
@@ -88,10 +90,12 @@ Environment_change<D> change(const Json_node& node, std::uint64_t most_steps) {
       result.part = conditions<D>(*part);
       continue;
     }
+    if (kind == Change_kind::sew) part->fail("a group has no stitches: give \"box\", \"ball\" or \"plane\"");
     result.part.group = part->string();
     if (result.part.group.empty()) part->fail("a group needs a name");
   }
-  if (found != 1) node.fail("expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\"");
+  if (found != 1)
+    node.fail("expected one of \"open\", \"close\", \"excavate\", \"fill\", \"cut\" and \"sew\"");
   if (most_steps == 0) return result;
   result.step = result.until = static_cast<std::uint32_t>(node.at("step").integer_in(1, most_steps));
   if (const auto until = node.find("until"))

@@ -67,5 +67,15 @@ TEST_F(RunShipped, ACutGapes) {
   EXPECT_GT(run["catheter"]["length_inside"], 8) << "beyond the septum, which ends 7 from the start";
 }
 
+TEST_F(RunShipped, ACutIsSewnUpRoundACatheter) {
+  const json run = run_on_threads("suture.json");
+  EXPECT_TRUE(run["validated"].get<bool>());
+  const json& changes = run["changes"];
+  EXPECT_EQ(changes["made"], 1);
+  EXPECT_EQ(changes["sewn"].get<int>() + changes["left"].get<int>(), changes["cuts"]["parted"]);
+  EXPECT_GE(changes["sewn"], 12);
+  EXPECT_GE(changes["left"], 1) << "the catheter holds some stitch open to the end";
+}
+
 }  // namespace
 }  // namespace cellwalk::test

@@ -46,11 +46,13 @@ TEST(EnvironmentChanges, NameGroupsAndParts) {
 TEST(EnvironmentChanges, ByThemselvesHaveNoSteps) {
   const auto changes = parse_changes<2>("c.json", R"({
     "groups": {"door": {"box": [[0, 0], [1, 1]]}},  // in the plane
-    "changes": [{"open": "door"}, {"fill": {"ball": [[2, 3], 1]}}]})");
-  ASSERT_EQ(changes.list.size(), 2u);
+    "changes": [{"open": "door"}, {"fill": {"ball": [[2, 3], 1]}}, {"sew": {"ball": [[4, 5], 1]}}]})");
+  ASSERT_EQ(changes.list.size(), 3u);
   EXPECT_EQ(changes.list[0].kind, Change_kind::open);
   EXPECT_EQ(changes.list[0].step, 1u);
   EXPECT_EQ(std::get<Scene_ball<2>>(*changes.list[1].part.shape).centre, (Point<2>{2, 3}));
+  EXPECT_EQ(changes.list[2].kind, Change_kind::sew);
+  EXPECT_EQ(std::get<Scene_ball<2>>(*changes.list[2].part.shape).centre, (Point<2>{4, 5}));
 }
 
 template <class Parse>
@@ -71,15 +73,21 @@ struct Refused_changes {
 TEST(EnvironmentChanges, AreRefusedWithTheKeyThatIsWrong) {
   for (const Refused_changes& r : std::initializer_list<Refused_changes>{
            {R"("changes": [{"step": 1}])",
-            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\""},
+            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\", \"cut\" and "
+            "\"sew\""},
            {R"("changes": [{"step": 1, "open": {"ball": [[0, 0, 0], 1]}, "fill": {"ball": [[0, 0, 0], 1]}}])",
-            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\" and \"cut\""},
+            "s.json: changes[0]: expected one of \"open\", \"close\", \"excavate\", \"fill\", \"cut\" and "
+            "\"sew\""},
            {R"("changes": [{"open": {"ball": [[0, 0, 0], 1]}}])",
             "s.json: changes[0]: key \"step\" is missing"},
            {R"("changes": [{"step": 0, "open": {"ball": [[0, 0, 0], 1]}}])",
             "s.json: changes[0].step: expected an integer from 1 to 100000000, not 0"},
            {R"("changes": [{"step": 5, "until": 4, "open": {"ball": [[0, 0, 0], 1]}}])",
             "s.json: changes[0].until: expected an integer from 5 to 100000000, not 4"},
+           {R"("changes": [{"step": 1, "sew": "valve"}])",
+            "s.json: changes[0].sew: a group has no stitches: give \"box\", \"ball\" or \"plane\""},
+           {R"("changes": [{"step": 1, "sew": {}}])",
+            "s.json: changes[0].sew: expected \"box\", \"ball\" or \"plane\""},
            {R"("changes": [{"step": 1, "close": ""}])", "s.json: changes[0].close: a group needs a name"},
            {R"("changes": [{"step": 1, "close": {}}])",
             "s.json: changes[0].close: expected \"box\", \"ball\" or \"plane\""},
@@ -104,7 +112,7 @@ TEST(EnvironmentChanges, ByThemselvesAreRefusedAlike) {
            {"{}", "c.json: key \"changes\" is missing"},
            {R"({"changes": []})", "c.json: changes: nothing is to be changed"},
            {R"({"changes": [{"step": 1, "open": {"ball": [[0, 0], 1]}}]})",
-            "c.json: changes[0].step: unknown key; known here: close, cut, excavate, fill, open"},
+            "c.json: changes[0].step: unknown key; known here: close, cut, excavate, fill, open, sew"},
            {R"({"changes": [{"open": {"ball": [[0, 0, 0], 1]}}]})",
             "c.json: changes[0].open.ball[0]: expected 2 numbers"}})
     expect_refusal(r.text, r.message, [](const std::string& t) { parse_changes<2>("c.json", t); });

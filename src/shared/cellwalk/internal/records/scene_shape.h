@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Distances from parts of a scene.
+// Distances from parts of a scene, and what lies in them.
 #ifndef CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 #define CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 
@@ -32,6 +32,17 @@ double distance(std::span<const Scene_shape<D>> shapes, const Point<D>& x) {
   for (const Scene_shape<D>& shape : shapes)
     result = std::min(result, std::visit([&](const auto& s) { return distance<D>(s, x); }, shape));
   return result;
+}
+
+/// True if a part has no shape, or a point lies in it.
+template <int D>
+bool is_in_shape(const Environment_part<D>& part, const Point<D>& x) {
+  return !part.shape || distance<D>(std::span<const Scene_shape<D>>(&*part.shape, 1), x) == 0;
+}
+
+template <int D>
+bool is_in_front(const Scene_plane<D>& plane, const Point<D>& x) {
+  return dot(x - plane.point, plane.normal) > 0;
 }
 
 }  // namespace cellwalk::detail
