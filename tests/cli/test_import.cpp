@@ -224,6 +224,25 @@ TEST_F(Import, SurroundsCellsByTissue) {
   expect_failure(3, {"import", "open.off", "--tissue", "1", "-o", "out.ovm"}, {"surface is open"});
 }
 
+/// Groups are found again among cells that are surrounded by others.
+TEST_F(Import, KeepsGroupsInTissue) {
+  succeed({"generate", "tets", "--cells", "2", "-o", "tets.ovm"});
+  const auto before = import("tets.ovm").at("certificate");
+  const int cells = before.at("cells"), facets = before.at("facets");
+  std::string all, first = "1";
+  for (int i = 0; i < facets; ++i) all += "1 ";
+  for (int i = 1; i < cells; ++i) first += " 0";
+  write("named.ovm", text("tets.ovm") + "FProp bool \"group all\"\n" + all + "\nCProp bool \"group plug\"\n" +
+                         first + "\n");
+  const int solid = import("named.ovm", {"--tissue", "1"}).at("certificate").at("solid_cells");
+  write("changes.json", R"({"changes": [{"close": "all"}, {"fill": "plug"}]})");
+  succeed({"edit", "env.ovm", "changes.json", "-o", "out.ovm", "--json", "edit.json"});
+  const auto report = nlohmann::json::parse(text("edit.json"));
+  EXPECT_EQ(report.at("changes").at("closed"), facets - before.at("boundary_facets").get<int>());
+  EXPECT_EQ(report.at("changes").at("filled"), 1);
+  EXPECT_EQ(report.at("certificate").at("solid_cells"), solid + 1);
+}
+
 TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {
   write("cube.off", cube_off(1, 0, true));
   EXPECT_EQ(import("cube.off").at("meshed").at("surface").at("inside_out"), true);
