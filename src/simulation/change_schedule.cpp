@@ -79,12 +79,6 @@ bool follows_a_cut(const std::vector<Environment_change<D>>& list, std::size_t s
   return false;
 }
 
-template <class Name>
-void sort_once(std::vector<Name>& names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-}
-
 }  // namespace
 
 template <int D>
@@ -235,25 +229,6 @@ void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& r
     outcome.cell = cell;
     return planned.kind == Change_kind::excavate ? reshaping.excavate(cell) : reshaping.fill(cell);
   });
-}
-
-template <int D>
-Selection<D> Change_schedule<D>::changing(const Snapshot<D>& snapshot) const {
-  Selection<D> result;
-  const auto add = [&](Half_facet f) {
-    const Half_facet other = snapshot.opposite(f);
-    if (other != Half_facet::none) result.facets.push_back(std::min(f, other));
-  };
-  for (const Planned& planned : planned_) {
-    for (const auto& facet : planned.facets) add(facet.name);
-    for (const auto& [cell, points] : planned.cells) {
-      result.cells.push_back(cell);
-      for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) add(snapshot.half_facet(cell, f));
-    }
-  }
-  sort_once(result.facets);
-  sort_once(result.cells);
-  return result;
 }
 
 template class Change_schedule<2>;

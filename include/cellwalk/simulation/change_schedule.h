@@ -55,10 +55,6 @@ class Change_schedule {
   /// \throw Error as Reshaping
   std::vector<Change_outcome> apply(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, std::uint32_t step);
 
-  /// All facets that may become walls or passable by any change, those of cells that are excavated or filled
-  /// included, each once; and these cells.
-  Selection<D> changing(const Snapshot<D>& snapshot) const;
-
  private:
   /// A facet or a cell with its points, since a cut may give its name to another.
   template <class Name>

@@ -157,7 +157,7 @@ void keep_simulation() {
       &select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&mean_of<D>),
       static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&mean_of<D>),
       +[](const Snapshot<D>& s, const Environment_changes<D>& c) { return Change_schedule<D>(s, c); },
-      &Change_schedule<D>::is_due, &Change_schedule<D>::apply, &Change_schedule<D>::changing);
+      &Change_schedule<D>::is_due, &Change_schedule<D>::apply);
 }
 
 template <int D>
