@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# What is too long for every commit: hours, where .ci/run takes a part of one. Safe to repeat; what was built is used again.
+#
+#   scripts/nightly.sh [--fuzz-seconds N] [PART ...]      600 seconds for each fuzz target; all parts, in this order
+#
+#   sources   each source compiled by itself
+#   tidy      clang-tidy over src
+#   long      the tests at their nightly length
+#   asan      all tests under the address and undefined-behaviour sanitizers, a twentieth of the usual length
+#   tsan      all tests with threads under the thread sanitizer
+#   fuzz      every fuzz target
+#
+# A part that fails does not keep the others from running. The last line names the parts that failed; then the script ends with 1.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+parts=(sources tidy long asan tsan fuzz)
+wanted=()
+seconds=600
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --fuzz-seconds) seconds=${2:-}; shift ;;
+    --fuzz-seconds=*) seconds=${1#--fuzz-seconds=} ;;
+    -*) echo "nightly.sh: unknown option $1; use --fuzz-seconds N, or names of parts" >&2; exit 2 ;;
+    *)
+      [[ " ${parts[*]} " == *" $1 "* ]] || { echo "nightly.sh: there is no part $1; there are ${parts[*]}" >&2; exit 2; }
+      wanted+=("$1")
+      ;;
+  esac
+  shift
+done
+[[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "nightly.sh: --fuzz-seconds takes a whole number from 1 on, not '$seconds'" >&2; exit 2; }
+[ ${#wanted[@]} -gt 0 ] || wanted=("${parts[@]}")
+
+sources() { cmake --preset release >/dev/null && scripts/check_sources.py src; }
+tidy() { cmake --preset release >/dev/null && scripts/check_tidy.py; }
+long() { CELLWALK_LONG_TESTS=ON scripts/test.sh -L long; }
+asan() {
+  cmake --preset asan -DCELLWALK_TEST_DATA= >/dev/null && cmake --build --preset asan --parallel &&
+    CELLWALK_TEST_LENGTH=0.05 ctest --preset asan --no-tests=error --parallel "$(nproc)" --timeout 3600 -LE long
+}
+# TBB synchronises by means that the sanitizer does not see where the library itself is not built with it: what is run are the tests
+# that use threads, and reports from within TBB alone are left out.
+tsan() {
+  cmake --preset tsan -DCELLWALK_TEST_DATA= >/dev/null && cmake --build --preset tsan --parallel &&
+    TSAN_OPTIONS=ignore_noninstrumented_modules=1 CELLWALK_TEST_LENGTH=0.05 ctest --preset tsan --no-tests=error --timeout 3600 \
+      -R Thread -LE long
+}
+fuzz() { scripts/fuzz.sh --seconds "$seconds"; }
+
+scripts/setup.sh --for ci
+failed=()
+for part in "${wanted[@]}"; do
+  start=$SECONDS
+  echo "nightly: $part"
+  "$part" || failed+=("$part")
+  echo "nightly: $part took $((SECONDS - start)) s"
+done
+if [ ${#failed[@]} -gt 0 ]; then
+  echo "nightly: failed: ${failed[*]}"
+  exit 1
+fi
+echo "nightly: ${#wanted[@]} parts passed: ${wanted[*]}"
