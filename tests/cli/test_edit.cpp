@@ -2,6 +2,7 @@
 // Changes of facets and cells among bodies, as `cellwalk edit` makes, reports and refuses them.
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -116,6 +117,11 @@ TEST_F(Edit, RefusesToFillACellInWhichABodyLies) {
 TEST_F(Edit, CutsAndSewsUp) {
   succeed({"generate", "triangles", "--cells", "8", "-o", "env.ovm"});
   const std::string cut = R"({"fill": {"box": [[0, 0], [8, 4]]}}, {"cut": {"blade": [[4.1, 5], [4.3, 1]]}})";
+  // The last cell far from the cut has a name, which outlives gaps in the numbers before it.
+  const std::string plain = text("env.ovm");
+  std::string last;
+  for (int i = 1; i < 128; ++i) last += "0 ";
+  write("env.ovm", plain + "FProp bool \"group last\"\n" + last + "1\n");
   edit(R"({"changes": [)" + cut + "]}");
   EXPECT_GT(report_["certificate"]["free_volume"], 32.001) << "the gap";
   const auto rows = edit(R"({"changes": [)" + cut + R"(, {"sew": {"box": [[0, 0], [8, 8]]}}]})");
@@ -130,6 +136,11 @@ TEST_F(Edit, CutsAndSewsUp) {
   }
   EXPECT_EQ(report_["changes"]["left"], 0);
   EXPECT_NEAR(report_["certificate"]["free_volume"].get<double>(), 32, 1e-9);
+  std::filesystem::rename(path("out.ovm"), path("env.ovm"));
+  const auto named = edit(R"({"changes": [{"fill": "last"}]})");
+  ASSERT_EQ(named.size(), 1u);
+  EXPECT_GT(std::stod(named[0][6]), 7);
+  EXPECT_GT(std::stod(named[0][7]), 7);
 }
 
 /// The edges of a 2D .ovm file whose ends have the same first coordinate, as flags.

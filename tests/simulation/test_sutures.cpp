@@ -128,6 +128,78 @@ TEST(Sutures, JoinInAPartOnly) {
   EXPECT_EQ(third[0].result.reason, "no cut gapes there");
 }
 
+/// A vertical cut, and one across it, sewn up where a stitch of the first lies, then everywhere. What the
+/// second took back from a point that the first sewing removes goes to the one that is left.
+TEST(Sutures, FollowPointsThatWereJoined) {
+  Environment_change<2> across = cut_at<2>(2);
+  std::size_t chains = 0;
+  for (const double height : {0.8, 1.4, 2.05, 2.5}) {
+    across.blade.points = {{1, height}, {5, height}};
+    std::vector<Stitch> first, second;
+    auto environment = tissue_block<2>();
+    Change_schedule<2> schedule(environment.snapshot(), {{}, {cut_at<2>(1), across}});
+    const auto note = [&](const Cut_report& report, std::vector<Stitch>& stitches) {
+      for (const auto& [point, between, share] : report.points)
+        if (between[0] == between[1]) stitches.push_back({point, between[0]});
+    };
+    note(*apply(environment, schedule, 1)[0].cut, first);
+    note(*apply(environment, schedule, 2)[0].cut, second);
+    for (const Stitch& s : first) {
+      if (std::ranges::none_of(second, [&](const Stitch& t) { return t.onto == s.point; })) continue;
+      ++chains;
+      const Point<2> x = environment.snapshot().point(s.onto), y = environment.snapshot().point(s.point);
+      Environment_change<2> one = suture<2>(3, 3);
+      one.part.shape = Scene_ball<2>{x + 0.5 * (y - x), 1e-9};
+      auto again = tissue_block<2>();
+      Change_schedule<2> sewing(again.snapshot(), {{}, {cut_at<2>(1), across, one, suture<2>(4, 4)}});
+      apply(again, sewing, 1);
+      apply(again, sewing, 2);
+      const auto joined = apply(again, sewing, 3);
+      ASSERT_EQ(joined.size(), 1u);
+      if (!joined[0].result.is_made) continue;
+      const auto rest = apply(again, sewing, 4);
+      EXPECT_EQ(rest.size() + 1, first.size() + second.size());
+      for (const Change_outcome& outcome : rest)
+        EXPECT_NE(outcome.stitch->onto, s.point) << "it is gone, but its stitches are not";
+      again.certify();
+    }
+  }
+  EXPECT_GE(chains, 1u);
+}
+
+/// A point that others have joined may be named anew by a later cut.
+TEST(Sutures, ForgetWhatOthersJoined) {
+  auto environment = tissue_block<2>();
+  Change_schedule<2> schedule(environment.snapshot(), {{}, {cut_at<2>(1), cut_at<2>(2, 1), suture<2>(3, 3)}});
+  const Cut_report first = *apply(environment, schedule, 1)[0].cut;
+  {
+    Reshaping<2> reshaping(environment, {});
+    for (auto made = first.points.rbegin(); made != first.points.rend(); ++made) {
+      if (made->between[0] != made->between[1]) continue;
+      ASSERT_TRUE(reshaping.merge(made->point, made->between[0]).is_made);
+    }
+  }
+  const Cut_report second = *apply(environment, schedule, 2)[0].cut;
+  const auto sewn = apply(environment, schedule, 3);
+  EXPECT_EQ(sewn.size(), second.opened) << "those of the first cut are no stitches any more";
+  for (const Change_outcome& outcome : sewn) EXPECT_TRUE(outcome.result.is_made) << outcome.result.reason;
+}
+
+TEST(Sutures, ACutThatSlitsAMembraneIsMade) {
+  auto environment = tissue_block<2>(0.1, 0);
+  Environment_change<2> wall;
+  wall.kind = Change_kind::close;
+  wall.part.plane = Scene_plane<2>{{0, 3}, {0, 1}};
+  Change_schedule<2> schedule(environment.snapshot(), {{}, {wall, cut_at<2>(2)}});
+  for (const Change_outcome& outcome : apply(environment, schedule, 1)) EXPECT_TRUE(outcome.result.is_made);
+  const auto slit = apply(environment, schedule, 2);
+  ASSERT_EQ(slit.size(), 1u);
+  EXPECT_GT(slit[0].cut->slit, 0u);
+  EXPECT_EQ(slit[0].cut->opened, 0u);
+  EXPECT_TRUE(slit[0].result.is_made);
+  environment.certify();
+}
+
 TEST(Sutures, WaitForWhatLiesInTheGap) {
   auto environment = tissue_block<3>();
   const Snapshot<3>& snapshot = environment.snapshot();
