@@ -7,6 +7,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -14,17 +15,26 @@
 
 namespace cellwalk::detail {
 
-template <int D>
-Gluing glue_patch(const Cell_soup<D>& soup) {
+namespace {
+
+void assign(boost::container::small_vector<std::uint32_t, 8>& key, std::span<const std::uint32_t> points) {
+  key.assign(points.begin(), points.end());
+}
+template <std::size_t N>
+void assign(std::array<std::uint32_t, N>& key, std::span<const std::uint32_t> points) {
+  std::copy_n(points.begin(), N, key.begin());
+}
+
+/// \tparam Key holds the points of a facet
+template <class Key, int D>
+Gluing glue_by(const Cell_soup<D>& soup) {
   Gluing gluing;
   gluing.opposite.assign(soup.facet_count(), no_facet);
   // The points of each facet, ascending, and its number.
-  std::vector<std::pair<boost::container::small_vector<std::uint32_t, 8>, std::uint32_t>> keys;
-  keys.reserve(soup.facet_count());
+  std::vector<std::pair<Key, std::uint32_t>> keys(soup.facet_count());
   for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
-    keys.emplace_back();
-    auto& [key, number] = keys.back();
-    key.assign(soup.facet(f).begin(), soup.facet(f).end());
+    auto& [key, number] = keys[f];
+    assign(key, soup.facet(f));
     std::sort(key.begin(), key.end());
     number = f;
   }
@@ -35,6 +45,17 @@ Gluing glue_patch(const Cell_soup<D>& soup) {
     gluing.opposite[keys[k].second] = keys[k - 1].second;
   }
   return gluing;
+}
+
+}  // namespace
+
+template <int D>
+Gluing glue_patch(const Cell_soup<D>& soup) {
+  constexpr auto corners = static_cast<std::size_t>(D);
+  for (std::size_t f = 0; f < soup.facet_count(); ++f)
+    if (soup.facet(f).size() != corners)
+      return glue_by<boost::container::small_vector<std::uint32_t, 8>>(soup);
+  return glue_by<std::array<std::uint32_t, corners>>(soup);
 }
 
 template <int D>

@@ -72,8 +72,13 @@ void Map_patch<D>::find_outside(std::span<const Half_facet> removed) {
     for_each_dart_of_half_facet<D>(storage_.map, first, [&](Dart<D> d) {
       old_darts_.push_back(d);
       loop.push_back(storage_.point_of(d));
-      if (std::ranges::find(vertices_, loop.back(), point_of_vertex) == vertices_.end())
+      const auto known = std::ranges::find(vertices_, loop.back(), point_of_vertex);
+      if (known == vertices_.end()) {
         vertices_.emplace_back(loop.back(), storage_.map.template attribute<0>(d));
+        old_darts_at_.push_back(1);
+      } else if (known->second == storage_.map.template attribute<0>(d)) {
+        ++old_darts_at_[static_cast<std::size_t>(known - vertices_.begin())];
+      }
     });
     if (map.template is_free<D>(first)) continue;
     if (D == 2) loop.push_back(storage_.point_of(map.template beta<1>(first)));
@@ -185,13 +190,9 @@ void Map_patch<D>::set_vertices(const Snapshot<D>& snapshot) {
 template <int D>
 void Map_patch<D>::forget_vertices() {
   auto& pinched = storage_.pinched;
-  for (const auto& entry_of_vertex : vertices_) {
-    const std::uint32_t own = entry_of_vertex.first;
-    const Map_vertex<D> vertex = entry_of_vertex.second;
-    if (storage_.map.template get_attribute_ref_counting<0>(vertex) !=
-        static_cast<std::size_t>(std::ranges::count_if(
-            old_darts_, [&](Dart<D> d) { return storage_.map.template attribute<0>(d) == vertex; })))
-      continue;
+  for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    const auto [own, vertex] = vertices_[k];
+    if (storage_.map.template get_attribute_ref_counting<0>(vertex) != old_darts_at_[k]) continue;
     const auto part = std::ranges::find(pinched, std::pair(own, vertex));
     if (part != pinched.end()) {
       pinched.erase(part);

@@ -62,6 +62,7 @@ class Map_patch {
   std::vector<Dart<D>> first_;  ///< of each facet of the soup
   std::vector<Open_facet> open_;
   std::vector<std::pair<std::uint32_t, Map_vertex<D>>> vertices_;  ///< of the removed cells, by point
+  std::vector<std::size_t> old_darts_at_;                          ///< of each of them
   bool is_applied_ = false;
 };
 

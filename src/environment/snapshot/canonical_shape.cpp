@@ -5,6 +5,7 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -60,6 +61,42 @@ void number_by_appearance(const Cell_soup<D>& soup, std::size_t c, Scratch& s) {
     throw Error(Error_code::input, "cell " + std::to_string(c) + " has more than 16,000 vertices: split it");
 }
 
+/// The result of the traversal for a tetrahedron, without one. False if the cell is none.
+bool canonicalize_tetrahedron(const Cell_soup<3>& soup, std::size_t c, Canonical_cell& out) {
+  const std::uint32_t first = soup.cell_begin[c];
+  if (soup.cell_begin[c + 1] - first != 4) return false;
+  for (std::uint32_t f = first; f < first + 4; ++f)
+    if (soup.facet(f).size() != 3) return false;
+  const auto base = soup.facet(first);
+  const std::uint32_t a = base[0], b = base[1], e = base[2];
+  // Beyond the edges of the base in their order, each facet with its edge reversed, then the apex.
+  const std::array<std::array<std::uint32_t, 2>, 3> edges{{{b, a}, {e, b}, {a, e}}};
+  std::array<std::uint32_t, 3> facets{}, apices{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::uint32_t f = first;
+    bool is_found = false;
+    while (!is_found && ++f < first + 4) {
+      const auto loop = soup.facet(f);
+      for (std::size_t i = 0; i < 3 && !is_found; ++i)
+        if (loop[i] == edges[k][0] && loop[(i + 1) % 3] == edges[k][1]) {
+          facets[k] = f;
+          apices[k] = loop[(i + 2) % 3];
+          is_found = true;
+        }
+    }
+    if (!is_found) return false;
+  }
+  const std::uint32_t d = apices[0];
+  if (apices[1] != d || apices[2] != d || d == a || d == b || d == e) return false;
+  if (facets[0] == facets[1] || facets[1] == facets[2] || facets[0] == facets[2]) return false;
+  out.shape.vertex_count = 4;
+  out.shape.loop_begin.assign({0, 3, 6, 9, 12});
+  out.shape.loops.assign({0, 1, 2, 1, 0, 3, 2, 1, 3, 0, 2, 3});
+  out.vertices.assign({a, b, e, d});
+  out.facets.assign({first, facets[0], facets[1], facets[2]});
+  return true;
+}
+
 }  // namespace
 
 void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
@@ -77,6 +114,8 @@ void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32
 template <int D>
 void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
                   Canonical_cell& out) {
+  if constexpr (D == 3)
+    if (canonicalize_tetrahedron(soup, c, out)) return;
   thread_local Scratch s;
   number_by_appearance(soup, c, s);
   const std::uint32_t first_facet = soup.cell_begin[c];

@@ -2,6 +2,8 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -183,28 +185,35 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
   // The outer facets that the removed cells leave open; the neighbours keep them.
   std::vector<Half_facet> open;
   for (const Cell c : removed) {
-    free_indices_.insert(index(c));
     for (std::size_t i = 0; i < facet_count(c); ++i) {
-      const Half_facet f = half_facet(c, i), g = opposite(f);
-      if (g != Half_facet::none && std::find(removed.begin(), removed.end(), cell_of(g)) == removed.end())
-        open.push_back(g);
+      const Half_facet f = half_facet(c, i);
+      const Cell other = neighbour(f);
+      if (other != Cell::none && std::find(removed.begin(), removed.end(), other) == removed.end())
+        open.push_back(opposite(f));
     }
   }
   std::vector<bool> open_is_wall;
-  std::vector<std::vector<std::uint32_t>> open_loops;
+  using Points = boost::container::small_vector<std::uint32_t, 8>;
+  std::vector<Points> open_points;  // ascending
   open_is_wall.reserve(open.size());
-  open_loops.reserve(open.size());
+  open_points.reserve(open.size());
   for (const Half_facet g : open) {
     open_is_wall.push_back(is_impassable(g));
-    open_loops.push_back(loop(g));
+    const Cell_view<D> cell = view(cell_of(g));
+    Points& points = open_points.emplace_back();
+    for (const std::uint16_t v : cell.loop(facet_of(g))) points.push_back(cell.point_index(v));
+    std::sort(points.begin(), points.end());
     forget(cell_of(g));
   }
 
   // The indices of the removed cells in their order, then the lowest free ones, then new ones.
   std::vector<std::uint32_t> indices;
-  for (std::size_t i = 0; i < std::min(removed.size(), cells.size()); ++i) {
-    indices.push_back(index(removed[i]));
-    free_indices_.erase(indices.back());
+  indices.reserve(cells.size());
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (i < cells.size())
+      indices.push_back(index(removed[i]));
+    else
+      free_indices_.insert(index(removed[i]));
   }
   while (indices.size() < cells.size() && !free_indices_.empty())
     indices.push_back(free_indices_.extract(free_indices_.begin()).value());
@@ -242,14 +251,12 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
       continue;
     }
     compiler.link_boundary(slot[f]);
-    const auto own = soup.facet(f);
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      if (own.size() != open_loops[i].size() ||
-          !std::is_permutation(own.begin(), own.end(), open_loops[i].begin()))
-        continue;
-      compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
-      break;
-    }
+    Points own(soup.facet(f).begin(), soup.facet(f).end());
+    std::sort(own.begin(), own.end());
+    const auto at = std::find(open_points.begin(), open_points.end(), own);
+    if (at == open_points.end()) continue;
+    const auto i = static_cast<std::size_t>(at - open_points.begin());
+    compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
   }
   update_geometry(added);
   if (slots) *slots = std::move(slot);

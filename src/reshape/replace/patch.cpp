@@ -4,7 +4,8 @@
 #include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
-#include <map>
+#include <compare>
+#include <span>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -31,27 +32,47 @@ void add_simplex(Cell_soup<3>& soup, const Patch<3>::Simplex& x, bool is_solid) 
   soup.end_cell(is_solid);
 }
 
-/// A facet with its sense: in 3D from its lowest point on.
+/// A facet of a simplex with its sense.
 template <int D>
-using Loop = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
+struct Oriented_facet {
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> points;  ///< ascending
+  bool is_odd = false;                                            ///< an odd permutation of them is the loop
+
+  explicit Oriented_facet(std::span<const std::uint32_t> loop) {
+    std::copy_n(loop.begin(), points.size(), points.begin());
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (points[i] <= points[j]) return;
+      std::swap(points[i], points[j]);
+      is_odd = !is_odd;
+    };
+    order(0, 1);
+    if constexpr (D == 3) {
+      order(1, 2);
+      order(0, 1);
+    }
+  }
+  auto operator<=>(const Oriented_facet&) const = default;
+};
 
 template <int D>
-Loop<D> turned(Loop<D> loop) {
-  if (D == 3) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-  return loop;
-}
-
-template <int D>
-Loop<D> reversed(Loop<D> loop) {
-  std::reverse(loop.begin(), loop.end());
-  return turned<D>(loop);
-}
-
-template <int D>
-Loop<D> loop_of(const Cell_view<D>& cell, std::size_t facet) {
-  Loop<D> loop;
+Oriented_facet<D> facet_of(const Cell_view<D>& cell, std::size_t facet) {
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> loop;
   for (std::size_t k = 0; k < loop.size(); ++k) loop[k] = cell.point_index(cell.loop(facet)[k]);
-  return turned<D>(loop);
+  return Oriented_facet<D>(loop);
+}
+
+/// Takes pairs of facets out that have the same points and run against each other.
+template <int D>
+void remove_pairs(std::vector<Oriented_facet<D>>& sorted) {
+  auto kept = sorted.begin();
+  for (auto f = sorted.begin(); f != sorted.end(); ++f) {
+    const auto next = f + 1;
+    if (next != sorted.end() && next->points == f->points && next->is_odd != f->is_odd)
+      f = next;
+    else
+      *kept++ = *f;
+  }
+  sorted.erase(kept, sorted.end());
 }
 
 }  // namespace
@@ -81,29 +102,29 @@ template <int D>
 std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup) {
   const bool is_solid = snapshot.is_solid(patch.removed.front());
   // Facets that only one cell has, or the other side of none.
-  std::vector<Loop<D>> old_open, new_open;
+  std::vector<Oriented_facet<D>> old_open, new_open;
   for (const Cell c : patch.removed)
     for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       if (std::ranges::find(patch.removed, snapshot.neighbour(f)) == patch.removed.end())
-        old_open.push_back(loop_of(snapshot.view(c), i));
+        old_open.push_back(facet_of(snapshot.view(c), i));
       else if (snapshot.is_impassable(f))
         return "a wall lies between the cells";
     }
   Predicate_counts counts;
+  constexpr std::size_t facets = D + 1;
+  soup.cell_begin.reserve(patch.cells.size() + 1);
+  soup.facet_begin.reserve(facets * patch.cells.size() + 1);
+  soup.vertices.reserve(facets * D * patch.cells.size());
+  soup.impassable.reserve(facets * patch.cells.size());
   for (const auto& cell : patch.cells) {
     if (volume_sign(counts, patch.corners(snapshot, cell)) <= 0) return "a cell would be flat or inverted";
     add_simplex(soup, cell, is_solid);
   }
-  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
-    Loop<D> loop;
-    std::copy_n(soup.facet(f).begin(), loop.size(), loop.begin());
-    new_open.push_back(turned<D>(loop));
-  }
+  new_open.reserve(soup.facet_count());
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) new_open.emplace_back(soup.facet(f));
   std::sort(new_open.begin(), new_open.end());
-  std::erase_if(new_open, [all = new_open](const auto& loop) {
-    return std::ranges::binary_search(all, reversed<D>(loop));
-  });
+  remove_pairs(new_open);
   std::sort(old_open.begin(), old_open.end());
   return old_open == new_open ? "" : "the cells would not cover the same region";
 }

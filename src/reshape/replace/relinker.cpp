@@ -44,7 +44,8 @@ void Relinker<D>::note(std::span<const Cell> removed) {
   for (const Cell c : removed_)
     for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
-      sides_.push_back({f, std::ranges::binary_search(removed_, snapshot_.neighbour(f)), key_of(f)});
+      const bool is_inner = std::ranges::binary_search(removed_, snapshot_.neighbour(f));
+      sides_.push_back({f, is_inner, is_inner ? Key{} : key_of(f)});
     }
   if (D == 2) return;
   for (std::uint32_t g = 0; g < groups_.all().size(); ++g) {
@@ -62,6 +63,7 @@ void Relinker<D>::name_sides(std::span<const Cell> added) {
   for (const Cell c : added)
     for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
+      if (std::ranges::find(added, snapshot_.neighbour(f)) != added.end()) continue;
       const Key key = key_of(f);
       for (Side& side : sides_)
         if (!side.is_inner && side.key == key) side.now = f;
