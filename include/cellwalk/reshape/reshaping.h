@@ -136,7 +136,7 @@ class Reshaping {
   // ones may be equal. Each throws Error(usage) for what does not exist, for a cell that is not a simplex, in
   // a frozen environment, for a particle that is not in its cell, and after close(); Error(input) for a
   // position that is not finite.
-  // Cost: 3 to 5 us a new cell, whatever the size of the environment; more where what lies there passes
+  // Cost: 3 to 4 us a new cell, whatever the size of the environment; more where what lies there passes
   // ridges or vertices of cells exactly.
 
   /// Replaces a cell by the cells of a new point strictly inside it.
