@@ -10,6 +10,7 @@
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/internal/environment/cell_clusters.h>
+#include <cellwalk/internal/environment/flat_array.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/internal/environment/tissue_boxes.h>
 #include <cellwalk/records/cell_soup.h>
@@ -27,6 +28,11 @@
 namespace cellwalk {
 
 struct Canonical_cell;
+
+namespace detail {
+template <int D>
+class Snapshot_sections;
+}  // namespace detail
 
 /// The name of a cell in a snapshot. It differs from the index in the input: see Snapshot::index().
 enum class Cell : std::uint32_t { none = 0xffffffffu };
@@ -72,7 +78,7 @@ class Snapshot {
   Cell_view<D> view(Cell c) const {
     assert(is_cell(c));
     const Cell_shape& shape = shapes_[shape_[to_index(c)] & shape_mask];
-    return {&shape, {vertices_.data() + vertex_begin_[to_index(c)], shape.vertex_count}, points_};
+    return {&shape, {vertices_.data() + vertex_begin_[to_index(c)], shape.vertex_count}, points()};
   }
   std::size_t facet_count(Cell c) const { return shapes_[shape_[to_index(c)] & shape_mask].facet_count(); }
 
@@ -130,7 +136,7 @@ class Snapshot {
   std::vector<std::uint32_t> loop(Half_facet f) const;
 
   // --- points
-  std::span<const Point<D>> points() const { return points_; }
+  std::span<const Point<D>> points() const { return {points_.data(), points_.size()}; }
   const Point<D>& point(std::uint32_t index) const { return points_[index]; }
   /// False for a point that an edit removed: no cell has it, its position means nothing, and a later edit may
   /// reuse its index.
@@ -214,7 +220,7 @@ class Snapshot {
   std::vector<Cell> replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                   const Gluing& gluing, std::vector<Half_facet>* slots = nullptr);
 
-  /// The memory of the arrays in bytes.
+  /// The memory of the arrays in bytes, without that of files that are mapped.
   std::size_t bytes() const;
 
  private:
@@ -226,15 +232,15 @@ class Snapshot {
   static constexpr std::uint32_t removed_bit = 1u << 29;
   static constexpr std::uint32_t shape_mask = removed_bit - 1;
 
-  std::vector<Plane_block<D>> planes_;        // per block
-  std::vector<std::uint32_t> links_;          // per lane: neighbouring cell, wall and convex-pair bits
-  std::vector<std::uint32_t> vertex_begin_;   // per block: start of the cell's vertices
-  std::vector<std::uint32_t> shape_;          // per block: shape of the cell, or distance to its first block
-  std::vector<std::uint32_t> index_;          // per block: index of the cell in the input
-  std::vector<std::uint32_t> vertices_;       // point indices, cell after cell
-  std::vector<std::uint32_t> cell_of_index_;  // per input cell: its first block
-  std::vector<Cell_shape> shapes_;            // few
-  std::vector<Point<D>> points_;
+  detail::Flat_array<Plane_block<D>> planes_;        // per block
+  detail::Flat_array<std::uint32_t> links_;          // per lane: neighbouring cell, wall and convex-pair bits
+  detail::Flat_array<std::uint32_t> vertex_begin_;   // per block: start of the cell's vertices
+  detail::Flat_array<std::uint32_t> shape_;          // per block: shape, or distance to the first block
+  detail::Flat_array<std::uint32_t> index_;          // per block: index of the cell in the input
+  detail::Flat_array<std::uint32_t> vertices_;       // point indices, cell after cell
+  detail::Flat_array<std::uint32_t> cell_of_index_;  // per input cell: its first block
+  std::vector<Cell_shape> shapes_;                   // few
+  detail::Flat_array<Point<D>> points_;
   Plane_frame<D> frame_;
   std::size_t uncertified_planes_ = 0;
   std::size_t uniform_blocks_ = 0;  // blocks of every cell, or 0 where they differ
@@ -257,6 +263,7 @@ class Snapshot {
 
   template <int>
   friend class Snapshot_compiler;
+  friend detail::Snapshot_sections<D>;
 };
 
 extern template class Snapshot<2>;

@@ -112,7 +112,7 @@ void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32
 }
 
 template <int D>
-void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
+void canonicalize(const Cell_soup<D>& soup, std::span<const Point<D>> points, std::size_t c,
                   Canonical_cell& out) {
   if constexpr (D == 3)
     if (canonicalize_tetrahedron(soup, c, out)) return;
@@ -177,9 +177,7 @@ void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points,
   }
 }
 
-template void canonicalize<2>(const Cell_soup<2>&, const std::vector<Point<2>>&, std::size_t,
-                              Canonical_cell&);
-template void canonicalize<3>(const Cell_soup<3>&, const std::vector<Point<3>>&, std::size_t,
-                              Canonical_cell&);
+template void canonicalize<2>(const Cell_soup<2>&, std::span<const Point<2>>, std::size_t, Canonical_cell&);
+template void canonicalize<3>(const Cell_soup<3>&, std::span<const Point<3>>, std::size_t, Canonical_cell&);
 
 }  // namespace cellwalk

@@ -25,7 +25,7 @@ struct Canonical_cell {
 /// rotates each loop until its first three vertices (3D) are not collinear. Facets that the traversal does
 /// not reach (then the cell is not closed, and certification refuses it) follow in input order.
 template <int D>
-void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points, std::size_t c,
+void canonicalize(const Cell_soup<D>& soup, std::span<const Point<D>> points, std::size_t c,
                   Canonical_cell& out);
 
 /// Rotates a loop until its first three vertices are not collinear, if it has three such consecutive
@@ -33,9 +33,9 @@ void canonicalize(const Cell_soup<D>& soup, const std::vector<Point<D>>& points,
 void turn_off_line(std::span<const Point<3>> points, std::span<const std::uint32_t> vertices,
                    std::span<std::uint16_t> loop);
 
-extern template void canonicalize<2>(const Cell_soup<2>&, const std::vector<Point<2>>&, std::size_t,
+extern template void canonicalize<2>(const Cell_soup<2>&, std::span<const Point<2>>, std::size_t,
                                      Canonical_cell&);
-extern template void canonicalize<3>(const Cell_soup<3>&, const std::vector<Point<3>>&, std::size_t,
+extern template void canonicalize<3>(const Cell_soup<3>&, std::span<const Point<3>>, std::size_t,
                                      Canonical_cell&);
 
 }  // namespace cellwalk

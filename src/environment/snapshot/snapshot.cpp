@@ -124,7 +124,7 @@ void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
       uncertified_planes_ += compiler.write_planes(c);
     }
   } else {  // linear, but rare: frames are of powers of two
-    frame_ = make_frame<D>(points_);
+    frame_ = make_frame<D>(points());
     clusters_.clear();
     uncertified_planes_ = 0;
     for (std::uint32_t b = 0; b < shape_.size(); ++b)
@@ -180,7 +180,7 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
                                              const Gluing& gluing, std::vector<Half_facet>* slots) {
   // All checks of the input come first.
   std::vector<Canonical_cell> cells(soup.cell_count());
-  for (std::size_t c = 0; c < cells.size(); ++c) canonicalize(soup, points_, c, cells[c]);
+  for (std::size_t c = 0; c < cells.size(); ++c) canonicalize(soup, points(), c, cells[c]);
 
   // The outer facets that the removed cells leave open; the neighbours keep them.
   std::vector<Half_facet> open;
@@ -266,8 +266,10 @@ std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, cons
 template <int D>
 std::size_t Snapshot<D>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t n = of(planes_) + of(links_) + of(vertex_begin_) + of(shape_) + of(index_) + of(vertices_) +
-                  of(cell_of_index_) + of(points_);
+  std::size_t n = 0;
+  for (const auto* array : {&links_, &vertex_begin_, &shape_, &index_, &vertices_, &cell_of_index_})
+    n += array->own_bytes();
+  n += planes_.own_bytes() + points_.own_bytes();
   for (const Cell_shape& shape : shapes_) n += sizeof shape + of(shape.loops) + of(shape.loop_begin);
   return n;
 }
