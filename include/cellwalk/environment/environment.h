@@ -25,6 +25,8 @@ class Boundary_index;
 template <int D>
 class Cell_patcher;
 template <int D>
+class Environment_image;
+template <int D>
 class Star_index;
 template <int D>
 class Vertex_mover;
@@ -184,6 +186,7 @@ class Environment {
   bool allow_duplicates_ = false;
 
   friend detail::Cell_patcher<D>;
+  friend detail::Environment_image<D>;
   friend detail::Vertex_mover<D>;
   friend detail::Wall_editor<D>;
 };

@@ -31,7 +31,7 @@ struct Canonical_cell;
 
 namespace detail {
 template <int D>
-class Snapshot_sections;
+class Environment_image;
 }  // namespace detail
 
 /// The name of a cell in a snapshot. It differs from the index in the input: see Snapshot::index().
@@ -263,7 +263,7 @@ class Snapshot {
 
   template <int>
   friend class Snapshot_compiler;
-  friend detail::Snapshot_sections<D>;
+  friend detail::Environment_image<D>;
 };
 
 extern template class Snapshot<2>;
