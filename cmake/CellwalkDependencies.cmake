@@ -11,6 +11,9 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE) # MPL2: linear algebra of simulation
 find_package(TBB REQUIRED)                  # Apache 2: parallel compilation of snapshots
 find_package(fmt 9 REQUIRED)                # MIT: text output
 find_package(ZLIB REQUIRED)                 # zlib: input compressed with gzip
+find_path(CELLWALK_XXHASH_DIR xxhash.h REQUIRED DOC "Folder of xxhash.h 0.8 or newer (package libxxhash-dev)")
+add_library(cellwalk_xxhash INTERFACE IMPORTED)  # BSD: checksums of compiled environments
+target_include_directories(cellwalk_xxhash SYSTEM INTERFACE ${CELLWALK_XXHASH_DIR})
 find_package(nlohmann_json 3.11 REQUIRED)   # MIT: scenes, reports
 if(CELLWALK_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)          # BSD: command line

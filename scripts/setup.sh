@@ -12,7 +12,7 @@
 set -euo pipefail
 
 core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
-      zlib1g-dev)
+      zlib1g-dev libxxhash-dev)
 meshing=(libtet1.5-dev)
 io=(libgmsh-dev libvtk9-dev)
 python=(pybind11-dev python3-dev python3-numpy)

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The parts of an environment that an image has, and an environment made of them.
+#ifndef CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H
+#define CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H
+
+#include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/environment/image_format.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cellwalk::detail {
+
+/// A run of slots: its length, and its first one.
+struct Image_run {
+  std::uint32_t length = 0, first = 0;
+  bool operator==(const Image_run&) const = default;
+};
+
+/// What is small, in the form that an image has it.
+template <int D>
+struct Image_lists {
+  std::vector<Image_state<D>> state;  ///< one
+  /// Of each shape: the number of its vertices and of its facets, the begins of loops, the loops.
+  std::vector<std::uint16_t> shapes;
+  std::vector<Image_run> free_blocks, free_vertices;
+  std::vector<std::uint32_t> free_indices, free_points;
+  /// Of each group: the bytes of its name, these in words, its facets and its cells, with their numbers before.
+  std::vector<std::uint32_t> groups;
+};
+
+template <int D>
+class Environment_image {
+ public:
+  /// Calls visit(name, array) for the large arrays of a snapshot, in the order of the image.
+  /// \tparam S Snapshot<D>, const or not
+  template <class S, class Visit>
+  static void for_each_array(S& snapshot, const Visit& visit) {
+    visit("planes", snapshot.planes_);
+    visit("links", snapshot.links_);
+    visit("vertex_begin", snapshot.vertex_begin_);
+    visit("shape", snapshot.shape_);
+    visit("index", snapshot.index_);
+    visit("vertices", snapshot.vertices_);
+    visit("cell_of_index", snapshot.cell_of_index_);
+    visit("points", snapshot.points_);
+  }
+  /// The same for the lists.
+  template <class Lists, class Visit>
+  static void for_each_list(Lists& lists, const Visit& visit) {
+    visit("state", lists.state);
+    visit("shapes", lists.shapes);
+    visit("free_blocks", lists.free_blocks);
+    visit("free_vertices", lists.free_vertices);
+    visit("free_indices", lists.free_indices);
+    visit("free_points", lists.free_points);
+    visit("groups", lists.groups);
+  }
+
+  static Image_lists<D> lists(const Environment<D>& environment, const Certificate& certificate,
+                              const Groups<D>& groups);
+  /// \param snapshot has its arrays
+  /// \throw Error(input) if an index refers to nothing
+  static Compiled_environment<D> assemble(Snapshot<D> snapshot, const Image_lists<D>& lists);
+
+  /// \throw Error(input) naming what is wrong
+  static void check(const Snapshot<D>& snapshot);
+  /// A copy whose certificates are made anew.
+  static Snapshot<D> certified_again(const Snapshot<D>& snapshot);
+  /// True if both have the same planes and the same pairs of convex union at a cell.
+  static bool has_same_certificates(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell);
+
+ private:
+  static void check_sizes(const Snapshot<D>& snapshot);
+  static void check_shapes(const Snapshot<D>& snapshot);
+  static void check_blocks(const Snapshot<D>& snapshot);
+  static void check_cell(const Snapshot<D>& snapshot, std::uint32_t block);
+  static void check_free(const Snapshot<D>& snapshot);
+};
+
+[[noreturn]] void refuse_image(const char* what);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H

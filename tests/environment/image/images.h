@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Images of environments that were damaged, with checksums that fit.
+#ifndef CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
+#define CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
+
+#include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/environment/image_format.h>
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace cellwalk::test {
+
+/// The table of an image.
+/// \pre the image is none that was cut short
+inline std::vector<detail::Image_section> table_of(std::span<const std::byte> image) {
+  detail::Image_header header;
+  std::memcpy(&header, image.data(), sizeof header);
+  std::vector<detail::Image_section> table(header.sections);
+  std::memcpy(table.data(), image.data() + sizeof header, table.size() * sizeof table[0]);
+  return table;
+}
+
+/// The bytes of a section.
+inline std::span<std::byte> section_of(std::span<std::byte> image, std::string_view name) {
+  for (const detail::Image_section& section : table_of(image))
+    if (name == section.name.data()) return image.subspan(section.offset, section.bytes);
+  return {};
+}
+
+/// Makes all checksums those of the bytes as they are.
+inline void seal(std::span<std::byte> image) {
+  detail::Image_header header;
+  std::memcpy(&header, image.data(), sizeof header);
+  std::vector<detail::Image_section> table = table_of(image);
+  for (detail::Image_section& section : table)
+    section.checksum = detail::checksum(image.subspan(section.offset, section.bytes));
+  header.checksum = detail::checksum(header, table);
+  std::memcpy(image.data(), &header, sizeof header);
+  std::memcpy(image.data() + sizeof header, table.data(), table.size() * sizeof table[0]);
+}
+
+}  // namespace cellwalk::test
+
+#endif  // CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
