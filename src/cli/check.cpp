@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk check ENV: certifies an environment, including its map, and reports its content.
+#include <cellwalk/environment/compiled.h>
+
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -24,7 +26,11 @@ void check(const Check_options& options) {
   const Loaded_environment loaded = load_with_progress(options.environment, options.build);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
-        const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
+        const Certificate certificate = naming(options.environment, [&] {
+          // What was not compiled here may have been compiled wrongly.
+          if (is_compiled_file(options.environment)) check_compiled(environment);
+          return environment.certify();
+        });
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         write_json(json, {{"environment", options.environment},
                           {"certificate", to_json(certificate, D)},
@@ -40,7 +46,8 @@ void add_check(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<Check_options>();
   CLI::App* command = app.add_subcommand(
       "check", "Certify an environment exactly, and print counts, volumes, walls and components");
-  command->add_option("environment", options->environment, "A file of cells (.ovm, .msh, .vtk, ...)")
+  command
+      ->add_option("environment", options->environment, "A file of cells (.ovm, .cellwalk, .msh, .vtk, ...)")
       ->required()
       ->type_name("ENV");
   add_duplicates(*command, options->build.duplicates);

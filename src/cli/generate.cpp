@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk generate KIND ... -o ENV.ovm: environments made without a file.
 #include <cellwalk/internal/io/numbers.h>
-#include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/generators.h>
 
 #include <nlohmann/json.hpp>
@@ -36,8 +35,8 @@ void write_environment(Cell_soup<D> soup, const Generate_options& options, Outpu
   Edge_cells edges;
   {
     const Progress progress("certifying and writing " + options.environment);
-    const auto environment = Environment<D>::build(std::move(soup), build_of_generated, &report);
-    io::write_ovm(*files.environment, environment.soup());
+    auto environment = Environment<D>::build(std::move(soup), build_of_generated, &report);
+    cellwalk::write_environment<D>(*files.environment, environment, report.certificate, {});
     edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
   }
   write_json(files.json, {{"environment", options.environment},

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk import MESH -o ENV.ovm: converts any mesh to a certified environment, and reports every change.
-#include <cellwalk/io/ovm.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -80,9 +78,9 @@ void import(Options& options) {
   };
   Imported_environment imported = import_environment(options.mesh, options.import);
   std::visit(
-      [&]<int D>(const Environment<D>& environment) {
-        io::write_ovm(*file, environment.soup(),
-                      soup_groups(environment.snapshot(), std::get<Groups<D>>(imported.groups)));
+      [&]<int D>(Environment<D>& environment) {
+        write_environment<D>(*file, environment, imported.built.certificate,
+                             std::get<Groups<D>>(imported.groups));
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         progress.reset();
         imported.report.json["edge_cells"] = to_json(edges);
@@ -125,7 +123,8 @@ void add_import(CLI::App& app, Action& chosen) {
       {"cellwalk import vessel.stl -o vessel.ovm", "cellwalk import vessel.stl --cell-size 0.5 -o fine.ovm",
        "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
        "cellwalk import aneurysm.stl --mesher mesh3 --tissue 2 -o beating.ovm",
-       "cellwalk import floor.wkt -o floor.ovm --json report.json"});
+       "cellwalk import floor.wkt -o floor.ovm --json report.json",
+       "cellwalk import vessel.ovm -o vessel.cellwalk"});
   command->callback([options, &chosen] { chosen = [options] { import(*options); }; });
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include "compiled_file.h"
+
 namespace cellwalk {
 namespace {
 
@@ -19,11 +21,43 @@ Loaded_environment build_as_it_stands(Cell_soup<D>& soup, const Build_options& o
   return {std::move(environment), std::move(report), std::move(file.report), std::move(groups)};
 }
 
+template <int D>
+bool has_simplices_only(const Snapshot<D>& snapshot) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell c = snapshot.cell(i); c != Cell::none && snapshot.view(c).vertex_count() != D + 1)
+      return false;
+  return true;
+}
+
+template <int D>
+Loaded_environment as_loaded(Compiled_environment<D> compiled, const Build_options& options) {
+  if (options.keep_map) compiled.environment.thaw();
+  const Snapshot<D>& snapshot = compiled.environment.snapshot();
+  Build_report built;
+  built.cells_read = snapshot.cell_count();
+  built.points_read = compiled.certificate.vertices;
+  built.certificate = compiled.certificate;
+  io::Read_report read{compiled_format, built.points_read, built.cells_read, 0, {}};
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
+    if (const Cell c = snapshot.cell(i); c != Cell::none) read.facets += snapshot.facet_count(c);
+  return {std::move(compiled.environment), std::move(built), std::move(read), std::move(compiled.groups)};
+}
+
 }  // namespace
 
 Loaded_environment load_environment(const std::string& path, Build_options options) {
-  io::Mesh_file file = io::read_mesh(path);
   options.split = false;
+  const bool is_compiled = is_compiled_file(path);
+  if (is_compiled) {
+    Any_compiled_environment compiled = open_compiled_file(path);
+    const bool is_fit =
+        !options.simplicial ||
+        std::visit([](const auto& known) { return has_simplices_only(known.environment.snapshot()); },
+                   compiled);
+    if (is_fit)
+      return std::visit([&](auto& known) { return as_loaded(std::move(known), options); }, compiled);
+  }
+  io::Mesh_file file = is_compiled ? read_compiled(path) : io::read_mesh(path);
   return naming(path, [&]() -> Loaded_environment {
     if (auto* soup = std::get_if<Cell_soup<3>>(&file.mesh)) return build_as_it_stands(*soup, options, file);
     if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build_as_it_stands(*soup, options, file);

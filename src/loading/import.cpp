@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "compiled_file.h"
+
 namespace cellwalk {
 namespace {
 
@@ -57,7 +59,7 @@ class Import {
 
   io::Mesh_file read(const std::string& path) {
     begin("reading " + path);
-    io::Mesh_file file = io::read_mesh(path);
+    io::Mesh_file file = is_compiled_file(path) ? read_compiled(path) : io::read_mesh(path);
     const io::Read_report& found = file.report;
     std::string line =
         fmt::format("{}: {}, {}, {} points", path, found.format, io::kind_name(file.mesh), found.points);

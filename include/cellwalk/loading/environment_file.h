@@ -5,10 +5,12 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/groups.h>
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -40,10 +42,31 @@ auto naming(const std::string& path, Work&& work) {
 }
 
 /// Reads a file of cells and certifies it unchanged: nothing is split, merged or flipped.
+///
+/// A compiled environment (open_compiled()) is mapped, whatever its name, and was certified when it was written: nothing is
+/// certified again, and vertices in the same place stay as they are. It gets its map if options.keep_map asks for it, and
+/// is built of its cells if options.simplicial asks for simplices and it has others.
 /// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the
 ///        reason
-/// Cost: that of reading and of Environment::build().
+/// Cost: that of reading and of Environment::build(), or of open_compiled().
 Loaded_environment load_environment(const std::string& path, Build_options options);
+
+/// True if a file has the name of compiled environments, *.cellwalk.
+bool is_compiled_name(const std::filesystem::path& path);
+
+/// True if a file has this name, or is none but begins as compiled environments do.
+bool is_compiled_file(const std::string& path);
+
+/// Writes an environment into a file that the caller commits: compiled, if that is named *.cellwalk, or else in
+/// OpenVolumeMesh. Indices that edits left unused are given up first, as OpenVolumeMesh has none: see
+/// Environment::compact().
+/// \param certificate of the environment as it is now
+/// \throw Error(other) if the device is full
+template <int D>
+void write_environment(io::Atomic_file& file, Environment<D>& environment, const Certificate& certificate,
+                       Groups<D> groups);
+extern template void write_environment(io::Atomic_file&, Environment<2>&, const Certificate&, Groups<2>);
+extern template void write_environment(io::Atomic_file&, Environment<3>&, const Certificate&, Groups<3>);
 
 struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface

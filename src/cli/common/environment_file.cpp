@@ -25,13 +25,20 @@ void add_duplicates(CLI::App& command, Duplicate_vertices& value) {
 }
 
 CLI::Option* add_environment_output(CLI::App& command, std::string& path) {
-  return command.add_option("-o,--output", path, "The environment to write (OpenVolumeMesh ASCII, *.ovm)")
+  return command
+      .add_option("-o,--output", path,
+                  "The environment to write: OpenVolumeMesh ASCII (*.ovm), or compiled (*.cellwalk), which "
+                  "opens at once")
       ->required()
       ->type_name("ENV.ovm")
       ->check([](const std::string& text) {
-        const bool fine = std::filesystem::path(text).extension() == ".ovm" || text.starts_with("/dev/");
+        const bool fine = std::filesystem::path(text).extension() == ".ovm" || is_compiled_name(text) ||
+                          text.starts_with("/dev/");
         return fine ? std::string{}
-                    : "environments are written as OpenVolumeMesh: name the file *.ovm, not " + text;
+                    : "environments are written as OpenVolumeMesh or compiled: name the file *.ovm or "
+                      "*.cellwalk, "
+                      "not " +
+                          text;
       });
 }
 

@@ -24,7 +24,7 @@ Loaded_environment load_with_progress(const std::string& path, const Build_optio
 /// Adds --duplicates, the treatment of equal vertices.
 void add_duplicates(CLI::App& command, Duplicate_vertices& value);
 
-/// Adds the output option -o for an environment, whose name must be *.ovm (or that of a device).
+/// Adds the output option -o for an environment, whose name must be *.ovm, *.cellwalk, or that of a device.
 CLI::Option* add_environment_output(CLI::App& command, std::string& path);
 
 /// Adds --json OUT.

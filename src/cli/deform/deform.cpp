@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk deform ENV MOVES.csv -o OUT.ovm: moves points of an environment one after the other, as far as the
 // bodies in it allow.
-#include <cellwalk/io/ovm.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <fmt/format.h>
@@ -103,8 +102,7 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
     const Progress progress("certifying " + name);
     return naming(name, [&] { return environment.certify(); });
   }();
-  if (!asks)
-    io::write_ovm(*files.environment, environment.soup(), soup_groups(environment.snapshot(), groups));
+  if (!asks) write_environment<D>(*files.environment, environment, certificate, groups);
   nlohmann::ordered_json json{{"environment", name}, {"certificate", to_json(certificate, D)}};
   json.update(moves_json(results, bodies, reshaping.counts()));
   write_json(files.json, json);

@@ -2,7 +2,6 @@
 // cellwalk edit ENV CHANGES.json -o OUT.ovm: opens and closes facets, excavates, fills and cuts cells, and
 // sews cuts up, as far as the bodies in the environment allow.
 #include <cellwalk/io/changes_file.h>
-#include <cellwalk/io/ovm.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -73,7 +72,7 @@ void edit_environment(const Edit_options& options, Edit_files& files, Environmen
     const Progress progress("certifying " + options.output);
     return naming(options.output, [&] { return environment.certify(); });
   }();
-  io::write_ovm(*files.environment, environment.soup(), soup_groups(snapshot, lasting.now(snapshot)));
+  write_environment<D>(*files.environment, environment, certificate, lasting.now(snapshot));
   nlohmann::ordered_json json{{"environment", options.output}, {"certificate", to_json(certificate, D)}};
   json["changes"] = table->to_json();
   json["bodies"] = bodies.to_json();
