@@ -43,9 +43,10 @@ auto naming(const std::string& path, Work&& work) {
 
 /// Reads a file of cells and certifies it unchanged: nothing is split, merged or flipped.
 ///
-/// A compiled environment (open_compiled()) is mapped, whatever its name, and was certified when it was written: nothing is
-/// certified again, and vertices in the same place stay as they are. It gets its map if options.keep_map asks for it, and
-/// is built of its cells if options.simplicial asks for simplices and it has others.
+/// A compiled environment (open_compiled()) is mapped, whatever its name, and was certified when it was
+/// written: nothing is certified again, and vertices in the same place stay as they are. It gets its map if
+/// options.keep_map asks for it, and is built of its cells if options.simplicial asks for simplices and it
+/// has others.
 /// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the
 ///        reason
 /// Cost: that of reading and of Environment::build(), or of open_compiled().
@@ -57,8 +58,8 @@ bool is_compiled_name(const std::filesystem::path& path);
 /// True if a file has this name, or is none but begins as compiled environments do.
 bool is_compiled_file(const std::string& path);
 
-/// Writes an environment into a file that the caller commits: compiled, if that is named *.cellwalk, or else in
-/// OpenVolumeMesh. Indices that edits left unused are given up first, as OpenVolumeMesh has none: see
+/// Writes an environment into a file that the caller commits: compiled, if that is named *.cellwalk, or else
+/// in OpenVolumeMesh. Indices that edits left unused are given up first, as OpenVolumeMesh has none: see
 /// Environment::compact().
 /// \param certificate of the environment as it is now
 /// \throw Error(other) if the device is full

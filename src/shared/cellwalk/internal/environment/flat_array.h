@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The arrays of a snapshot: they have memory of their own, or lie in memory that somebody else holds, such as a
-// file that is mapped.
+// The arrays of a snapshot: they have memory of their own, or lie in memory that somebody else holds, such as
+// a file that is mapped.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_FLAT_ARRAY_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_FLAT_ARRAY_H
 
@@ -14,8 +14,9 @@
 
 namespace cellwalk::detail {
 
-/// An array of values that can be copied byte by byte. Reading costs the same wherever its memory is. Memory of
-/// others is written in place; growth beyond it moves the array into memory of its own. A copy has its own.
+/// An array of values that can be copied byte by byte. Reading costs the same wherever its memory is. Memory
+/// of others is written in place; growth beyond it moves the array into memory of its own. A copy has its
+/// own.
 template <class T>
 class Flat_array {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The layout of images of environments: a header, a table of sections, and the sections, each at a multiple of 64
-// bytes. Numbers are little-endian.
+// The layout of images of environments: a header, a table of sections, and the sections, each at a multiple
+// of 64 bytes. Numbers are little-endian.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_IMAGE_FORMAT_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_IMAGE_FORMAT_H
 
@@ -17,7 +17,8 @@
 namespace cellwalk::detail {
 
 constexpr std::array<char, 8> image_magic{'C', 'E', 'L', 'L', 'W', 'A', 'L', 'K'};
-/// To be raised whenever the arrays of a snapshot get another meaning, as by another bound of the error of planes.
+/// To be raised whenever the arrays of a snapshot get another meaning, as by another bound of the error of
+/// planes.
 constexpr std::uint32_t image_version = 1;
 constexpr std::uint32_t image_byte_order = 0x01020304;
 constexpr std::size_t image_alignment = 64;  // bytes; that of planes, and of lines of the cache

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Files that are used where they lie: pages are read when they are touched, and shared by all processes that map
-// the same file, until one of them writes there.
+// Files that are used where they lie: pages are read when they are touched, and shared by all processes that
+// map the same file, until one of them writes there.
 #ifndef CELLWALK_INTERNAL_IO_MAPPED_FILE_H
 #define CELLWALK_INTERNAL_IO_MAPPED_FILE_H
 
@@ -18,8 +18,8 @@ struct Mapped_file {
   std::shared_ptr<const void> owner;  ///< they last as long as it is held
 };
 
-/// Maps a file; what is none, such as a pipe, is read. The file must not be cut short while it is mapped: replace it
-/// by another one of its name instead, as all our writers do.
+/// Maps a file; what is none, such as a pipe, is read. The file must not be cut short while it is mapped:
+/// replace it by another one of its name instead, as all our writers do.
 /// \throw Error(input) if it cannot be read
 Mapped_file map_file(const std::filesystem::path& path);
 

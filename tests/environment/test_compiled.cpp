@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Environments that are written as bytes and opened again: the same to the bit, with all names; and bytes that are
-// damaged, with and without checksums that fit.
+// Environments that are written as bytes and opened again: the same to the bit, with all names; and bytes
+// that are damaged, with and without checksums that fit.
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
@@ -20,7 +20,7 @@
 
 #include "environment/sample_soups.h"
 #include "environment/snapshot_checks.h"
-#include "images.h"
+#include "environment/images.h"
 
 namespace cellwalk {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The parts of an environment that an image has, and an environment made of them.
-#ifndef CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H
-#define CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H
+#ifndef CELLWALK_ENVIRONMENT_ENVIRONMENT_IMAGE_H
+#define CELLWALK_ENVIRONMENT_ENVIRONMENT_IMAGE_H
 
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/internal/environment/image_format.h>
@@ -26,7 +26,8 @@ struct Image_lists {
   std::vector<std::uint16_t> shapes;
   std::vector<Image_run> free_blocks, free_vertices;
   std::vector<std::uint32_t> free_indices, free_points;
-  /// Of each group: the bytes of its name, these in words, its facets and its cells, with their numbers before.
+  /// Of each group: the bytes of its name, these in words, its facets and its cells, with their numbers
+  /// before.
   std::vector<std::uint32_t> groups;
 };
 
@@ -83,4 +84,4 @@ class Environment_image {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_ENVIRONMENT_IMAGE_ENVIRONMENT_IMAGE_H
+#endif  // CELLWALK_ENVIRONMENT_ENVIRONMENT_IMAGE_H

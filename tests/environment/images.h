@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Images of environments that were damaged, with checksums that fit.
-#ifndef CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
-#define CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
+#ifndef CELLWALK_TESTS_ENVIRONMENT_IMAGES_H
+#define CELLWALK_TESTS_ENVIRONMENT_IMAGES_H
 
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/internal/environment/image_format.h>
@@ -45,4 +45,4 @@ inline void seal(std::span<std::byte> image) {
 
 }  // namespace cellwalk::test
 
-#endif  // CELLWALK_TESTS_ENVIRONMENT_IMAGE_IMAGES_H
+#endif  // CELLWALK_TESTS_ENVIRONMENT_IMAGES_H

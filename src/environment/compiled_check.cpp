@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Whether the arrays of an image refer to each other as those of a snapshot do, so that nothing reads beyond them.
+// Whether the arrays of an image refer to each other as those of a snapshot do, so that nothing reads beyond
+// them.
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
