@@ -1,21 +1,66 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "body_faces.h"
 
+#include <cellwalk/internal/edge/wedge.h>
+#include <cellwalk/internal/kernel/predicates.h>
+
+#include <boost/container/small_vector.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 
 namespace cellwalk::detail {
 namespace {
 
+/// The place of an edge among those of a vertex.
+std::size_t place_of(std::span<const Corner> edges, std::uint32_t edge) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge, {}, &Corner::edge) - edges.begin());
+}
+
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
 const Chain* moved_chain(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex,
                          std::uint32_t edge) {
-  const auto corners = body.topology.corners_of(vertex);
-  const auto corner = std::ranges::lower_bound(corners, edge, {}, &Corner::edge);
-  const Moved_chain& moved = scratch.chains[static_cast<std::size_t>(corner - corners.begin())];
+  const Moved_chain& moved = scratch.chains[place_of(body.topology.corners_of(vertex), edge)];
   return moved.is_free ? &moved.chain : nullptr;
+}
+
+/// Where the faces at an edge lie that moves in a plane.
+struct Wedge {
+  bool is_above = false, is_below = false;
+};
+
+/// What comes between faces that share an edge of a vertex. The edge may pass a wall in the plane of its
+/// motion on either side, but if there are faces on both sides of the plane, one of them passes it on the
+/// other one.
+void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_path<3>& path,
+                  std::optional<Contact<3>>& first, Face_counts& counts) {
+  const auto edges = body.topology.corners_of(vertex);
+  boost::container::small_vector<Wedge, 16> wedges(edges.size());
+  const auto note = [&](std::uint32_t edge, int side) {
+    Wedge& wedge = wedges[place_of(edges, edge)];
+    wedge.is_above |= side > 0;
+    wedge.is_below |= side < 0;
+  };
+  for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
+    const auto& corners = body.topology.faces()[f];
+    const auto& sides = body.topology.sides(f);
+    const int side =
+        Exact::orientation(counts.walk.predicates, path.from.position, path.to.position,
+                           body.positions[corners[(k + 1) % 3]], body.positions[corners[(k + 2) % 3]]);
+    note(sides[k], side);
+    note(sides[(k + 2) % 3], -side);
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!wedges[i].is_above || !wedges[i].is_below) continue;
+    auto contact = wall_in_wedge(*body.snapshot, path, body.positions[edges[i].other], counts);
+    if (!contact) continue;
+    contact->vertex = vertex;
+    contact->feature = edges[i].edge;
+    if (!first || is_before(*contact, *first)) first = *contact;
+  }
 }
 
 }  // namespace
@@ -60,6 +105,7 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
 
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
+  bool are_walls_near = false;
   for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
@@ -73,6 +119,7 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
                              {moved_chain(body, scratch, vertex, sides[(k + 2) % 3]), true}};
     const Face_result swept = sweep_face(*body.snapshot, path, body.particles[q], body.particles[r],
                                          body.supporting_walls[f], chains, counts);
+    are_walls_near |= swept.are_walls_near;
     if (swept.contact) {
       Contact<3> contact = *swept.contact;
       contact.body = Body_feature::face;
@@ -83,6 +130,7 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
       scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }
   }
+  if (are_walls_near) sweep_wedges(body, vertex, path, first, counts);
 }
 
 }  // namespace cellwalk::detail

@@ -105,17 +105,34 @@ Face_result edge_on_other_side(const Snapshot<3>& snapshot, Half_facet wall, con
   contact.facet = wall;
   contact.cell = snapshot.cell_of(wall);
   contact.normal = detail::inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
-  return {{}, contact, true};
+  return {{}, contact, true, true};
 }
 
-/// The supporting walls of a face that moved in its plane, or was placed there.
+/// The supporting walls of a face that moved in its plane: walls in the plane that are joined under what it
+/// swept have it on one side all the time, and its edges, too.
+Face_registration moved_in_plane(const Snapshot<3>& snapshot, const Corners& corners, const Particle<3>& p,
+                                 const Particle<3>& q, const Particle<3>& r, const Face_chains& chains,
+                                 const Candidate_walls& candidates, const Supporting_walls& known,
+                                 Face_counts& counts) {
+  const detail::Swept_in_plane swept = detail::swept_in_plane(corners, counts.walk);
+  if (swept.empty()) return {};
+  const bool has_interior = !are_collinear(corners[1], corners[2], corners[3]);
+  const Triangle_in_plane face =
+      has_interior ? Triangle_in_plane({corners[1], corners[2], corners[3]}, counts.walk) : swept.front();
+  Face_registration result = detail::find_supporting_walls(
+      snapshot, face, swept, detail::sides_of(chains, p, q, r), candidates, known, detail::Known::binding);
+  if (!has_interior) result.supporting_walls.clear();
+  return result;
+}
+
+/// The supporting walls of a face that was placed in its plane.
 Face_registration standing(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                            const Particle<3>& r, const Face_chains& chains, const Candidate_walls& candidates,
                            const Supporting_walls& known, detail::Known use, Face_counts& counts) {
   if (are_collinear(p.position, q.position, r.position)) return {};
   const Triangle_in_plane triangle({p.position, q.position, r.position}, counts.walk);
-  return detail::find_supporting_walls(snapshot, triangle, detail::sides_of(chains, p, q, r), candidates,
-                                       known, use);
+  return detail::find_supporting_walls(snapshot, triangle, {triangle}, detail::sides_of(chains, p, q, r),
+                                       candidates, known, use);
 }
 
 }  // namespace
@@ -134,11 +151,12 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
   counts.walls += candidates.walls.size();
   const bool is_made = !path.blocked && chains.are_complete();
   Face_result result;
+  result.are_walls_near = true;
   if (Exact::orientation(counts.walk.predicates, corners[0], corners[1], corners[2], corners[3]) == 0) {
     if (!is_made) return result;
     ++counts.flat;
-    const Face_registration end = standing(snapshot, path.to, q, r, chains, candidates, supporting_walls,
-                                           detail::Known::binding, counts);
+    const Face_registration end =
+        moved_in_plane(snapshot, corners, path.to, q, r, chains, candidates, supporting_walls, counts);
     if (end.piercing != Half_facet::none) return edge_on_other_side(snapshot, end.piercing, corners[0]);
     result.supporting_walls = end.supporting_walls;
   } else {

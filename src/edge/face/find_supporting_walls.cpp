@@ -9,7 +9,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A side of a wall that overlaps the face in its plane, with free space on it.
+/// A side of a wall that overlaps in its plane what the face swept, with free space on it.
 struct Patch {
   Half_facet half;
   int side;  ///< of the face, on which its cell lies
@@ -20,7 +20,7 @@ struct Patch {
   boost::container::small_vector<std::size_t, 2> behind{};
 };
 
-/// A ridge in the plane of the face that overlaps its interior.
+/// A ridge in the plane of the face that overlaps the interior of what it swept.
 struct Ridge {
   std::uint32_t u, v;
   bool is_above = false, is_below = false;  ///< walls at the ridge extend above or below the plane
@@ -40,8 +40,8 @@ struct Group {
 class Supporting_wall_search {
  public:
   Supporting_wall_search(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
-                         const Candidate_walls& candidates)
-      : snapshot_(snapshot), triangle_(triangle) {
+                         const Swept_in_plane& swept, const Candidate_walls& candidates)
+      : snapshot_(snapshot), triangle_(triangle), swept_(swept) {
     for (const Half_facet wall : candidates.walls) add(wall);
     pair_one_sided();
     groups_.resize(patches_.size());
@@ -59,7 +59,8 @@ class Supporting_wall_search {
     Face_registration result;
     result.piercing = piercing_;
     for (const Patch& patch : patches_)
-      if (side_of(groups_[patch.group]) == patch.side) result.supporting_walls.push_back(patch.half);
+      if (side_of(groups_[patch.group]) == patch.side && is_under_face(patch))
+        result.supporting_walls.push_back(patch.half);
     sort(result.supporting_walls);
     return result;
   }
@@ -67,13 +68,23 @@ class Supporting_wall_search {
  private:
   Cell_view<3> view(Half_facet f) const { return snapshot_.view(snapshot_.cell_of(f)); }
 
+  /// True if two sets have points in common inside of what the face swept; one set, with that.
+  template <class... Sets>
+  bool overlap(const Sets&... sets) const {
+    return std::any_of(swept_.begin(), swept_.end(),
+                       [&](const Triangle_in_plane& part) { return part.overlaps(sets...); });
+  }
+  bool is_under_face(const Patch& patch) const {
+    return triangle_.overlaps(view(patch.half), snapshot_.facet_of(patch.half));
+  }
+
   void add(Half_facet wall) {
     const Cell_view<3> cell = view(wall);
     const std::size_t i = snapshot_.facet_of(wall);
     const bool in_plane = triangle_.holds(cell, i);
     const std::size_t first = patches_.size();
     if (in_plane) {
-      if (!triangle_.overlaps(cell, i)) return;
+      if (!overlap(cell, i)) return;
       const int side = triangle_.side_of_cell(cell, i);
       patches_.push_back({wall, side, first, false});
       const Half_facet other = snapshot_.opposite(wall);
@@ -88,7 +99,7 @@ class Supporting_wall_search {
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const std::size_t next = k + 1 == loop.size() ? 0 : k + 1;
       if (heights[k] != 0 || heights[next] != 0) continue;
-      if (!triangle_.overlaps(cell.point(loop[k]), cell.point(loop[next]))) continue;
+      if (!overlap(cell.point(loop[k]), cell.point(loop[next]))) continue;
       Ridge& ridge = ridge_of(cell.point_index(loop[k]), cell.point_index(loop[next]), wall);
       if (in_plane) ridge.patches.push_back(first);
       // A wall out of the plane with a ridge in it lies on one side.
@@ -112,7 +123,7 @@ class Supporting_wall_search {
     for (const std::size_t k : above) {
       for (const std::size_t m : below) {
         const Half_facet f = patches_[k].half, g = patches_[m].half;
-        if (!triangle_.overlaps(view(f), snapshot_.facet_of(f), view(g), snapshot_.facet_of(g))) continue;
+        if (!overlap(view(f), snapshot_.facet_of(f), view(g), snapshot_.facet_of(g))) continue;
         patches_[k].behind.push_back(m);
         patches_[m].behind.push_back(k);
       }
@@ -156,6 +167,7 @@ class Supporting_wall_search {
 
   /// Chooses the sides on which the chain of an edge passes.
   void follow(const Face_side& side) {
+    if (side.from == side.to) return;
     const Exact_edge edge(snapshot_, side.from, side.to);
     std::optional<Fraction> t;  // where the edge meets the wall
     std::vector<Cell> linked;
@@ -191,7 +203,8 @@ class Supporting_wall_search {
   }
 
   const Snapshot<3>& snapshot_;
-  const Triangle_in_plane& triangle_;
+  const Triangle_in_plane& triangle_;  ///< the face
+  const Swept_in_plane& swept_;
   std::vector<Patch> patches_;
   std::vector<Ridge> ridges_;
   std::vector<Group> groups_;
@@ -212,11 +225,22 @@ std::array<Face_side, 3> sides_of(const Face_chains& chains, const Particle<3>& 
   return {side_of(chains.pq, p, q), side_of(chains.qr, q, r), side_of(chains.rp, r, p)};
 }
 
+Swept_in_plane swept_in_plane(const Corners& corners, Walk_counts& counts) {
+  Swept_in_plane triangles;
+  // All triangles of the points: those on either side of one diagonal do not see what lies along it.
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    std::array<Point<3>, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = corners[k + (k >= left_out)];
+    if (!are_collinear(triangle[0], triangle[1], triangle[2])) triangles.emplace_back(triangle, counts);
+  }
+  return triangles;
+}
+
 Face_registration find_supporting_walls(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
-                                        const std::array<Face_side, 3>& sides,
+                                        const Swept_in_plane& swept, const std::array<Face_side, 3>& sides,
                                         const Candidate_walls& candidates, const Supporting_walls& known,
                                         Known use) {
-  return Supporting_wall_search(snapshot, triangle, candidates).choose(sides, known, use);
+  return Supporting_wall_search(snapshot, triangle, swept, candidates).choose(sides, known, use);
 }
 
 }  // namespace cellwalk::detail

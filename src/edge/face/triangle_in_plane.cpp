@@ -9,6 +9,30 @@
 #include "swept_tetrahedron.h"
 
 namespace cellwalk::detail {
+namespace {
+
+std::vector<Ring_vector<3>> unit_vectors() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+
+/// The part of a convex polygon on which affine functions, given by their values at three points, are not
+/// negative. Corners are given by multiples of their coordinates with respect to these points.
+std::vector<Ring_vector<3>> clipped(std::vector<Ring_vector<3>> polygon,
+                                    const std::vector<Ring_vector<3>>& functions) {
+  for (const Ring_vector<3>& f : functions) {
+    std::vector<Ring_vector<3>> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Ring_vector<3>&u = polygon[k], &v = polygon[(k + 1) % polygon.size()];
+      const Ring at_u = exact_dot(f, u), at_v = exact_dot(f, v);
+      if (CGAL::sign(at_u) != CGAL::NEGATIVE) kept.push_back(u);
+      if (CGAL::sign(at_u) * CGAL::sign(at_v) >= 0) continue;
+      const Ring of_u = CGAL::abs(at_v), of_v = CGAL::abs(at_u);
+      kept.push_back({of_u * u[0] + of_v * v[0], of_u * u[1] + of_v * v[1], of_u * u[2] + of_v * v[2]});
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
+}
+
+}  // namespace
 
 Triangle_in_plane::Triangle_in_plane(const std::array<Point<3>, 3>& corners, Walk_counts& counts)
     : corners_(corners), counts_(counts) {
@@ -85,28 +109,20 @@ void Triangle_in_plane::append_sides(const Cell_view<3>& cell, std::size_t i,
 // convex sets have a point in common if the rest of the closed ones lies on no side of any of them.
 bool Triangle_in_plane::overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d,
                                  std::size_t j) const {
-  using Point_by_corners = Ring_vector<3>;
-  const std::vector<Ring_vector<3>> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  std::vector<Ring_vector<3>> sides = corners;
-  std::vector<Point_by_corners> polygon = corners;
+  std::vector<Ring_vector<3>> sides = unit_vectors();
   append_sides(c, i, sides);
   append_sides(d, j, sides);
-  for (const Ring_vector<3>& side : sides) {
-    std::vector<Point_by_corners> kept;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point_by_corners &u = polygon[k], &v = polygon[(k + 1) % polygon.size()];
-      const Ring at_u = exact_dot(side, u), at_v = exact_dot(side, v);
-      if (CGAL::sign(at_u) != CGAL::NEGATIVE) kept.push_back(u);
-      if (CGAL::sign(at_u) * CGAL::sign(at_v) >= 0) continue;
-      const Ring of_u = CGAL::abs(at_v), of_v = CGAL::abs(at_u);
-      kept.push_back({of_u * u[0] + of_v * v[0], of_u * u[1] + of_v * v[1], of_u * u[2] + of_v * v[2]});
-    }
-    polygon = std::move(kept);
-  }
+  const std::vector<Ring_vector<3>> polygon = clipped(unit_vectors(), sides);
   return std::none_of(sides.begin(), sides.end(), [&](const Ring_vector<3>& side) {
     return std::all_of(polygon.begin(), polygon.end(),
-                       [&](const Point_by_corners& x) { return CGAL::is_zero(exact_dot(side, x)); });
+                       [&](const Ring_vector<3>& x) { return CGAL::is_zero(exact_dot(side, x)); });
   });
+}
+
+std::vector<Ring_vector<3>> Triangle_in_plane::part_of(const Cell_view<3>& cell, std::size_t i) const {
+  std::vector<Ring_vector<3>> sides;
+  append_sides(cell, i, sides);
+  return clipped(unit_vectors(), sides);
 }
 
 bool Triangle_in_plane::overlaps(const Point<3>& u, const Point<3>& v) const {
