@@ -14,7 +14,7 @@ from pathlib import Path
 import collect_numbers
 
 HERE = Path(__file__).resolve().parent
-REPORT = (HERE / "report.tex").read_text(encoding="utf-8")
+REPORT = "".join(path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.tex")))
 MANIFEST = {"commit": "0123456789abcdef", "compiler": "GNU 12", "processor": "some_processor"}
 
 
