@@ -145,6 +145,15 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(len(keys), len(set(keys)))
         self.assertEqual(set(keys), {key for group in re.findall(r"\\cite\{([^}]*)\}", REPORT) for key in group.split(",")})
 
+    def test_all_parts_of_the_text_are_there(self):
+        parts = set(re.findall(r"\\input\{([^}]*)\}", REPORT)) - {"numbers.tex"}
+        self.assertEqual({path.name for path in HERE.glob("*.tex")} - {"report.tex"}, {p for p in parts if not p.startswith("table_")})
+
+    def test_cross_references_resolve(self):
+        labels = re.findall(r"\\label\{([^}]*)\}", REPORT)
+        self.assertEqual(len(labels), len(set(labels)))
+        self.assertLessEqual(set(re.findall(r"\\ref\{([^}]*)\}", REPORT)), set(labels))
+
     def test_a_missing_output_is_named(self):
         for name in ("walks.csv", "manifest.json"):
             (self.root / "exact_versus_float" / name).unlink()
