@@ -56,7 +56,7 @@ experiment degenerate_worlds 05_degenerate_worlds
 
 mkdir -p "$out"
 python3 paper/collect_numbers.py "$out" "${runs[@]}"
-cp paper/report.tex paper/references.bib docs/images/face_3d.png "$out"
+cp paper/*.tex paper/references.bib docs/images/face_3d.png "$out"
 cd "$out"
 # latex COMMAND...: what it says is shown only where it fails.
 latex() {

@@ -14,7 +14,7 @@ from pathlib import Path
 import collect_numbers
 
 HERE = Path(__file__).resolve().parent
-REPORT = (HERE / "report.tex").read_text(encoding="utf-8")
+REPORT = "".join(path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.tex")))
 MANIFEST = {"commit": "0123456789abcdef", "compiler": "GNU 12", "processor": "some_processor"}
 
 
@@ -144,6 +144,15 @@ class CollectNumbers(unittest.TestCase):
         keys = re.findall(r"@\w+\{(\w+),", (HERE / "references.bib").read_text(encoding="utf-8"))
         self.assertEqual(len(keys), len(set(keys)))
         self.assertEqual(set(keys), {key for group in re.findall(r"\\cite\{([^}]*)\}", REPORT) for key in group.split(",")})
+
+    def test_all_parts_of_the_text_are_there(self):
+        parts = set(re.findall(r"\\input\{([^}]*)\}", REPORT)) - {"numbers.tex"}
+        self.assertEqual({path.name for path in HERE.glob("*.tex")} - {"report.tex"}, {p for p in parts if not p.startswith("table_")})
+
+    def test_cross_references_resolve(self):
+        labels = re.findall(r"\\label\{([^}]*)\}", REPORT)
+        self.assertEqual(len(labels), len(set(labels)))
+        self.assertLessEqual(set(re.findall(r"\\ref\{([^}]*)\}", REPORT)), set(labels))
 
     def test_a_missing_output_is_named(self):
         for name in ("walks.csv", "manifest.json"):

@@ -23,7 +23,7 @@ node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will d
 fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own
 documentation=(doxygen graphviz)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
-latex=(texlive-latex-recommended texlive-fonts-recommended lmodern)
+latex=(texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern)
 
 purpose=test
 only_print=false
