@@ -81,8 +81,7 @@ std::vector<DetectionOutput> detect(const Body<3>& body, const VecCoord& free_po
 
   std::vector<DetectionOutput> contacts;
   for (const Contact<3>& met : report.contacts) {
-    DetectionOutput contact{
-        {met.vertex, met.vertex}, {1, 0}, met.point, -1 * met.normal, met.rounded_time()};
+    DetectionOutput contact{{met.vertex, met.vertex}, {1, 0}, met.point, -1 * met.normal, met.rounded_time()};
     if (met.body == Body_feature::edge) {
       // Vertices move in order: where both ends were when this one met the wall.
       const auto [u, v] = body.edges()[met.feature];
@@ -137,8 +136,7 @@ std::optional<Contact<3>> drive(Body<3>& body, std::uint32_t vertex, const Point
 /// body leaves room; then they are written back into its state.
 Move_report<3> follow_wall(Environment<3>& environment, Body<3>& body,
                            const std::vector<Vertex_move<3>>& wanted) {
-  Reshaping<3> reshaping(environment, {.bodies = {&body}, .particles = {}},
-                         {.at_contact = At_contact::push});
+  Reshaping<3> reshaping(environment, {.bodies = {&body}, .particles = {}}, {.at_contact = At_contact::push});
   return reshaping.move(wanted);
 }
 //! [wall]
@@ -165,11 +163,11 @@ int main() {
   const double dt = 0.005;
   std::size_t detected = 0, left = 0;
   for (int step = 0; step < 400; ++step) {
-    VecCoord x = free_motion(body, lengths, velocity, dt);       // solvers
-    const auto contacts = detect(body, x, counts);               // collision pipeline
-    solve_constraints(contacts, x);                              // constraint solver
+    VecCoord x = free_motion(body, lengths, velocity, dt);  // solvers
+    const auto contacts = detect(body, x, counts);          // collision pipeline
+    solve_constraints(contacts, x);                         // constraint solver
     for (std::size_t i = 0; i < x.size(); ++i) velocity[i] = (1 / dt) * (x[i] - body.positions()[i]);
-    constraint.projectPosition(x, counts);                       // projective constraints
+    constraint.projectPosition(x, counts);  // projective constraints
     constraint.projectVelocity(velocity, dt);
     detected += contacts.size();
     left += constraint.report.contacts.size();
@@ -186,6 +184,6 @@ int main() {
   const Move_report<3> moved = follow_wall(environment, body, floor);
   body.validate();  // throws if a wall were across a vertex or an edge, by exact predicates
   environment.certify();
-  std::printf("floor: %zu of %zu points arrived, %zu contacts\n",
-              floor.size() - moved.short_of_target.size(), floor.size(), moved.hits.size());
+  std::printf("floor: %zu of %zu points arrived, %zu contacts\n", floor.size() - moved.short_of_target.size(),
+              floor.size(), moved.hits.size());
 }

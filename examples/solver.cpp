@@ -42,8 +42,7 @@ struct Cloth_solver {
 
   /// The velocities with which the masses really went.
   void follow(const std::vector<Point<3>>& before, const std::vector<Point<3>>& after) {
-    for (std::size_t i = 0; i < after.size(); ++i)
-      velocities[i] = (1 / time_step) * (after[i] - before[i]);
+    for (std::size_t i = 0; i < after.size(); ++i) velocities[i] = (1 / time_step) * (after[i] - before[i]);
   }
 };
 //! [solver]
@@ -83,8 +82,7 @@ int main() {
 
   Cloth_solver solver;
   solver.links.assign(body.edges().begin(), body.edges().end());
-  for (const auto& [u, v] : solver.links)
-    solver.lengths.push_back(length(soup.points[v] - soup.points[u]));
+  for (const auto& [u, v] : solver.links) solver.lengths.push_back(length(soup.points[v] - soup.points[u]));
   solver.velocities.resize(body.vertex_count());
   //! [body]
 

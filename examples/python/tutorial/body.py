@@ -7,7 +7,8 @@ import numpy
 
 ring = cellwalk.Environment.load("ring.ovm")
 spacing, count = 0.06, 20
-points = numpy.array([[1.0, -spacing * i, 0.0] for i in range(count)])
+angle = -spacing * numpy.arange(count)
+points = numpy.stack([numpy.cos(angle), numpy.sin(angle), 0 * angle], axis=-1)
 chain = cellwalk.Body(ring, points, edges=numpy.array([[i, i + 1] for i in range(count - 1)]))
 ## [chain]
 

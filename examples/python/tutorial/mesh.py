@@ -14,9 +14,9 @@ ring.save("ring.ovm")
 ## [file]
 
 ## [arrays]
-# A duct that bends by a right angle: hexahedra between four radii, ten angles and four heights.
+# A duct that bends by a right angle as it climbs: hexahedra between four radii, ten angles and four heights.
 r, angle, z = numpy.meshgrid(numpy.linspace(2, 3, 4), numpy.linspace(0, numpy.pi / 2, 10), numpy.linspace(0, 1, 4), indexing="ij")
-points = numpy.stack([r * numpy.cos(angle), r * numpy.sin(angle), z], axis=-1).reshape(-1, 3)
+points = numpy.stack([r * numpy.cos(angle), r * numpy.sin(angle), z + 0.3 * angle], axis=-1).reshape(-1, 3)
 n = numpy.arange(len(points)).reshape(r.shape)
 quad = numpy.stack([n[:-1, :-1], n[1:, :-1], n[1:, 1:], n[:-1, 1:]], axis=-1)  # at all heights
 cells = numpy.concatenate([quad[:, :, :-1], quad[:, :, 1:]], axis=-1).reshape(-1, 8)  # lower and upper corners, as in VTK
