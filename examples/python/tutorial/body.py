@@ -7,24 +7,25 @@ import numpy
 
 ring = cellwalk.Environment.load("ring.ovm")
 spacing, count = 0.06, 20
-angle = -spacing * numpy.arange(count)
-points = numpy.stack([numpy.cos(angle), numpy.sin(angle), 0 * angle], axis=-1)
+points = numpy.array([[1.0, 0.6 - spacing * i, 0.0] for i in range(count)])
 chain = cellwalk.Body(ring, points, edges=numpy.array([[i, i + 1] for i in range(count - 1)]))
 ## [chain]
 
 ## [pull]
+def unit(v):
+    return v / numpy.sqrt((v * v).sum())
+
+
 def targets(positions, advance):
     """The head goes straight on; each other vertex follows the one before it."""
     goal = positions.copy()
-    heading = positions[0] - positions[1]
-    goal[0] += advance * heading / numpy.linalg.norm(heading)
+    goal[0] += advance * unit(positions[0] - positions[1])
     for i in range(1, count):
-        link = goal[i] - goal[i - 1]
-        goal[i] = goal[i - 1] + spacing * link / numpy.linalg.norm(link)
+        goal[i] = goal[i - 1] + spacing * unit(goal[i] - goal[i - 1])
     return goal
 
 
-contacts, turned, before = 0, 0.0, 0.0
+contacts, turned, before = 0, 0.0, numpy.arctan2(0.6, 1.0)
 for step in range(700):
     contacts += len(chain.step(targets(chain.positions, 0.02)))
     now = numpy.arctan2(chain.positions[0, 1], chain.positions[0, 0])

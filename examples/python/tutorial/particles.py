@@ -10,7 +10,7 @@ rng = numpy.random.default_rng(2)
 points = rng.uniform([-1.4, -1.4, -0.4], [1.4, 1.4, 0.4], size=(3000, 3))
 points = points[ring.locate(points).status == cellwalk.Place.FREE][:1000]
 particles = cellwalk.Particles(ring, points)  # each remembers its cell from now on
-velocities = rng.normal(size=points.shape)
+velocities = rng.uniform(-1, 1, size=points.shape)
 ## [start]
 
 ## [bounce]
