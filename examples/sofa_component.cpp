@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // How components of SOFA would call Cellwalk: contacts for its constraint solver, the last word on positions,
-// a vertex that a device drives, and a wall that deforms. It compiles without SOFA: what would be SOFA's is in
-// the namespace stand_in. docs/sofa.md is about this file.
+// a vertex that a device drives, and a wall that deforms. It compiles without SOFA: what would be SOFA's is
+// in the namespace stand_in. docs/sofa.md is about this file.
 #include <cellwalk/cellwalk.h>
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 #include <vector>
 
 using namespace cellwalk;
+
+namespace {
 
 //! [stand_ins]
 namespace stand_in {
@@ -64,8 +66,6 @@ void solve_constraints(const std::vector<DetectionOutput>& contacts, VecCoord& x
 
 }  // namespace stand_in
 //! [stand_ins]
-
-namespace {
 
 using namespace stand_in;
 

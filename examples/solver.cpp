@@ -71,7 +71,7 @@ std::vector<Point<3>> positions_of(const Body<3>& body) {
 
 int main() {
   //! [room]
-  // A room of 5 x 5 x 3 unit cells. The cell in the middle of its floor is solid: a block with a top at z = 1.
+  // A room of 5 x 5 x 3 unit cells. The middle of its floor is a solid cell: a block with a top at z = 1.
   const auto environment = Environment<3>::build(hex_grid({.cells = {5, 5, 3}, .solid_cells = {12}}));
   const Snapshot<3>& snapshot = environment.snapshot();
   //! [room]
@@ -113,7 +113,7 @@ int main() {
   //! [check]
   body.refresh(counts);
   body.validate();  // throws if a wall were across a vertex, an edge or a face, by exact predicates
-  double middle = body.positions()[40][2];
+  const double middle = body.positions()[40][2];
   std::printf("the middle of the cloth lies at z = %.6f\n", middle);
   std::printf("%llu moves, %.0f %% of them without a test\n", static_cast<unsigned long long>(counts.moves),
               100.0 * static_cast<double>(counts.in_region) / static_cast<double>(counts.moves));
