@@ -10,12 +10,13 @@
 #   asan      all tests under the address and undefined-behaviour sanitizers, a twentieth of the usual length
 #   tsan      all tests with threads under the thread sanitizer
 #   fuzz      every fuzz target
+#   soak      oracles and scenes with new seeds, for an hour
 #
 # A part that fails does not keep the others from running. The last line names the parts that failed; then the script ends with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-parts=(sources tidy long asan tsan fuzz)
+parts=(sources tidy long asan tsan fuzz soak)
 wanted=()
 seconds=600
 while [ $# -gt 0 ]; do
@@ -48,6 +49,7 @@ tsan() {
       -R Thread -LE long
 }
 fuzz() { scripts/fuzz.sh --seconds "$seconds"; }
+soak() { scripts/soak.sh --hours 1 --seed "$(date +%Y%m%d)"; }
 
 scripts/setup.sh --for ci
 failed=()

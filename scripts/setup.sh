@@ -16,7 +16,9 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 io=(libgmsh-dev libvtk9-dev)
 python=(pybind11-dev python3-dev python3-numpy)
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium)
+cluster=(python3-distributed) # for the example of Dask
+tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
+       python3-pip python3-setuptools python3-wheel)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own
 documentation=(doxygen graphviz)
@@ -38,8 +40,8 @@ done
 packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
-  test) packages+=("${io[@]}" "${python[@]}" "${tests[@]}") ;;
-  ci | dev) packages+=("${io[@]}" "${python[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
+  test) packages+=("${io[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}") ;;
+  ci | dev) packages+=("${io[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
   package) packages+=("${io[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;

@@ -5,12 +5,15 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/random.h>
+#include <cellwalk/loading/environment_file.h>
 #include <cellwalk/walk/locate.h>
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -106,6 +109,22 @@ void compact_environment(benchmark::State& state) {
   report(state, soup.cell_count(), 0);
 }
 
+/// What a program does with a file `*.cellwalk` that is in the cache of files.
+void open_environment(benchmark::State& state) {
+  const Cell_soup<3> soup = soup_of(state);
+  const std::string path = std::filesystem::temp_directory_path() / "bench_build.cellwalk";
+  {
+    Build_report built;
+    Environment<3> environment = Environment<3>::build(soup, {.keep_map = false}, &built);
+    io::Atomic_file file(path);
+    write_environment<3>(file, environment, built.certificate, {});
+    file.commit();
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(load_environment(path, {.keep_map = false}));
+  report(state, soup.cell_count(), std::filesystem::file_size(path));
+  std::filesystem::remove(path);
+}
+
 void glue_soup(benchmark::State& state) {
   const Cell_soup<3> soup = soup_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(glue(soup));
@@ -143,6 +162,7 @@ BENCHMARK(build_frozen_environment)->Apply(sizes);
 BENCHMARK(build_shuffled_frozen_environment)->Apply(sizes);
 BENCHMARK(thaw_environment)->Apply(sizes);
 BENCHMARK(compact_environment)->Apply(sizes);
+BENCHMARK(open_environment)->Apply(sizes);
 BENCHMARK(glue_soup)->Apply(sizes);
 BENCHMARK(compile_snapshot)->Apply(sizes);
 BENCHMARK(certify_snapshot)->Apply(sizes);

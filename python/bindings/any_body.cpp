@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "body_rows.h"
@@ -79,22 +80,23 @@ template <class Use>
 void Any_body::reading(const Use& use) {
   std::visit(
       [&]<int D>(Body<D>& body) {
-        const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+        const typename World<D>::Reading world(std::get<World<D>>(*environment_->world), *moving_);
         use(body, world);
       },
       body_);
 }
 
-Any_body::Any_body(const Shared_world& environment, const py::object& points, const py::object& edges,
+Any_body::Any_body(Held_world environment, const py::object& points, const py::object& edges,
                    const py::object& faces)
-    : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
+    : environment_(std::move(environment)),
+      body_(place(*environment_->world, [&]<int D>(std::integral_constant<int, D>) {
         return soup_of_arrays<D>(points, edges, faces);
       })) {}
 
-Any_body::Any_body(const Shared_world& environment, const std::string& path)
-    : world_(environment.world), body_(place(*world_, [&]<int D>(std::integral_constant<int, D>) {
-        return io::read_body<D>(path).body;
-      })) {}
+Any_body::Any_body(Held_world environment, const std::string& path)
+    : environment_(std::move(environment)),
+      body_(place(*environment_->world,
+                  [&]<int D>(std::integral_constant<int, D>) { return io::read_body<D>(path).body; })) {}
 
 py::array Any_body::positions(const py::object& self) const {
   return std::visit(
@@ -127,7 +129,7 @@ py::array Any_body::step(const py::object& targets, Body_options options, int th
         std::vector<Body_contact_row<D>> contacts;
         std::vector<Rejected_row<D>> blocked;
         {
-          const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+          const typename World<D>::Reading world(std::get<World<D>>(*environment_->world), *moving_);
           const auto step = [&] { body.step(to, options, report, counts_); };
           threads > 1 ? tbb::task_arena(threads).execute(step) : step();
           for (const Contact<D>& met : report.contacts) contacts.push_back(to_row(world.snapshot(), met));
@@ -153,7 +155,7 @@ py::array Any_body::move_vertex(std::uint32_t vertex, const py::object& target, 
         need_finite(to, vertex);
         std::vector<Body_contact_row<D>> rows;
         {
-          const typename World<D>::Reading world(std::get<World<D>>(*world_), *moving_);
+          const typename World<D>::Reading world(std::get<World<D>>(*environment_->world), *moving_);
           if (const auto contact = body.move_vertex(vertex, to, options, counts_))
             rows.push_back(to_row(world.snapshot(), *contact));
         }
@@ -175,7 +177,7 @@ void Any_body::register_again() {
 
 py::dict Any_body::counts() const {
   using namespace py::literals;
-  std::visit([](const auto& world) { world.need_not_open_here(); }, *world_);
+  std::visit([](const auto& world) { world.need_not_open_here(); }, *environment_->world);
   const Body_counts done = [this] {
     const py::gil_scoped_release released;
     const std::lock_guard guard(*moving_);

@@ -20,10 +20,10 @@ namespace cellwalk::python {
 /// A body of either dimension, and what its moves did.
 class Any_body {
  public:
-  Any_body(const Shared_world& environment, const py::object& points, const py::object& edges,
+  Any_body(Held_world environment, const py::object& points, const py::object& edges,
            const py::object& faces);
   /// The body of a file.
-  Any_body(const Shared_world& environment, const std::string& path);
+  Any_body(Held_world environment, const std::string& path);
 
   py::array positions(const py::object& self) const;
   py::array_t<std::uint32_t> edges() const;
@@ -36,7 +36,7 @@ class Any_body {
   void register_again();
   py::dict counts() const;
 
-  const std::shared_ptr<const Any_world>& world() const { return world_; }
+  std::shared_ptr<const Any_world> world() const { return environment_->world; }
   /// For reshape(), which is alone in the world.
   template <int D>
   Body<D>& body() {
@@ -56,7 +56,7 @@ class Any_body {
   template <int D>
   void need_few_edges(const Body<D>& body);
 
-  std::shared_ptr<const Any_world> world_;
+  Held_world environment_;
   Bodies body_;
   Body_counts counts_;
   bool has_few_edges_ = false;  ///< known to

@@ -301,7 +301,7 @@ void bind_class(py::module_& module) {
 
 }  // namespace
 
-void bind_edits(py::module_& module, py::class_<Shared_world>& environment) {
+void bind_edits(py::module_& module, Environment_class& environment) {
   bind_edit_results(module);
   bind_class(module);
   environment

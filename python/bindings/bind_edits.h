@@ -10,7 +10,7 @@
 namespace cellwalk::python {
 
 /// Adds editing(), freeze(), the tables of facets and cells, and the classes of what they return.
-void bind_edits(pybind11::module_& module, pybind11::class_<Shared_world>& environment);
+void bind_edits(pybind11::module_& module, Environment_class& environment);
 
 }  // namespace cellwalk::python
 

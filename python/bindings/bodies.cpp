@@ -43,7 +43,7 @@ void bind_bodies(py::module_& module) {
       module, "Body",
       "A body among walls: no wall ever crosses its vertices and edges, nor its faces while it is moved with "
       "sweep=\"faces\".")
-      .def(py::init<const Shared_world&, const py::object&, const py::object&, const py::object&>(),
+      .def(py::init<std::shared_ptr<Shared_world>, const py::object&, const py::object&, const py::object&>(),
            py::arg("environment"), py::arg("points"), py::arg("edges") = py::none(),
            py::arg("faces") = py::none(),
            "Registers a body where it stands: points (N, dimension), edges (M, 2), faces (K, 3) or polygons "
@@ -53,7 +53,7 @@ void bind_bodies(py::module_& module) {
            "face that a wall pierces.")
       .def_static(
           "read",
-          [](const Shared_world& environment, const py::object& path) {
+          [](const std::shared_ptr<Shared_world>& environment, const py::object& path) {
             return Any_body(environment, std::string(py::str(path)));
           },
           py::arg("environment"), py::arg("path"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Environments: from files, recipes and arrays; what they hold; questions about points and edges in no cell.
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/environment/compiled.h>
 #include <cellwalk/loading/generators.h>
 #include <cellwalk/loading/report.h>
 #include <cellwalk/query/move.h>
@@ -15,6 +15,7 @@
 #include "module.h"
 #include "motions.h"
 #include "options.h"
+#include "pickling.h"
 #include "reshape.h"
 
 namespace cellwalk::python {
@@ -155,16 +156,16 @@ std::size_t wall_count(const Snapshot<D>& snapshot) {
 
 void save(const Shared_world& self, const py::object& path) {
   const std::string name = py::str(path);
+  const std::vector<std::byte> bytes = compiled_bytes(self);
+  const py::gil_scoped_release released;
+  Any_compiled_environment copy = open_compiled_copy(bytes);  // which gives up what edits left unused
   std::visit(
-      [&]<int D>(const World<D>& world) {
-        const auto [soup, groups] = [&] {
-          const typename World<D>::Reading reading(world);
-          return std::pair(reading.environment().soup(), soup_groups(reading.snapshot(), reading.groups()));
-        }();
-        const py::gil_scoped_release released;
-        io::write_ovm(name, soup, groups);
+      [&]<int D>(Compiled_environment<D>& compiled) {
+        io::Atomic_file file(name);
+        write_environment<D>(file, compiled.environment, compiled.certificate, std::move(compiled.groups));
+        file.commit();
       },
-      *self.world);
+      copy);
 }
 
 py::object certificate(const Shared_world& self) {
@@ -190,14 +191,14 @@ void bind_environment(py::module_& module) {
           "uint32 (N,): the number of sides of walls with free space at the point; 1 off membranes.")
       .def("__len__", [](const Locations& self) { return self.status.size(); });
 
-  py::class_<Shared_world> environment(
-      module, "Environment",
-      "A certified complex of convex cells, some of whose facets are walls. "
-      "Threads can share it: only reshape() and editing() change it, and wait "
-      "until they are alone.");
+  Environment_class environment(module, "Environment",
+                                "A certified complex of convex cells, some of whose facets are walls. "
+                                "Threads can share it: only reshape() and editing() change it, and wait "
+                                "until they are alone.");
   bind_makers(environment);
   bind_reshape(module, environment);
   bind_edits(module, environment);
+  bind_pickles(environment);
   environment.def_property_readonly("dimension", &Shared_world::dimension, "2 or 3.")
       .def_property_readonly(
           "cell_count",
@@ -221,7 +222,10 @@ void bind_environment(py::module_& module) {
           "report", [](const Shared_world& self) { return from_json(self.report); },
           "The report of reading, meshing and changes when the environment was made, as written by `cellwalk "
           "import --json`.")
-      .def("save", save, py::arg("path"), "Writes an .ovm file, which every command of the program reads.")
+      .def("save", save, py::arg("path"),
+           "Writes a file that every command of the program reads: a compiled environment, which is mapped "
+           "into "
+           "memory instead of parsed, if it is named *.cellwalk, or else an .ovm file.")
       .def(
           "locate",
           [](const Shared_world& self, const py::object& points, int threads) {

@@ -127,7 +127,7 @@ Shared_world generate_environment(const std::string& kind, bool simplicial, cons
 
 }  // namespace
 
-void bind_makers(py::class_<Shared_world>& environment) {
+void bind_makers(Environment_class& environment) {
   environment
       .def(
           py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(), py::arg("split") = true,

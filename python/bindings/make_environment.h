@@ -10,7 +10,7 @@
 namespace cellwalk::python {
 
 /// Adds the constructor from arrays, and load, import_mesh and generate.
-void bind_makers(pybind11::class_<Shared_world>& environment);
+void bind_makers(Environment_class& environment);
 
 }  // namespace cellwalk::python
 

@@ -12,6 +12,7 @@
 
 #include "module.h"
 #include "options.h"
+#include "pickling.h"
 
 namespace cellwalk::python {
 namespace {
@@ -30,8 +31,8 @@ Particle<D> located(const Locator<D>& locator, const Particle<D>& particle) {
 
 }  // namespace
 
-Particles::Particles(const Shared_world& environment, const py::object& points, int threads)
-    : world_(environment.world) {
+Particles::Particles(Held_world environment, const py::object& points, int threads)
+    : environment_(std::move(environment)) {
   check_threads(threads);
   std::visit(
       [&]<int D>(const World<D>& world) {
@@ -46,7 +47,7 @@ Particles::Particles(const Shared_world& environment, const py::object& points, 
         });
         epoch_ = reading.snapshot().epoch();
       },
-      *world_);
+      *environment_->world);
 }
 
 std::size_t Particles::size() const {
@@ -67,12 +68,71 @@ py::array_t<std::int32_t> Particles::cells() const {
   std::int32_t* const number = numbers.mutable_data();
   std::visit(
       [&]<int D>(const std::vector<Particle<D>>& particles) {
-        const typename World<D>::Reading reading(std::get<World<D>>(*world_), *moving_);
+        const typename World<D>::Reading reading(std::get<World<D>>(*environment_->world), *moving_);
         for (std::size_t i = 0; i < particles.size(); ++i)
           number[i] = number_of(reading.snapshot(), particles[i].cell);
       },
       particles_);
   return numbers;
+}
+
+py::tuple Particles::state() const {
+  const py::array_t<std::int32_t> numbers = cells();
+  return std::visit(
+      [&]<int D>(const std::vector<Particle<D>>& particles) {
+        const auto n = static_cast<py::ssize_t>(particles.size());
+        py::array_t<double> positions({n, py::ssize_t{D}});
+        py::array_t<std::uint16_t> places({n, py::ssize_t{2}});
+        auto position = positions.template mutable_unchecked<2>();
+        auto place = places.template mutable_unchecked<2>();
+        for (py::ssize_t i = 0; i < n; ++i) {
+          const Particle<D>& particle = particles[static_cast<std::size_t>(i)];
+          for (int k = 0; k < D; ++k) position(i, k) = particle.position[static_cast<std::size_t>(k)];
+          place(i, 0) = particle.dimension;
+          place(i, 1) = particle.aimed;
+        }
+        return py::make_tuple(std::const_pointer_cast<Shared_world>(environment_), positions, numbers, places,
+                              epoch_);
+      },
+      particles_);
+}
+
+Particles Particles::of_state(const py::tuple& state) {
+  need_parts(state, 5);
+  Particles made(state[0].cast<std::shared_ptr<Shared_world>>());
+  made.epoch_ = state[4].cast<std::uint64_t>();
+  std::visit(
+      [&]<int D>(const World<D>& world) {
+        const auto at = points_of<D>(state[1], "positions");
+        const auto numbers = state[2].cast<py::array_t<std::int32_t>>();
+        const auto places = state[3].cast<py::array_t<std::uint16_t>>();
+        if (numbers.ndim() != 1 || places.ndim() != 2 || places.shape(1) != 2)
+          throw py::value_error("this pickle of particles is damaged");
+        const auto n = static_cast<py::ssize_t>(at.size());
+        need_equal(static_cast<std::size_t>(numbers.shape(0)), "cells", at.size(), "positions");
+        need_equal(static_cast<std::size_t>(places.shape(0)), "places", at.size(), "positions");
+        const auto number = numbers.template unchecked<1>();
+        const auto place = places.template unchecked<2>();
+        auto& particles = made.particles_.emplace<std::vector<Particle<D>>>(at.size());
+        const typename World<D>::Looking looking(world);
+        const Snapshot<D>& snapshot = looking.snapshot();
+        for (py::ssize_t i = 0; i < n; ++i) {
+          Particle<D>& particle = particles[static_cast<std::size_t>(i)];
+          particle.position = at[static_cast<std::size_t>(i)];
+          if (number(i) < 0) continue;
+          const auto cell = static_cast<std::size_t>(number(i));
+          if (cell < snapshot.cell_slots()) particle.cell = snapshot.cell(cell);
+          particle.dimension = place(i, 0);
+          particle.aimed = place(i, 1);
+          const bool is_known =
+              made.epoch_ != snapshot.epoch() || (is_usable(particle.position) && particle.dimension <= D &&
+                                                  in_closure(snapshot, particle.cell, particle.position) &&
+                                                  particle.aimed < snapshot.facet_count(particle.cell));
+          if (!is_known) throw py::value_error("this pickle of particles is damaged");
+        }
+      },
+      *made.environment_->world);
+  return made;
 }
 
 Motions Particles::move(const py::object& targets, const std::string& at_contact, int threads) {
@@ -91,7 +151,7 @@ void Particles::locate_again(int threads) {
   check_threads(threads);
   std::visit(
       [&]<int D>(std::vector<Particle<D>>& particles) {
-        const typename World<D>::Reading reading(std::get<World<D>>(*world_), *moving_);
+        const typename World<D>::Reading reading(std::get<World<D>>(*environment_->world), *moving_);
         const Locator<D>& locator = reading.locator();
         for_each_chunk(particles.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) particles[i] = located(locator, particles[i]);
@@ -105,7 +165,8 @@ template <bool stops, int D>
 Motions Particles::move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets,
                             int threads) {
   return run_batch<Walk_counts, D>(
-      world_, moving_.get(), particles.size(), threads, [&](const typename World<D>::Reading& reading) {
+      environment_->world, moving_.get(), particles.size(), threads,
+      [&](const typename World<D>::Reading& reading) {
         check_epoch(reading.snapshot());
         return [&snapshot = reading.snapshot(), from = particles.data(), to = targets.data()](
                    Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
@@ -138,8 +199,8 @@ void bind_particles(py::module_& module) {
       module, "Particles",
       "Points that remember their cells: a small move costs a few nanoseconds, for any size of the "
       "environment. Their positions always lie in their cells, in free space.")
-      .def(py::init<const Shared_world&, const py::object&, int>(), py::arg("environment"), py::arg("points"),
-           py::kw_only(), py::arg("threads") = 0,
+      .def(py::init<std::shared_ptr<Shared_world>, const py::object&, int>(), py::arg("environment"),
+           py::arg("points"), py::kw_only(), py::arg("threads") = 0,
            "Locates the points (N, dimension). Points outside free space get no cell, and do not move.")
       .def("__len__", &Particles::size)
       .def_property_readonly(
@@ -158,6 +219,7 @@ void bind_particles(py::module_& module) {
            "listed: until then they raise UsageError. One that walls passed may be on their other side now, "
            "or "
            "outside.")
+      .def(py::pickle([](const Particles& self) { return self.state(); }, &Particles::of_state))
       .def("__repr__",
            [](const Particles& self) { return "<cellwalk.Particles, " + std::to_string(self.size()) + ">"; });
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "motions.h"
+#include "world.h"
 
 namespace cellwalk::python {
 
@@ -22,7 +23,7 @@ namespace cellwalk::python {
 /// were listed; after others they refuse to move, instead of missing a wall.
 class Particles {
  public:
-  Particles(const Shared_world& environment, const py::object& points, int threads);
+  Particles(Held_world environment, const py::object& points, int threads);
 
   std::size_t size() const;
   py::array positions(const py::object& self) const;
@@ -31,7 +32,12 @@ class Particles {
   /// Finds their cells anew where they are. One that is on a wall keeps its side if its cell still holds it.
   void locate_again(int threads);
 
-  const std::shared_ptr<const Any_world>& world() const { return world_; }
+  const Held_world& environment() const { return environment_; }
+  std::shared_ptr<const Any_world> world() const { return environment_->world; }
+  /// For pickles: the environment, the positions, and where they are located.
+  py::tuple state() const;
+  /// \throw py::value_error if it is none, or a particle does not lie in its cell
+  static Particles of_state(const py::tuple& state);
 
   // For reshape(), which is alone in the world.
   template <int D>
@@ -55,7 +61,9 @@ class Particles {
   template <bool stops, int D>
   Motions move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets, int threads);
 
-  std::shared_ptr<const Any_world> world_;
+  explicit Particles(Held_world environment) : environment_(std::move(environment)) {}
+
+  Held_world environment_;
   std::variant<std::vector<Particle<2>>, std::vector<Particle<3>>> particles_;
   std::uint64_t epoch_ = 0;  ///< of the environment in which they are located
   std::unique_ptr<std::mutex> moving_ = std::make_unique<std::mutex>();

@@ -220,7 +220,7 @@ void bind_results(py::module_& module) {
 
 }  // namespace
 
-void bind_reshape(py::module_& module, py::class_<Shared_world>& environment) {
+void bind_reshape(py::module_& module, Environment_class& environment) {
   bind_results(module);
   environment.def(
       "reshape",

@@ -10,7 +10,7 @@
 namespace cellwalk::python {
 
 /// Adds reshape(), and the class of what it returns.
-void bind_reshape(pybind11::module_& module, pybind11::class_<Shared_world>& environment);
+void bind_reshape(pybind11::module_& module, Environment_class& environment);
 
 }  // namespace cellwalk::python
 

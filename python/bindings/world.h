@@ -238,6 +238,9 @@ struct Shared_world {
 
   int dimension() const { return world->index() == 0 ? 2 : 3; }
 };
+/// What lies in an environment holds it like this, so that Python finds the same object again.
+using Held_world = std::shared_ptr<const Shared_world>;
+using Environment_class = pybind11::class_<Shared_world, std::shared_ptr<Shared_world>>;
 
 /// Takes an environment over, and frees its map.
 /// \param groups of the same dimension

@@ -6,16 +6,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "cli/common/command.h"
+#include "cli/common/work_log.h"
 
 namespace {
 
@@ -82,6 +85,35 @@ std::string empty_word(std::span<char* const> words) {
   return {};
 }
 
+/// Where long work is said to be.
+struct Log_options {
+  std::string file;  ///< none if empty
+  double seconds = 60;
+};
+
+/// Adds the options of the log to all commands that may take long.
+void add_log(CLI::App& app, Log_options& log) {
+  const auto all = [](const CLI::App*) { return true; };
+  for (CLI::App* command : app.get_subcommands(all)) {
+    if (command->get_name() == "completion" || command->get_name() == "view") continue;
+    if (!command->get_subcommands(all).empty()) {  // it is one of these that is called
+      add_log(*command, log);
+      continue;
+    }
+    CLI::Option* file =
+        command
+            ->add_option("--log", log.file,
+                         "Append where the work is, its rate, the time left and the memory in use: a line "
+                         "of JSON a minute")
+            ->type_name("FILE");
+    command->add_option("--log-interval", log.seconds, "Seconds between two lines of the log")
+        ->needs(file)
+        ->check(cellwalk::cli::number_from(0.001, "of at least 0.001"))
+        ->type_name("SECONDS")
+        ->capture_default_str();
+  }
+}
+
 int run(const cellwalk::cli::Action& action, std::span<char* const> words) {
   try {
     action();
@@ -128,6 +160,8 @@ int main(int argc, char** argv) {
   add_edit(app, action);
   add_view(app, action);
   add_completion(app, action);
+  Log_options log;
+  add_log(app, log);
 
   try {
     app.parse(argc, argv);
@@ -138,5 +172,10 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {  // --version --json FILE
     return fail(error.code(), error.what());
   }
-  return run(action, words);
+  std::optional<Work_log> work_log;
+  const auto logged = [&] {
+    if (!log.file.empty()) work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
+    action();
+  };
+  return run(logged, words);
 }

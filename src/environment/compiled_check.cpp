@@ -4,6 +4,8 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -153,8 +155,20 @@ void Environment_image<D>::check_free(const Snapshot<D>& s) {
     if (point >= s.points_.size() || point_in_use[point]) refuse_image("a point in use is free");
 }
 
+/// The bound of the error of planes holds in frames as make_frame() gives them: scaled by a power of two.
+template <int D>
+void Environment_image<D>::check_frame(const Snapshot<D>& s) {
+  if (!is_finite(s.frame_.centre)) refuse_image("its frame is none");
+  if (std::isnan(s.frame_.scale)) return;  // it maps nothing
+  int exponent = 0;
+  constexpr int largest = 400;
+  if (std::frexp(s.frame_.scale, &exponent) != 0.5 || std::abs(exponent) > largest)
+    refuse_image("its frame is none");
+}
+
 template <int D>
 void Environment_image<D>::check(const Snapshot<D>& s) {
+  check_frame(s);
   check_sizes(s);
   check_shapes(s);
   check_blocks(s);

@@ -73,6 +73,7 @@ class Environment_image {
   static bool has_same_certificates(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell);
 
  private:
+  static void check_frame(const Snapshot<D>& snapshot);
   static void check_sizes(const Snapshot<D>& snapshot);
   static void check_shapes(const Snapshot<D>& snapshot);
   static void check_blocks(const Snapshot<D>& snapshot);

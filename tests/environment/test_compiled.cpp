@@ -14,13 +14,15 @@
 #include <array>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "environment/images.h"
 #include "environment/sample_soups.h"
 #include "environment/snapshot_checks.h"
-#include "environment/images.h"
 
 namespace cellwalk {
 namespace {
@@ -269,6 +271,23 @@ TEST(Compiled, PlanesOfOthersAreFound) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Error_code::not_certified);
     EXPECT_NE(std::string(error.what()).find("has planes that are not its own"), std::string::npos);
+  }
+}
+
+TEST(Compiled, FramesInWhichNoBoundHoldsAreRefused) {
+  const Bytes bytes = bytes_of(Environment<3>::build(tetrahedral_grid({.cells = {2, 2, 2}})));
+  constexpr double not_finite = std::numeric_limits<double>::infinity();
+  for (const auto& [place, value] :
+       {std::pair{0, not_finite}, {3, not_finite}, {3, 0.0}, {3, 0.3}, {3, -0.5}}) {
+    Bytes other = bytes;
+    std::memcpy(test::section_of(other, "state").data() + 8 * place, &value, sizeof value);
+    test::seal(other);
+    try {
+      opened<3>(other);
+      ADD_FAILURE() << value << " was taken at " << place;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("its frame is none"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -40,6 +40,9 @@ void trace(std::string_view bytes);
 void motion(std::string_view bytes);
 void gzip(std::string_view bytes);
 
+/// Compiled environments: opened, certified, walked and swept.
+void compiled(std::string_view bytes);
+
 /// Cells from bytes: built, certified, walked and swept, judged by oracles.
 void build(std::string_view bytes);
 /// Edits from bytes of a small environment, and walks in between.

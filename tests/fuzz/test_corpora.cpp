@@ -24,7 +24,7 @@ struct Target {
   void (*run)(std::string_view bytes);
 };
 
-const std::array<Target, 18> targets{{{"ovm", ovm},
+const std::array<Target, 19> targets{{{"ovm", ovm},
                                       {"off", off},
                                       {"obj", obj},
                                       {"stl", stl},
@@ -39,6 +39,7 @@ const std::array<Target, 18> targets{{{"ovm", ovm},
                                       {"trace", trace},
                                       {"motion", motion},
                                       {"gzip", gzip},
+                                      {"compiled", compiled},
                                       {"build", build},
                                       {"edits", edits},
                                       {"moves", moves}}};

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "oracle/seed.h"
 #include "reshape/tissue_block.h"
 #include "walk/oracle_trial.h"
 
@@ -200,7 +201,7 @@ void cut_at_random(std::uint64_t seed, bool lattice, std::size_t& opened, std::s
   constexpr std::uint32_t size = D == 2 ? 9 : 5;
   auto environment = tissue<D>(size, 0.6 * size, lattice ? 0 : 0.15, seed);
   const Snapshot<D>& snapshot = environment.snapshot();
-  Random random(seed);
+  Random random(oracle::reseeded(seed));
   Body_soup<D> rod;
   for (int k = 0; k < 6; ++k) {
     Point<D> x;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "oracle/seed.h"
 #include "reshape/tissue_block.h"
 #include "walk/oracle_trial.h"
 
@@ -72,7 +73,7 @@ void cut_below_things(std::size_t worlds) {
     auto environment = test::tissue<D>(size, 0.5 * size, is_lattice ? 0 : 0.15, seed);
     const Snapshot<D>& snapshot = environment.snapshot();
     const Locator<D> locator(snapshot);
-    Random random(seed);
+    Random random(oracle::reseeded(seed));
     const auto place = [&] {
       Point<D> x;
       for (double& c : x) c = random.real(0.2, size - 0.2);

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracle/seed.h"
 #include "reshape/cut_judge.h"
 #include "reshape/grids.h"
 #include "reshape/tissue_block.h"
@@ -27,7 +28,7 @@ namespace {
 /// Squares, of which only some are divided into triangles.
 Cell_soup<2> squares_and_triangles(std::uint32_t size, std::uint64_t seed) {
   Cell_soup<2> soup;
-  Random random(seed);
+  Random random(oracle::reseeded(seed));
   const auto point = [&](std::uint32_t i, std::uint32_t j) { return j * (size + 1) + i; };
   for (std::uint32_t j = 0; j <= size; ++j)
     for (std::uint32_t i = 0; i <= size; ++i)
@@ -100,7 +101,7 @@ void cut_lattices(std::size_t worlds) {
   for (std::uint64_t number = 0; number < worlds; ++number) {
     oracle::World<D> world = oracle::make_world<D>(number);
     SCOPED_TRACE(world.name + " " + std::to_string(number));
-    Random random(number);
+    Random random(oracle::reseeded(number));
     for (auto& solid : world.soup.solid) solid = solid || random.chance(0.7);
     Point<D> low = world.soup.points[0], high = low;
     for (const Point<D>& x : world.soup.points)
@@ -193,7 +194,7 @@ void cut_by_many_shapes(std::size_t count) {
   std::size_t split = 0, snapped = 0, opened = 0, rim = 0;
   for (std::uint64_t number = 0; number < count; ++number) {
     SCOPED_TRACE("cut " + std::to_string(number));
-    Random random(number);
+    Random random(oracle::reseeded(number));
     const bool is_lattice = number % 2 == 0;
     constexpr std::uint32_t size = D == 2 ? 6 : 3;
     auto environment = test::tissue<D>(size, random.real(0.5, 1) * size, is_lattice ? 0 : 0.15, number);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grids.h"
+#include "oracle/seed.h"
 #include "tissue_block.h"
 #include "walk/oracle_trial.h"
 
@@ -249,7 +250,7 @@ void merge_at_random(std::uint64_t seed, std::size_t& made, std::size_t& held) {
   constexpr std::uint32_t size = D == 2 ? 9 : 5;
   auto environment = tissue<D>(size, 0.6 * size, seed % 2 == 0 ? 0 : 0.15, seed);
   const Snapshot<D>& snapshot = environment.snapshot();
-  Random random(seed);
+  Random random(oracle::reseeded(seed));
   std::vector<Particle<D>> particles;
   const auto scatter = [&] {
     particles.clear();

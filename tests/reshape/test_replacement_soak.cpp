@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "oracle/seed.h"
 #include "reshape/level_world.h"
 #include "reshape/replacing.h"
 #include "reshape/restless_world.h"
@@ -45,7 +46,7 @@ void soak(bool generic, std::size_t worlds) {
   for (std::uint64_t number = 0; number < 2 * count; number += 2) {
     test::Restless_world<D> world(number, generic);
     world.populate(D == 2 ? 10 : 6, D == 2 ? 8 : 6);
-    Random random(number);
+    Random random(oracle::reseeded(number));
     const std::size_t most_cells = world.snapshot.cell_count() * 3 / 2 + 20;
     SCOPED_TRACE(world.name());
     for (int phase = 0; phase < 8; ++phase) {
@@ -92,7 +93,7 @@ TEST(ReplacementSoak, AtTheLevelOfAMembrane) {
   for (std::uint64_t number = 0; number < count; ++number) {
     test::Level_world world(number);
     world.populate(6, 8);
-    Random random(number);
+    Random random(oracle::reseeded(number));
     SCOPED_TRACE(world.name());
     for (int phase = 0; phase < 8; ++phase) {
       Reshaping<3> reshaping(world.environment, world.residents());
@@ -202,7 +203,7 @@ void twins(bool generic, std::size_t worlds) {
     test::Restless_world<D> one(number, generic), other(number, generic);
     one.populate(8, 8);
     other.populate(8, 8);
-    Random random(number);
+    Random random(oracle::reseeded(number));
     {
       Reshaping<D> reshaping(other.environment, other.residents());
       for (int k = 0; k < 40; ++k)

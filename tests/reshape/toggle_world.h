@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle/seed.h"
 #include "reshape/grids.h"
 
 namespace cellwalk::test {
@@ -24,7 +25,7 @@ class Toggle_world {
   Toggle_world(std::uint64_t number, bool generic)
       : environment(simplex_grid<D>(size)),
         snapshot(environment.snapshot()),
-        random(number),
+        random(oracle::reseeded(number)),
         generic_(generic) {
     const double walls = 0.3 * random.real(0, 1), solid = 0.3 * random.real(0, 1);
     for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)

@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "oracle/seed.h"
+
 namespace cellwalk::oracle {
 
 /// Pyramids over the cells of a plane world: all have one apex above the plane, or one below. Their bases are
@@ -55,13 +57,14 @@ inline Cell_soup<3> pyramids_over(const Cell_soup<2>& flat, Random& random) {
 /// World number i. Integer lattices, so that all that lies on a line does so exactly.
 template <int D>
 Cell_soup<D> editable_world(std::uint64_t i) {
-  Random random(i);
+  const std::uint64_t seed = oracle::reseeded(i);
+  Random random(seed);
   if (D == 3 && i % 3 == 0) {
-    auto options = mixed_lattice_world<D>(i);
+    auto options = mixed_lattice_world<D>(seed);
     options.cells.fill(2);
     return lattice_world(options);
   }
-  auto flat = mixed_lattice_world<2>(i);
+  auto flat = mixed_lattice_world<2>(seed);
   flat.cells.fill(D == 2 ? 5 : 3);
   flat.star_share = i % 2 ? 0 : 0.2;
   flat.membrane_share = 0.2;

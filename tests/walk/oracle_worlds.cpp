@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "oracle/exact_world.h"
+#include "oracle/seed.h"
 
 namespace cellwalk::oracle {
 namespace {
@@ -50,13 +51,14 @@ Cell_soup<D> simplices(const Simplex_grid_options<D>& options) {
 
 template <int D>
 World<D> make_world(std::uint64_t i) {
-  Random random(i);
-  auto mixed = mixed_lattice_world<D>(i);
+  const std::uint64_t seed = reseeded(i);
+  Random random(seed);
+  auto mixed = mixed_lattice_world<D>(seed);
   const bool large = i / world_kinds % 2 == 1;
   mixed.cells.fill(D == 2 ? (large ? 10 : 5) : (large ? 4 : 3));
   Simplex_grid_options<D> grid;
   grid.cells.fill(D == 2 ? 6 : 3);
-  grid.seed = i;
+  grid.seed = seed;
   World<D> world;
   const auto finish = [&](const char* kind, Cell_soup<D> soup, bool is_dyadic) {
     world.name = std::string(kind) + ", world " + std::to_string(i);
@@ -138,7 +140,8 @@ World<D> make_world(std::uint64_t i) {
 }
 
 template <int D>
-Motion_source<D>::Motion_source(const World<D>& world, std::uint64_t seed) : world_(world), random_(seed) {
+Motion_source<D>::Motion_source(const World<D>& world, std::uint64_t seed)
+    : world_(world), random_(reseeded(seed)) {
   const Facet_table table = make_facet_table(world.soup);
   for (std::uint32_t f = 0; f < table.passable.size(); ++f)
     if (!table.passable[f]) walls_.push_back(f);

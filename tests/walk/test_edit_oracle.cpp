@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "environment/snapshot_checks.h"
+#include "oracle/seed.h"
 #include "walk/edited_worlds.h"
 #include "walk/oracle_trial.h"
 #include "walk/oracle_worlds.h"
@@ -31,7 +32,7 @@ class Edited {
   Edited(std::uint64_t number, Edit_tally& tally)
       : environment_(Environment<D>::build(editable_world<D>(number), {Duplicate_vertices::refuse})),
         snapshot_(environment_.snapshot()),
-        random_(number),
+        random_(reseeded(number)),
         tally_(tally) {}
 
   void edit() {

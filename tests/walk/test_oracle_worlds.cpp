@@ -6,10 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "oracle/exact_world.h"
+#include "oracle/seed.h"
 #include "walk/oracle_worlds.h"
 
 namespace cellwalk::oracle {
@@ -200,6 +204,23 @@ void expect_every_degeneracy() {
 
 TEST(OracleWorlds, HaveEveryDegeneracyInThePlane) { expect_every_degeneracy<2>(); }
 TEST(OracleWorlds, HaveEveryDegeneracyInSpace) { expect_every_degeneracy<3>(); }
+
+TEST(OracleWorlds, AreOthersForAnotherSeed) {
+  const char* const set = std::getenv("CELLWALK_TEST_SEED");
+  const std::string before = set == nullptr ? "" : set;
+  const auto points = [](const char* seed) {
+    setenv("CELLWALK_TEST_SEED", seed, 1);
+    std::vector<Point<3>> all;
+    for (std::uint64_t i = 0; i < world_kinds; ++i)
+      for (const Point<3>& p : make_world<3>(i).soup.points) all.push_back(p);
+    return all;
+  };
+  EXPECT_EQ(points("3"), points("3"));
+  EXPECT_NE(points("3"), points("4"));
+  EXPECT_NE(points("0"), points("3"));
+  EXPECT_EQ(reseeded(7) % 720720, 7u) << "kinds of worlds are chosen by remainders";
+  before.empty() ? unsetenv("CELLWALK_TEST_SEED") : setenv("CELLWALK_TEST_SEED", before.c_str(), 1);
+}
 
 }  // namespace
 }  // namespace cellwalk::oracle

@@ -109,9 +109,9 @@ TEST_F(RunWalls, YieldToWhatPressesThem) {
     force = std::max(force, std::stod(rows[i][3]));
   }
   EXPECT_GT(most, 0.01);
-  const json soft = report("out")["walls"]["soft"];
-  EXPECT_EQ(soft["largest_yield"], most);
-  EXPECT_EQ(soft["largest_force"], force);
+  const json yielded = report("out")["walls"]["soft"];
+  EXPECT_EQ(yielded["largest_yield"], most);
+  EXPECT_EQ(yielded["largest_force"], force);
 }
 
 TEST_F(RunWalls, AreRefusedWithFileAndLine) {

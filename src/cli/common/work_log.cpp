@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "work_log.h"
+
+#include <cellwalk/kernel/error.h>
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <string_view>
+
+namespace cellwalk::cli {
+namespace {
+
+constexpr std::string_view beginning = R"({"at":")";  // of each line
+
+std::atomic<Work_log*> the_log{nullptr};
+
+void need_log(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0) return;
+  std::ifstream file(path, std::ios::binary);
+  std::string begins(beginning.size(), '\0');
+  if (!file.read(begins.data(), static_cast<std::streamsize>(begins.size())) || begins != beginning)
+    throw Error(Error_code::usage, path + ": exists and is no log; give another file");
+}
+
+}  // namespace
+
+Stage_state state_of(const Stage& stage) {
+  Stage_state state;
+  state.seconds = std::chrono::duration<double>(Stage::Clock::now() - stage.start).count();
+  const auto done = static_cast<double>(stage.done), total = static_cast<double>(stage.total);
+  if (done > 0 && state.seconds > 0) {
+    state.per_second = done / state.seconds;
+    state.seconds_left = std::max(0.0, total - done) / state.per_second;
+  }
+  return state;
+}
+
+std::uint64_t memory_in_use() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t size = 0, resident = 0;
+  if (!(file >> size >> resident)) return 0;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+Work_log::Work_log(const std::string& path, std::chrono::duration<double> interval) : interval_(interval) {
+  need_log(path);
+  file_.open(path, std::ios::app);
+  if (!file_) throw Error(Error_code::other, path + ": cannot be written");
+  the_log = this;
+  writer_ = std::thread([this] { repeat(); });
+}
+
+Work_log::~Work_log() {
+  the_log = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopped_ = true;
+  }
+  stopped_.notify_all();
+  writer_.join();
+}
+
+void Work_log::begin(const Stage& stage) {
+  Work_log* const log = the_log;
+  if (log == nullptr) return;
+  const std::lock_guard lock(log->mutex_);
+  log->running_.push_back(&stage);
+}
+
+void Work_log::end(const Stage& stage) {
+  Work_log* const log = the_log;
+  if (log == nullptr) return;
+  const std::lock_guard lock(log->mutex_);
+  if (std::erase(log->running_, &stage) > 0) log->write(stage, true);
+}
+
+/// \pre mutex_ is held
+void Work_log::write(const Stage& stage, bool is_end) {
+  const Stage_state state = state_of(stage);
+  const std::time_t now = std::time(nullptr);
+  nlohmann::ordered_json line{{"at", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
+                              {"stage", stage.label}};
+  if (stage.total > 0) {
+    line["done"] = stage.done.load();
+    line["total"] = stage.total;
+    line["per_second"] = state.per_second;
+    if (!is_end && state.per_second > 0) line["seconds_left"] = state.seconds_left;
+  }
+  line["seconds"] = state.seconds;
+  line["memory_bytes"] = memory_in_use();
+  if (is_end) line["ended"] = true;
+  file_ << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
+}
+
+void Work_log::repeat() {
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, interval_, [this] { return is_stopped_; }))
+    if (!running_.empty()) write(*running_.back(), false);
+}
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The log of long work (--log): where it is, as lines of JSON, for programs that run without a terminal.
+#ifndef CELLWALK_CLI_COMMON_WORK_LOG_H
+#define CELLWALK_CLI_COMMON_WORK_LOG_H
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cellwalk::cli {
+
+/// A stage of long work: what it is called, and how much of it is done.
+struct Stage {
+  using Clock = std::chrono::steady_clock;
+
+  std::string label;
+  std::uint64_t total = 0;  ///< units; 0: not known
+  std::atomic<std::uint64_t> done{0};
+  Clock::time_point start = Clock::now();
+};
+
+/// What a stage says of itself.
+struct Stage_state {
+  double seconds = 0;       ///< since it began
+  double per_second = 0;    ///< units done
+  double seconds_left = 0;  ///< if it goes on like that; 0 as long as nothing is done
+};
+Stage_state state_of(const Stage& stage);
+
+/// Bytes of main memory that this process uses; 0 if the system does not tell.
+std::uint64_t memory_in_use();
+
+/// While it lives, the stage that runs is written every so often, and each stage once more when it ends. A
+/// process has one at most. Any thread may begin and end stages.
+class Work_log {
+ public:
+  /// Goes on with a log that is there already.
+  /// \throw Error(usage) if the file holds something else, Error(other) if it cannot be written
+  Work_log(const std::string& path, std::chrono::duration<double> interval);
+  ~Work_log();
+  Work_log(const Work_log&) = delete;
+  Work_log& operator=(const Work_log&) = delete;
+
+  // Without effect if there is no log.
+  static void begin(const Stage& stage);
+  static void end(const Stage& stage);
+
+ private:
+  void write(const Stage& stage, bool is_end);
+  void repeat();
+
+  std::ofstream file_;
+  std::chrono::duration<double> interval_;
+  std::mutex mutex_;  ///< of what follows, and of the file
+  std::condition_variable stopped_;
+  bool is_stopped_ = false;
+  std::vector<const Stage*> running_;  ///< the innermost one last
+  std::thread writer_;
+};
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_COMMON_WORK_LOG_H
