@@ -4,7 +4,7 @@
 
 usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
 
-- Links lead to files of the repository, and to headings where they have an anchor.
+- Links lead to files of the repository, and to headings where they have an anchor. docs/README.md leads to all pages.
 - `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
   `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial.
@@ -57,6 +57,14 @@ def check_links(page, counts):
             yield f"{page.name}: leads to {target}, which does not exist"
         elif fragment and fragment not in anchors_of(file):
             yield f"{page.name}: {target}: there is no such heading"
+
+
+def check_index(root, pages):
+    index = root / "docs" / "README.md"
+    linked = {(index.parent / target.partition("#")[0]).resolve() for target in LINK.findall(index.read_text(encoding="utf-8"))}
+    for page in pages:
+        if page.is_relative_to(index.parent) and page != index and page not in linked:
+            yield f"{page.name}: docs/README.md does not lead to it"
 
 
 class Help:
@@ -172,6 +180,8 @@ def main():
         problems += check_links(page, counts)
         if page.name != "errors.md":  # which has wrong ones on purpose
             problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
+    if not is_long:
+        problems += check_index(root, pages)
     commands = "" if is_long else help_texts.of(()).partition("Subcommands:")[2]
     for command in re.findall(r"^  (\w+)  ", commands, re.MULTILINE):
         examples = help_texts.of((command,)).partition("Examples:")[2].partition("\n\n")[0].splitlines()
