@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Environments from a file and from arrays. usage: mesh.py SURFACE"""
 
+## [file]
 import sys
 
 import cellwalk
 import numpy
 
-## [file]
 ring = cellwalk.Environment.import_mesh(sys.argv[1])  # a closed surface: tetrahedra fill its interior
 print(ring)
 print(f"volume {ring.certificate['free_volume']:.4f}, {ring.certificate['walls']} walls")
