@@ -5,6 +5,7 @@
 - README.md becomes the first page; those of folders are pages like others.
 - Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
   warning, so links are checked here too.
+- Pictures are named from the root, where Doxygen looks for them.
 - Code spans of the tables of errors.md become HTML, since Doxygen takes backslashes and quotes in them for its own.
 """
 
@@ -14,6 +15,7 @@ import sys
 from pathlib import Path
 
 SPECIAL = str.maketrans({c: f"&#{ord(c)};" for c in "&<>\\\"'@#%$*_~`"})
+PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s:]+)\)")
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
 
 
@@ -38,6 +40,9 @@ def filtered(page, text):
         target = os.path.join(os.path.dirname(page), match[1]) if match[1] else page
         return f"](#{label(target, match[2])})"
 
+    def picture(match):
+        return f"{match[1]}{os.path.normpath(os.path.join(os.path.dirname(page), match[2]))})"
+
     lines, in_code, is_first = [], False, True
     for line in text.split("\n"):
         if line.startswith("```"):
@@ -49,7 +54,7 @@ def filtered(page, text):
             line = f"{line.rstrip()} {{#{label(page, anchor(heading[2]))}}}"
         is_first = is_first and not heading
         if not in_code:
-            line = LINK.sub(link, line)
+            line = PICTURE.sub(picture, LINK.sub(link, line))
             if os.path.basename(page) == "errors.md" and line.startswith("| "):
                 line = re.sub(r"(`{1,2})(?! )(.*?)(?<!`)\1(?!`)", html, line)
         lines.append(line)

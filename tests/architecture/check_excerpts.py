@@ -34,7 +34,7 @@ def part(path, name):
 
 
 def pages(root):
-    return [root / "README.md"] + sorted((root / "docs").glob("*.md"))
+    return [root / "README.md"] + sorted((root / "docs").rglob("*.md"))
 
 
 def check(root, fix=False):

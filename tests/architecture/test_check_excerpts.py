@@ -39,6 +39,13 @@ class Planted(unittest.TestCase):
         self.assertEqual(check_excerpts.check(self.root), (1, []))
         self.assertIn("int a = 1;\nif (a) b();\n```\nMore.\n", self.page.read_text(encoding="utf-8"))
 
+    def test_pages_of_subfolders_are_checked(self):
+        (self.root / "docs" / "more").mkdir()
+        self.page.rename(self.root / "docs" / "more" / "page.md")
+        self.code.write_text(CODE.replace("int a;", "int a = 1;"), encoding="utf-8")
+        _, breaches = check_excerpts.check(self.root)
+        self.assertEqual(len(breaches), 1, breaches)
+
     def test_a_missing_mark_is_caught(self):
         self.code.write_text(CODE.replace("//! [part]\nint c", "int c"), encoding="utf-8")
         self.assert_caught("1 marks [part]")

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Checks README.md and all pages of docs/: relative links and their anchors, the commands they name, and what commands print.
 
-usage: test_pages.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]
+usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
 
-- Links lead to files of the repository, and to headings where they have an anchor.
+- Links lead to files of the repository, and to headings where they have an anchor. docs/README.md leads to all pages.
 - `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
-  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial. A block after <!-- needs PART --> is left out where
-  the part is missing; one after <!-- not run --> always. data/ is that of the repository.
-- A picture that the commands of a page draw, and that the page shows from docs/images, is the one there.
+  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial.
+  `$ export NAME=VALUE` holds for the rest of the page. A block after <!-- needs PART PART --> is left out where
+  one of these parts is missing; one after <!-- not run --> always. One after <!-- long --> is run with --long, and nothing else then. data/ and examples/ are those of the repository, build/release is the
+  folder of the program.
+- A picture that the commands of a page draw, and that the page shows from docs/images, is the one there. For the picture of a run,
+  NAME/picture.png, that is gallery_NAME.png, which has half its width and height.
 """
 
 import os
@@ -28,6 +31,7 @@ CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
 FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
+FEWEST_LONG = {"commands": 10, "pictures": 10}
 
 
 def anchor(heading):
@@ -53,6 +57,14 @@ def check_links(page, counts):
             yield f"{page.name}: leads to {target}, which does not exist"
         elif fragment and fragment not in anchors_of(file):
             yield f"{page.name}: {target}: there is no such heading"
+
+
+def check_index(root, pages):
+    index = root / "docs" / "README.md"
+    linked = {(index.parent / target.partition("#")[0]).resolve() for target in LINK.findall(index.read_text(encoding="utf-8"))}
+    for page in pages:
+        if page.is_relative_to(index.parent) and page != index and page not in linked:
+            yield f"{page.name}: docs/README.md does not lead to it"
 
 
 class Help:
@@ -100,45 +112,81 @@ def is_printed(expected, said):
     return re.fullmatch(pattern, said) is not None
 
 
-def run_blocks(page, root, program, missing, counts):
-    environment = dict(os.environ, PATH=f"{program.parent}:{os.environ['PATH']}")
+def prepare(folder, page, root, program):
+    """Makes the root of a clone of a folder, as far as pages use it."""
+    for name in ("data", "examples"):
+        (folder / name).symlink_to(root / name)
+    (folder / "build").mkdir()
+    (folder / "build" / "release").symlink_to(program.parent)
+    (folder / "bin").mkdir()
+    (folder / "bin" / "python3").symlink_to(sys.executable)
+    if page.name == "tutorial.md":
+        shutil.copytree(root / "data/tutorial", folder, dirs_exist_ok=True)
+
+
+def pictures_drawn(folder):
+    """What was drawn, and the name that docs/images has for it."""
+    for drawn in sorted(Path(folder).glob("*.png")):
+        yield drawn, drawn.name
+    for drawn in sorted(Path(folder).glob("*/picture.png")):
+        yield drawn, f"gallery_{drawn.parent.name}.png"
+
+
+def is_drawn_again(drawn, shown):
+    if drawn.name != "picture.png":
+        return pictures.same_picture(drawn, shown)
+    return pictures.same_pixels(pictures.halved(pictures.read_png(drawn)), pictures.read_png(shown))
+
+
+def run_blocks(page, root, program, missing, counts, is_long):
     with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "data").symlink_to(root / "data")
-        if page.name == "tutorial.md":
-            shutil.copytree(root / "data/tutorial", folder, dirs_exist_ok=True)
+        prepare(Path(folder), page, root, program)
+        environment = dict(os.environ, PATH=f"{program.parent}:{folder}/bin:{os.environ['PATH']}")
         for mark, block in CONSOLE.findall(page.read_text(encoding="utf-8")):
-            if mark == "not run" or mark.removeprefix("needs ") in missing:
+            if mark == "not run" or (mark == "long") != is_long or missing.intersection(mark.removeprefix("needs ").split()):
                 continue
             for command, expected in steps_of(block):
                 words = shlex.split(command, comments=True)
                 if words[0] == "cat" and not Path(folder, words[1]).exists():
+                    Path(folder, words[1]).parent.mkdir(parents=True, exist_ok=True)
                     Path(folder, words[1]).write_text("".join(line + "\n" for line in expected))
+                    continue
+                if words[0] == "export":
+                    name, _, value = words[1].partition("=")
+                    environment[name] = value.replace("$PWD", folder)
                     continue
                 counts["commands"] += 1
                 done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True)
                 if done.returncode != 0 or not is_printed(expected, done.stdout):
                     yield f"{page.name}: $ {command}\n  exit code {done.returncode}, and prints\n{done.stdout}{done.stderr}"
-        for drawn in sorted(Path(folder).glob("*.png")):
-            shown = root / "docs" / "images" / drawn.name
-            if f"images/{drawn.name})" in page.read_text(encoding="utf-8"):
+        for drawn, name in pictures_drawn(folder):
+            shown = root / "docs" / "images" / name
+            if f"images/{name})" in page.read_text(encoding="utf-8"):
                 counts["pictures"] += 1
-                if not pictures.same_picture(drawn, shown):
+                if not is_drawn_again(drawn, shown):
                     yield f"{page.name}: {shown.name} is not what its command draws: draw it again"
 
 
 def main():
     root, program, missing = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), set(sys.argv[3:])
-    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
-    help_texts, problems, counts = Help(program), [], dict.fromkeys(FEWEST, 0)
+    is_long = "--long" in missing
+    fewest_of = FEWEST_LONG if is_long else FEWEST
+    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
+    help_texts, problems, counts = Help(program), [], dict.fromkeys(fewest_of, 0)
     for page in pages:
+        problems += run_blocks(page, root, program, missing, counts, is_long)
+        if is_long:
+            continue
         problems += check_links(page, counts)
         if page.name != "errors.md":  # which has wrong ones on purpose
             problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
-        problems += run_blocks(page, root, program, missing, counts)
-    for command in re.findall(r"^  (\w+)  ", help_texts.of(()).partition("Subcommands:")[2], re.MULTILINE):
+    if not is_long:
+        problems += check_index(root, pages)
+    commands = "" if is_long else help_texts.of(()).partition("Subcommands:")[2]
+    for command in re.findall(r"^  (\w+)  ", commands, re.MULTILINE):
         examples = help_texts.of((command,)).partition("Examples:")[2].partition("\n\n")[0].splitlines()
         problems += check_options(f"cellwalk {command} --help", examples, help_texts, counts)
-    problems += [f"only {counts[what]} {what} were found" for what, fewest in FEWEST.items() if counts[what] < fewest]
+    problems += [f"only {counts[what]} {what} were found" for what, fewest in fewest_of.items() if counts[what] < fewest]
     print("\n".join(problems))
     print(f"pages: {len(pages)} pages, {', '.join(f'{n} {what}' for what, n in counts.items())}, {len(problems)} problems")
     return 1 if problems else 0
