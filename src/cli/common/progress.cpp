@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "progress.h"
 
+#include <cellwalk/internal/ranks/ranks.h>
+
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -20,7 +22,7 @@ constexpr const char* erase_line = "\r\033[K";
 Progress::Progress(std::string label, std::uint64_t total)
     : label_(std::move(label)),
       total_(total),
-      on_terminal_(isatty(STDERR_FILENO) == 1),
+      on_terminal_(isatty(STDERR_FILENO) == 1 && !is_later_rank()),
       start_(Clock::now()) {
   if (on_terminal_) draw(0, start_);
 }
