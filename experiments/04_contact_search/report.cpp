@@ -118,17 +118,20 @@ void write_timings(const Tallies& tallies, const std::vector<Search>& searches,
 
 void run(const Plan& plan, const std::filesystem::path& folder) {
   const std::vector<Search> searches = all_searches();
+  const bool is_timed = plan.rounds > 0;
+  if (experiments::is_idle(is_timed)) return;
   Tallies tallies;
-  const int threads = plan.rounds > 0 ? 1 : plan.threads;
   {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    tallies = experiments::shared_trials(std::size(worlds), [&](std::size_t w) {
+                                    is_timed ? 1 : static_cast<std::size_t>(plan.threads));
+    const auto trial = [&](std::size_t w) {
       const std::string_view name = contact_search::name_of(worlds[w]);
       return contact_search::run(worlds[w], searches,
                                  {experiments::part_seed(plan.seed, name),
                                   plan.quick ? quick_contacts : full_contacts, plan.rounds});
-    });
+    };
+    tallies = experiments::shared_trials(
+        std::size(worlds), trial, is_timed ? experiments::Trials::timed : experiments::Trials::on_threads);
   }
   write_errors(tallies, searches, folder);
   write_costs(tallies, searches, folder);

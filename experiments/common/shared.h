@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -84,20 +84,30 @@ class Result_reader {
   Byte_reader bytes_;
 };
 
-/// The results of trials 0 to count - 1, on every rank. Rank r of n makes trials r, r + n, and so on, one
-/// after the other or, if `parallel`, on all threads.
+enum class Trials {
+  on_threads,  ///< several at a time
+  in_order,    ///< one after the other on each rank
+  timed        ///< all on the first rank, in order, so that others do not disturb it
+};
+
+/// True for a rank that has nothing to do where times are taken: it may leave.
+inline bool is_idle(bool is_timed) { return is_timed && !ranks().is_first(); }
+
+/// The results of trials 0 to count - 1, on every rank. Rank r of n makes trials r, r + n, and so on.
+/// \pre if they are timed, this is the first rank
 template <class Trial>
-auto shared_trials(std::size_t count, const Trial& trial, bool parallel = true) {
+auto shared_trials(std::size_t count, const Trial& trial, Trials how = Trials::on_threads) {
   using Result = std::decay_t<decltype(trial(std::size_t{0}))>;
-  std::vector<Result> results(count);
-  const std::size_t first = ranks().rank(), step = ranks().size();
+  const bool is_alone = how == Trials::timed || ranks().is_alone();
+  const std::size_t first = is_alone ? 0 : ranks().rank(), step = is_alone ? 1 : ranks().size();
   const std::size_t own = first < count ? (count - first + step - 1) / step : 0;
+  std::vector<Result> results(count);
   const auto make = [&](std::size_t i) { results[first + i * step] = trial(first + i * step); };
-  if (parallel)
+  if (how == Trials::on_threads)
     tbb::parallel_for(std::size_t{0}, own, make);
   else
     for (std::size_t i = 0; i < own; ++i) make(i);
-  if (ranks().is_alone()) return results;
+  if (is_alone) return results;
   Result_writer of_rank;
   for (std::size_t i = first; i < count; i += step) of_rank(results[i]);
   std::size_t from = 0;
