@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
+#include <cstdint>
 #include <deque>
-#include <memory>
 #include <vector>
 
 #include "simulation/worlds.h"
@@ -74,14 +74,14 @@ void expect_same_states(const World<D>& world, const World<D>& parts) {
 }
 
 template <int D>
-void run_in_parts(const Environment<D>& environment, const Scene<D>& scene,
-                  const std::vector<Body_soup<D>>& shapes, std::size_t count) {
+void run_in_parts(const Snapshot<D>& snapshot, const Scene<D>& scene, const std::vector<Body_soup<D>>& shapes,
+                  std::size_t count) {
   constexpr int steps = 40;
-  World<D> world(environment.snapshot(), scene, shapes);
+  World<D> world(snapshot, scene, shapes);
   std::deque<World<D>> worlds;  // what parts refer to must not move
   std::vector<World_part<D>> parts;
   for (std::size_t i = 0; i < count; ++i)
-    parts.emplace_back(worlds.emplace_back(environment.snapshot(), scene, shapes), i, count);
+    parts.emplace_back(worlds.emplace_back(snapshot, scene, shapes), i, count);
   std::size_t contacts = 0;
   for (int step = 1; step <= steps; ++step) {
     world.step();
@@ -100,20 +100,35 @@ void run_in_parts(const Environment<D>& environment, const Scene<D>& scene,
 }
 
 TEST(WorldPart, PartsDoInThePlaneWhatOneWorldDoes) {
-  const auto environment = rooms<2>({8, 8}, {{2, 3}, {5, 5}});
+  const auto snapshot = rooms<2>({8, 8}, {26, 45});
   for (const std::size_t count : {1, 2, 3, 40})
-    run_in_parts<2>(environment, crowd<2>(),
-                    {{{{0, 0}, {0.4, 0}, {0, 0.4}}, {{0, 1}, {0, 2}, {1, 2}}, {}},
-                     {{{0, 0}, {0.3, 0}}, {{0, 1}}, {}}},
-                    count);
+    run_in_parts<2>(
+        snapshot, crowd<2>(),
+        {{{{0, 0}, {0.4, 0}, {0, 0.4}}, {{0, 1}, {0, 2}, {1, 2}}, {}}, {{{0, 0}, {0.3, 0}}, {{0, 1}}, {}}},
+        count);
+}
+
+TEST(WorldPart, PartsDoInSpaceWhatOneWorldDoes) {
+  const auto snapshot = rooms<3>({4, 4, 4}, {21, 42});
+  Scene<3> scene = crowd<3>();
+  Catheter<3> catheter;
+  catheter.path = {{0.5, 0.5, 0.2}, {0.5, 0.5, 3.5}};
+  catheter.spacing = 0.2;
+  catheter.particles = 12;
+  catheter.advance = 0.1;
+  scene.catheter = catheter;
+  const Body_soup<3> shape{{{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}},
+                           {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
+                           {}};
+  for (const std::size_t count : {2, 3}) run_in_parts<3>(snapshot, scene, {shape, shape}, count);
 }
 
 TEST(WorldPart, BytesOfOtherScenesAreRefused) {
-  const auto environment = rooms<2>({8, 8}, {{2, 3}});
+  const auto snapshot = rooms<2>({8, 8}, {26});
   Scene<2> few = crowd<2>();
   few.bodies.pop_back();
   const Body_soup<2> shape{{{0, 0}, {0.4, 0}}, {{0, 1}}, {}};
-  World<2> world(environment.snapshot(), few, {shape}), other(environment.snapshot(), crowd<2>(), {shape, shape});
+  World<2> world(snapshot, few, {shape}), other(snapshot, crowd<2>(), {shape, shape});
   World_part<2> part(world, 0, 2), second(other, 1, 2);
   EXPECT_THROW(part.take_over(second.tell({false, true})), Error);
   EXPECT_THROW(part.take_over("cut short"), Error);

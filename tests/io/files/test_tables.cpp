@@ -30,9 +30,7 @@ TEST(Csv, ColumnsAreFoundByName) {
 
 /// The rows of all parts, one after the other, are those of the whole table, with their lines.
 TEST(Csv, PartsTogetherAreTheTable) {
-  const std::string texts[] = {"# a comment\nx,y\n",
-                               "x,y\n1,2",
-                               "x,y\n1,2\n\n# no\n3,4\n5,6,7\n8,9\r\n",
+  const std::string texts[] = {"# a comment\nx,y\n", "x,y\n1,2", "x,y\n1,2\n\n# no\n3,4\n5,6,7\n8,9\r\n",
                                "\xef\xbb\xbfx,y\n\n\n\n1,2\n\n\n\n\n\n\n\n3,4\n\n",
                                "x\n1\n22\n333\n4444\n55555\n666666\n7777777\n88888888\n"};
   for (const std::string& text : texts)
@@ -57,8 +55,7 @@ TEST(Csv, PartsTogetherAreTheTable) {
 TEST(Csv, PartsNameTheLineOfAnError) {
   const std::string text = "x\n1\n2\n3\n\"4\n5\n";
   int refused = 0;
-  for (std::size_t number = 0; number < 3; ++number)
-    try {
+  for (std::size_t number = 0; number < 3; ++number) try {
       Csv_table::parse("t.csv", text, {number, 3});
     } catch (const Error& error) {
       EXPECT_STREQ(error.what(), "t.csv:5: a quote is left open");
