@@ -29,11 +29,15 @@ void succeed(int code) {
   if (code != MPI_SUCCESS) throw boost::mpi::exception("MPI", code);
 }
 
+boost::mpi::communicator ranks_of_node(const boost::mpi::communicator& world) {
+  MPI_Comm node = MPI_COMM_NULL;
+  succeed(MPI_Comm_split_type(world, MPI_COMM_TYPE_SHARED, world.rank(), MPI_INFO_NULL, &node));
+  return {node, boost::mpi::comm_take_ownership};
+}
+
 class Mpi final : public Transport {
  public:
-  Mpi()
-      : environment_(boost::mpi::threading::funneled, abort_on_exception),
-        world_(boost::mpi::communicator()) {}
+  Mpi() : environment_(boost::mpi::threading::funneled, abort_on_exception), node_(ranks_of_node(world_)) {}
   ~Mpi() override {
     try {
       while (!sent_.empty()) wait_for_first();
@@ -63,14 +67,10 @@ class Mpi final : public Transport {
     return bytes;
   }
 
-  std::string broadcast(std::string bytes) override {
-    std::uint64_t length = bytes.size();
-    broadcast_piece(reinterpret_cast<char*>(&length), sizeof length);
-    bytes.resize(length);
-    for (std::size_t begin = 0; begin < length; begin += longest_piece)
-      broadcast_piece(bytes.data() + begin, std::min(longest_piece, length - begin));
-    return bytes;
-  }
+  std::string broadcast(std::string bytes) override { return broadcast(std::move(bytes), world_); }
+  std::string broadcast_on_node(std::string bytes) override { return broadcast(std::move(bytes), node_); }
+  std::size_t rank_on_node() const override { return static_cast<std::size_t>(node_.rank()); }
+  std::size_t size_of_node() const override { return static_cast<std::size_t>(node_.size()); }
 
   [[noreturn]] void end(int exit_code) override {
     boost::mpi::environment::abort(exit_code);
@@ -101,9 +101,18 @@ class Mpi final : public Transport {
     wait(request);
   }
 
-  void broadcast_piece(char* bytes, std::size_t length) {
+  std::string broadcast(std::string bytes, const boost::mpi::communicator& among) const {
+    std::uint64_t length = bytes.size();
+    broadcast_piece(reinterpret_cast<char*>(&length), sizeof length, among);
+    bytes.resize(length);
+    for (std::size_t begin = 0; begin < length; begin += longest_piece)
+      broadcast_piece(bytes.data() + begin, std::min(longest_piece, length - begin), among);
+    return bytes;
+  }
+
+  void broadcast_piece(char* bytes, std::size_t length, const boost::mpi::communicator& among) const {
     MPI_Request request;
-    succeed(MPI_Ibcast(bytes, static_cast<int>(length), MPI_BYTE, 0, world_, &request));
+    succeed(MPI_Ibcast(bytes, static_cast<int>(length), MPI_BYTE, 0, among, &request));
     wait(request);
   }
 
@@ -129,7 +138,7 @@ class Mpi final : public Transport {
   }
 
   boost::mpi::environment environment_;
-  boost::mpi::communicator world_;
+  boost::mpi::communicator world_, node_;
   std::deque<Sent> sent_;
 };
 

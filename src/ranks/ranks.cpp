@@ -95,6 +95,13 @@ std::string Ranks::broadcast(std::string bytes) {
   return transport_ ? transport_->broadcast(std::move(bytes)) : bytes;
 }
 
+bool Ranks::shares_node() const { return transport_ && transport_->size_of_node() > 1; }
+bool Ranks::is_first_on_node() const { return !transport_ || transport_->rank_on_node() == 0; }
+
+std::string Ranks::broadcast_on_node(std::string bytes) {
+  return transport_ ? transport_->broadcast_on_node(std::move(bytes)) : bytes;
+}
+
 void Ranks::while_waiting(std::function<void()> check) {
   if (transport_) transport_->while_waiting(std::move(check));
 }

@@ -28,6 +28,10 @@ class Transport {
   virtual std::string receive(std::size_t from) = 0;
   /// The bytes of the first rank, on every rank.
   virtual std::string broadcast(std::string bytes) = 0;
+  /// The same among the ranks that share the memory of a node.
+  virtual std::string broadcast_on_node(std::string bytes) = 0;
+  virtual std::size_t rank_on_node() const = 0;
+  virtual std::size_t size_of_node() const = 0;
   /// Ends all ranks.
   [[noreturn]] virtual void end(int exit_code) = 0;
 

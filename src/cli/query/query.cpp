@@ -12,6 +12,7 @@
 
 #include "cli/common/command.h"
 #include "cli/common/environment_file.h"
+#include "cli/common/node_environment.h"
 #include "kernel_names.h"
 #include "table.h"
 #include "walk_repro.h"
@@ -80,7 +81,7 @@ void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const Loaded_environment loaded = load_with_progress(options.environment, options.build);
+  const Loaded_environment loaded = load_once_a_node(ranks, options.environment, options.build);
   const auto query_it = [&](const auto& environment) {
     answer_table(options, files ? &*files : nullptr, ranks, environment);
   };

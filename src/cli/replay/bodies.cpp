@@ -16,8 +16,8 @@
 #include <variant>
 
 #include "cli/common/contact_kind_names.h"
-#include "cli/common/environment_file.h"
 #include "cli/common/machine.h"
+#include "cli/common/node_environment.h"
 #include "cli/common/progress.h"
 #include "parts.h"
 #include "replay.h"
@@ -27,7 +27,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-Environment<3> load_environment_of_bodies(const Replay_options& options) {
+Environment<3> load_environment_of_bodies(const Replay_options& options, Ranks& ranks) {
   if (options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment is missing: {} holds bodies, and not the walls around "
@@ -40,7 +40,7 @@ Environment<3> load_environment_of_bodies(const Replay_options& options) {
                             options.trace));
   Build_options build;
   build.keep_map = false;
-  Loaded_environment loaded = load_with_progress(options.environment, build);
+  Loaded_environment loaded = load_once_a_node(ranks, options.environment, build);
   auto* environment = std::get_if<Environment<3>>(&loaded.environment);
   if (!environment)
     throw Error(Error_code::input,
@@ -154,7 +154,7 @@ std::optional<Replay_report> replay_bodies(const Body_trace& trace, const Replay
   if (trace.moves() == 0)
     throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
                                                options.trace, trace.bodies.size(), trace.steps));
-  const Environment<3> environment = load_environment_of_bodies(options);
+  const Environment<3> environment = load_environment_of_bodies(options, ranks);
   const Block bodies = ranks.block(trace.bodies.size());
   const Body_trace part = ranks.is_alone() ? Body_trace{} : part_of(trace, bodies);
   Rounds<Body_counts> replayed =

@@ -289,6 +289,7 @@ void run_scene(const Run_options& options, Ranks& ranks, Run_outputs* outputs, c
   }
   Ranks alone;
   const std::string reason = hindrance(scene, !options.record.empty());
+  Ranks& sharing = reason.empty() ? ranks : alone;
   if (!reason.empty() && outputs == nullptr) return;
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, options.scene);
@@ -297,8 +298,8 @@ void run_scene(const Run_options& options, Ranks& ranks, Run_outputs* outputs, c
   if (!reason.empty() && !ranks.is_alone())
     fmt::print(stderr, "cellwalk: {}: {}, so the first of {} ranks works alone\n", options.scene, reason,
                ranks.size());
-  Prepared_environment prepared =
-      prepare(scene.environment, scene.walls ? &*scene.walls : nullptr, scene.changes, options.scene);
+  Prepared_environment prepared = prepare(scene.environment, scene.walls ? &*scene.walls : nullptr,
+                                          scene.changes, options.scene, sharing);
   auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
     throw Error(Error_code::input,
@@ -306,8 +307,7 @@ void run_scene(const Run_options& options, Ranks& ranks, Run_outputs* outputs, c
                             options.scene, 5 - D, D));
   const auto* const known = std::get_if<Groups<D>>(&prepared.groups);  // none are generated
   const Groups<D> groups = known ? *known : Groups<D>{};
-  Run<D>{scene,  options, reason.empty() ? ranks : alone, outputs, *environment, prepared.certificate,
-         groups, bodies}();
+  Run<D>{scene, options, sharing, outputs, *environment, prepared.certificate, groups, bodies}();
 }
 
 void run(Run_options options, Ranks& ranks) {

@@ -61,6 +61,12 @@ class Ranks {
   /// The bytes of the first rank, on every rank. All ranks must call it, as often.
   std::string broadcast(std::string bytes);
 
+  /// True if other ranks share the memory of this node.
+  bool shares_node() const;
+  bool is_first_on_node() const;
+  /// The bytes of the first rank of this node, on every one of them.
+  std::string broadcast_on_node(std::string bytes);
+
   /// Calls a function while waiting for other ranks; it may throw, and then nothing else may be called.
   void while_waiting(std::function<void()> check);
 
