@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -89,16 +88,10 @@ std::string empty_word(std::span<char* const> words) {
   return {};
 }
 
-/// True if a word names the standard input as a file, which mpirun gives to the first rank only.
-bool names_standard_input(std::span<char* const> words) {
-  constexpr std::array<std::string_view, 3> names{"/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"};
-  return std::ranges::any_of(words,
-                             [&](std::string_view word) { return std::ranges::count(names, word) > 0; });
-}
-
 int run(Ranks& ranks, const cellwalk::cli::Action& action, std::span<char* const> words) {
   try {
-    if (names_standard_input(words)) share_standard_input(ranks);
+    // mpirun gives it to the first rank only.
+    if (std::ranges::any_of(words, cellwalk::names_standard_input)) share_standard_input(ranks);
     action(ranks);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw Error(Error_code::other, "standard output cannot be written");

@@ -5,6 +5,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <string>
@@ -45,6 +47,11 @@ void become_standard_input(std::string_view bytes) {
 }
 
 }  // namespace
+
+bool names_standard_input(std::string_view word) {
+  constexpr std::array<std::string_view, 3> names{"/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"};
+  return std::ranges::count(names, word) > 0;
+}
 
 void share_standard_input(Ranks& ranks) {
   if (ranks.is_alone()) return;

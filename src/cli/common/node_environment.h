@@ -11,9 +11,9 @@
 
 namespace cellwalk::cli {
 
-/// An environment that the first rank of each node makes, without a map. Its compiled bytes lie in memory that
-/// the other ranks of the node map, so that nothing is certified, and nothing held, twice. Where that memory
-/// cannot be had, each rank makes its own.
+/// An environment that the first rank of each node makes, without a map. Its compiled bytes lie in memory
+/// that the other ranks of the node map, so that nothing is certified, and nothing held, twice. Where that
+/// memory cannot be had, each rank makes its own.
 /// \throw what `make` throws
 Loaded_environment once_a_node(Ranks& ranks, const std::function<Loaded_environment()>& make);
 

@@ -78,6 +78,7 @@ void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
   options.move.touch = options.sweep.touch;
   std::optional<Query_files> files;
   if (ranks.is_first()) files.emplace(options);
+  if (files && !ranks.is_alone()) files->all.inputs_are_shared();
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -29,6 +29,7 @@ constexpr int most_rounds = 100000;
 void replay(const Replay_options& options, Ranks& ranks) {
   Outputs outputs({options.trace, options.environment});
   io::Atomic_file* const json = ranks.is_first() ? outputs.file(options.json) : nullptr;
+  if (ranks.is_first() && !ranks.is_alone()) outputs.inputs_are_shared();
   auto read = io::read_any_trace(options.trace);
   const std::optional<Replay_report> report =
       std::holds_alternative<Trace>(read) ? replay_grid(std::get<Trace>(std::move(read)), options, ranks)

@@ -29,8 +29,8 @@ struct Replay_report {
   std::string summary;
 };
 
-/// Replays a trace in a grid of unit cubes, which holds its environment; ranks share the bodies. The report is
-/// that of all, on the first rank.
+/// Replays a trace in a grid of unit cubes, which holds its environment; ranks share the bodies. The report
+/// is that of all, on the first rank.
 /// \throw Error naming the trace, or the option that does not apply to it
 std::optional<Replay_report> replay_grid(Trace trace, const Replay_options& options, Ranks& ranks);
 

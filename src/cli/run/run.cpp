@@ -313,6 +313,7 @@ void run_scene(const Run_options& options, Ranks& ranks, Run_outputs* outputs, c
 void run(Run_options options, Ranks& ranks) {
   std::optional<Run_outputs> outputs;
   if (ranks.is_first()) outputs.emplace(options);
+  if (outputs && !ranks.is_alone()) outputs->all.inputs_are_shared();
   Scene_source source = load_scene(options.scene, options.changes);
   options.scene = source.name;
   options.scene_text = std::move(source.text);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cellwalk {
@@ -89,6 +90,9 @@ bool is_later_rank();
 
 /// An optional part of the build: the version of MPI that ranks would use; empty if there is none.
 std::string mpi_version();
+
+/// True if a word names the standard input as a file.
+bool names_standard_input(std::string_view word);
 
 /// Replaces the standard input of every rank by a copy of what the first reads from it, which mpirun gives to
 /// the first only. Files that are named /dev/stdin can be read by all then.
