@@ -58,6 +58,16 @@ class Mpi final : public Transport {
       start(sent, to, sent.bytes.data() + begin, std::min(longest_piece, sent.length - begin));
   }
 
+  void drop_sent() override {
+    for (Sent& sent : sent_)
+      for (MPI_Request& request : sent.requests)
+        if (request != MPI_REQUEST_NULL) {
+          succeed(MPI_Cancel(&request));
+          succeed(MPI_Request_free(&request));
+        }
+    sent_.clear();
+  }
+
   std::string receive(std::size_t from) override {
     std::uint64_t length = 0;
     receive_piece(from, reinterpret_cast<char*>(&length), sizeof length);

@@ -114,6 +114,7 @@ void Ranks::fail(Error_code code, const std::string& message) {
   failure.text(message);
   transport_->send(0, with_tag(Message::failure, failure.take()));
   transport_->receive(0);  // the farewell; a first rank that takes notice ends this process instead
+  transport_->drop_sent();
 }
 
 void Ranks::leave() {

@@ -24,6 +24,8 @@ class Transport {
 
   /// Sends bytes, in the order of calls. Returns at once, unless several earlier ones are still on their way.
   virtual void send(std::size_t to, std::string bytes) = 0;
+  /// Gives up what was sent, and nobody will receive.
+  virtual void drop_sent() = 0;
   /// The next bytes that a rank sent to this one.
   virtual std::string receive(std::size_t from) = 0;
   /// The bytes of the first rank, on every rank.

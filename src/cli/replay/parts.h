@@ -3,11 +3,12 @@
 #ifndef CELLWALK_CLI_REPLAY_PARTS_H
 #define CELLWALK_CLI_REPLAY_PARTS_H
 
+#include <cellwalk/body/step.h>
 #include <cellwalk/internal/kernel/bytes.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/internal/records/body_trace.h>
 #include <cellwalk/internal/records/trace.h>
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/simulation/replay.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -26,8 +27,17 @@ Trace part_of(const Trace& trace, const Block& bodies);
 /// \pre moves > 0
 std::vector<double> per_move(std::vector<double> times, std::uint64_t moves);
 
+inline void add(Body_counts& sum, const Body_counts& more) { sum += more; }
+inline void add(Replay_counts& sum, const Replay_counts& more) {
+  sum.vertex_hits += more.vertex_hits;
+  sum.edge_hits += more.edge_hits;
+  sum.triangle_hits += more.triangle_hits;
+  sum.rounds += more.rounds;
+  sum.body += more.body;
+}
+
 /// What the rounds of a replay found. Ranks work at the same time, so the slowest one counts.
-template <Count_set Counts>
+template <class Counts>
 struct Rounds {
   std::vector<double> ns;       ///< of each round that is timed
   std::vector<double> step_us;  ///< of each step, the least of these rounds; empty: not measured
@@ -45,12 +55,12 @@ struct Rounds {
       bytes.value(counts);
     }
     ranks.gather(bytes.take(), [this](const std::string& of_rank) {
-      if (!of_rank.empty()) add(of_rank);
+      if (!of_rank.empty()) take(of_rank);
     });
   }
 
  private:
-  void add(std::string_view of_rank) {
+  void take(std::string_view of_rank) {
     Byte_reader bytes(of_rank);
     const auto slower = [](std::vector<double>& times, const std::vector<double>& others) {
       for (std::size_t i = 0; i < times.size() && i < others.size(); ++i)
@@ -60,7 +70,7 @@ struct Rounds {
     slower(step_us, bytes.list<double>());
     mismatches += bytes.value<std::uint64_t>();
     registered_anew += bytes.value<std::uint64_t>();
-    counts += bytes.value<Counts>();
+    add(counts, bytes.value<Counts>());
   }
 };
 
