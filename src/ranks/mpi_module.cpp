@@ -19,11 +19,11 @@ namespace cellwalk {
 namespace {
 
 constexpr int tag = 1;
-constexpr std::size_t most_sent = 8;                         // messages on their way at a time
+constexpr std::size_t most_sent = 64;                        // messages on their way at a time
 constexpr std::size_t longest_piece = std::size_t{1} << 28;  // bytes; MPI counts in int
 // Who waits gives way so often before it sleeps, first for a short time, at last for a long one.
-constexpr int yields = 100;
-constexpr std::chrono::microseconds shortest_sleep{20}, longest_sleep{500};
+constexpr int yields = 20;
+constexpr std::chrono::microseconds shortest_sleep{50}, longest_sleep{1000};
 
 void succeed(int code) {
   if (code != MPI_SUCCESS) throw boost::mpi::exception("MPI", code);

@@ -40,7 +40,7 @@ void expect_same_contacts(const World<D>& world, const World<D>& parts) {
     const Run_contact<D>&a = world.contacts()[i], &b = parts.contacts()[i];
     EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.body, b.body);
-    if (!a.body) EXPECT_EQ(a.particle, b.particle);
+    EXPECT_EQ(a.body ? 0 : a.particle, b.body ? 0 : b.particle);
     EXPECT_EQ(a.cell, b.cell);
     EXPECT_EQ(a.contact.rounded_time(), b.contact.rounded_time());
     EXPECT_EQ(a.contact.point, b.contact.point);

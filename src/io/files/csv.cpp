@@ -51,9 +51,9 @@ std::vector<std::string> split(const Line_reader& in) {
 
 /// Where the bytes of a part begin, of a table whose rows begin at `first`: after the end of a line.
 std::size_t begin_of_part(std::string_view text, std::size_t first, std::size_t number, std::size_t count) {
-  const std::size_t about = first + (text.size() - first) / count * number;
-  if (number == 0 || about <= first) return first;
   if (number == count) return text.size();
+  const std::size_t about = first + (text.size() - first) / count * number;
+  if (about <= first) return first;
   const std::size_t end = text.find('\n', about - 1);
   return end == std::string_view::npos ? text.size() : end + 1;
 }
