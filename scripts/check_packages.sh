@@ -66,7 +66,7 @@ for part in gmsh vtk; do
 done
 if [ -e "$root$(package cellwalk-mpi)" ]; then
   install "the module of MPI is installed" "$(package cellwalk-mpi)"
-  inside "two processes share a query" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+  inside "two processes share a query" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm=isolated \
     sh -c 'cellwalk generate vessel -o /tmp/vessel.ovm && mpirun --oversubscribe -n 2 cellwalk query /tmp/vessel.ovm \
            /examples/data/moves.csv -o /tmp/two.csv && cellwalk query /tmp/vessel.ovm /examples/data/moves.csv -o /tmp/one.csv &&
            cmp /tmp/one.csv /tmp/two.csv'

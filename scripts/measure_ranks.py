@@ -42,7 +42,7 @@ def timed(words, ranks, mpirun, folder):
     command = [sys.executable, __file__, "--as-rank", note, *words]
     if ranks > 1:
         command = [mpirun, "--oversubscribe", "-n", ranks, *command]
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_plm": "isolated",
                    "OMPI_MCA_hwloc_base_binding_policy": "none"}
     start = time.monotonic()
     subprocess.run([str(word) for word in command], cwd=folder, env=environment, check=True, stdout=subprocess.DEVNULL)

@@ -48,14 +48,14 @@ class Mpi final : public Transport {
   std::size_t rank() const override { return static_cast<std::size_t>(world_.rank()); }
   std::size_t size() const override { return static_cast<std::size_t>(world_.size()); }
 
-  void send(std::size_t to, std::string bytes) override {
+  void send(std::size_t to, Message message) override {
     while (sent_.size() >= most_sent) wait_for_first();
     Sent& sent = sent_.emplace_back();
-    sent.bytes = std::move(bytes);
-    sent.length = sent.bytes.size();
-    start(sent, to, reinterpret_cast<const char*>(&sent.length), sizeof sent.length);
-    for (std::size_t begin = 0; begin < sent.length; begin += longest_piece)
-      start(sent, to, sent.bytes.data() + begin, std::min(longest_piece, sent.length - begin));
+    sent.bytes = std::move(message.bytes);
+    sent.head = {sent.bytes.size(), message.kind};
+    start(sent, to, reinterpret_cast<const char*>(&sent.head), sizeof sent.head);
+    for (std::size_t begin = 0; begin < sent.bytes.size(); begin += longest_piece)
+      start(sent, to, sent.bytes.data() + begin, std::min(longest_piece, sent.bytes.size() - begin));
   }
 
   void drop_sent() override {
@@ -68,13 +68,13 @@ class Mpi final : public Transport {
     sent_.clear();
   }
 
-  std::string receive(std::size_t from) override {
-    std::uint64_t length = 0;
-    receive_piece(from, reinterpret_cast<char*>(&length), sizeof length);
-    std::string bytes(length, '\0');
-    for (std::size_t begin = 0; begin < length; begin += longest_piece)
-      receive_piece(from, bytes.data() + begin, std::min(longest_piece, length - begin));
-    return bytes;
+  Message receive(std::size_t from) override {
+    Head head;
+    receive_piece(from, reinterpret_cast<char*>(&head), sizeof head);
+    Message message{head.kind, std::string(head.length, '\0')};
+    for (std::size_t begin = 0; begin < head.length; begin += longest_piece)
+      receive_piece(from, message.bytes.data() + begin, std::min(longest_piece, head.length - begin));
+    return message;
   }
 
   std::string broadcast(std::string bytes) override { return broadcast(std::move(bytes), world_); }
@@ -90,10 +90,15 @@ class Mpi final : public Transport {
  private:
   static constexpr bool abort_on_exception = false;
 
-  /// A message on its way, whose bytes must not move.
-  struct Sent {
-    std::string bytes;
+  /// What goes before the bytes of a message.
+  struct Head {
     std::uint64_t length = 0;
+    Message_kind kind = Message_kind::part;
+  };
+  /// A message on its way, which must not move.
+  struct Sent {
+    Head head;
+    std::string bytes;
     std::deque<MPI_Request> requests;
   };
 

@@ -14,9 +14,6 @@
 namespace cellwalk {
 namespace {
 
-/// What a message of a rank to the first, or of the first to a rank, holds.
-enum class Message : char { part, failure, farewell };
-
 /// A number that mpirun of Open MPI sets in the environment; otherwise 0.
 long number_of_mpirun(const char* name) {
   const char* const text = std::getenv(name);
@@ -32,12 +29,6 @@ const io::Module_function& mpi_module() {
                                          [](void* found) { return description(found)->cellwalk; })
                        : io::Module_function{};
   return entry;
-}
-
-std::string with_tag(Message tag, std::string_view bytes) {
-  std::string message(1, static_cast<char>(tag));
-  message += bytes;
-  return message;
 }
 
 }  // namespace
@@ -77,17 +68,16 @@ std::vector<std::string> Ranks::gather(std::string bytes) {
 }
 
 void Ranks::gather(std::string bytes, const std::function<void(std::string)>& use) {
-  if (!is_first()) return transport_->send(0, with_tag(Message::part, bytes));
+  if (!is_first()) return transport_->send(0, {Message_kind::part, std::move(bytes)});
   use(std::move(bytes));
   for (std::size_t from = 1; from < size(); ++from) {
-    std::string message = transport_->receive(from);
-    if (message.front() == static_cast<char>(Message::failure)) {
-      Byte_reader failure(std::string_view(message).substr(1));
+    Message message = transport_->receive(from);
+    if (message.kind == Message_kind::failure) {
+      Byte_reader failure(message.bytes);
       const auto code = failure.value<Error_code>();
       throw Error(code, std::string(failure.text()));
     }
-    message.erase(0, 1);
-    use(std::move(message));
+    use(std::move(message.bytes));
   }
 }
 
@@ -112,7 +102,7 @@ void Ranks::fail(Error_code code, const std::string& message) {
   Byte_writer failure;
   failure.value(code);
   failure.text(message);
-  transport_->send(0, with_tag(Message::failure, failure.take()));
+  transport_->send(0, {Message_kind::failure, failure.take()});
   transport_->receive(0);  // the farewell; a first rank that takes notice ends this process instead
   transport_->drop_sent();
 }
@@ -123,7 +113,7 @@ void Ranks::leave() {
     transport_->receive(0);
     return;
   }
-  for (std::size_t to = 1; to < size(); ++to) transport_->send(to, with_tag(Message::farewell, {}));
+  for (std::size_t to = 1; to < size(); ++to) transport_->send(to, {Message_kind::farewell, {}});
 }
 
 bool is_later_rank() {

@@ -4,12 +4,20 @@
 #define CELLWALK_RANKS_TRANSPORT_H
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 namespace cellwalk {
+
+/// What a message of a rank to the first, or of the first to a rank, holds.
+enum class Message_kind : std::uint64_t { part, failure, farewell };
+struct Message {
+  Message_kind kind = Message_kind::part;
+  std::string bytes;
+};
 
 /// Messages between ranks. Whoever waits sleeps in between, and calls `check`.
 class Transport {
@@ -22,12 +30,12 @@ class Transport {
   virtual std::size_t rank() const = 0;
   virtual std::size_t size() const = 0;
 
-  /// Sends bytes, in the order of calls. Returns at once, unless several earlier ones are still on their way.
-  virtual void send(std::size_t to, std::string bytes) = 0;
+  /// Sends a message, in the order of calls. Returns at once, unless many earlier ones are still on their way.
+  virtual void send(std::size_t to, Message message) = 0;
   /// Gives up what was sent, and nobody will receive.
   virtual void drop_sent() = 0;
-  /// The next bytes that a rank sent to this one.
-  virtual std::string receive(std::size_t from) = 0;
+  /// The next message that a rank sent to this one.
+  virtual Message receive(std::size_t from) = 0;
   /// The bytes of the first rank, on every rank.
   virtual std::string broadcast(std::string bytes) = 0;
   /// The same among the ranks that share the memory of a node.

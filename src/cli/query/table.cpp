@@ -161,8 +161,8 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
     write_answers(table, first, snapshot, rows, answers);
     Byte_writer bytes;
     answered.write(bytes);
-    bytes.text(text);
     ranks.gather(bytes.take());
+    ranks.gather(std::move(text));
     return;
   }
   if (wanted) {
@@ -177,8 +177,8 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
     if (of_rank.empty()) return;  // that of the first itself
     Byte_reader bytes(of_rank);
     answered.add(bytes);
-    files->answers->write(bytes.text());
   });
+  ranks.gather({}, [&](const std::string& text) { files->answers->write(text); });
   report(options, *files, answered);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/mapped_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -91,7 +92,12 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text, const
 }
 
 Csv_table Csv_table::read(const std::filesystem::path& path, const Table_part& part) {
-  return parse(path.string(), load(path), part);
+  if (part.count == 1) return parse(path.string(), load(path));
+  // Of a part, the other pages of the file are not copied.
+  const Mapped_file file = map_file(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+  return is_gzip(bytes) ? parse(path.string(), unpack(path.string(), std::string(bytes)), part)
+                        : parse(path.string(), bytes, part);
 }
 
 std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {
