@@ -31,6 +31,19 @@ if(CELLWALK_WITH_VTK)
   message(STATUS "VTK: ${VTK_FOUND} ${VTK_VERSION}")
 endif()
 
+set(CELLWALK_HAS_MPI OFF)
+if(CELLWALK_WITH_MPI)
+  find_package(MPI QUIET COMPONENTS CXX)
+  if(MPI_CXX_FOUND)
+    find_package(Boost 1.74 QUIET OPTIONAL_COMPONENTS mpi)  # BSL: Boost.MPI, on Open MPI (BSD)
+  endif()
+  # Which processes mpirun starts, only Open MPI tells by the variables that are looked at.
+  if(TARGET Boost::mpi AND MPI_CXX_LIBRARIES MATCHES "openmpi")
+    set(CELLWALK_HAS_MPI ON)
+  endif()
+  message(STATUS "MPI: ${CELLWALK_HAS_MPI} ${MPI_CXX_VERSION}")
+endif()
+
 # The system's Python is the one whose packages the system's pybind11 and NumPy belong to.
 if(CELLWALK_WITH_PYTHON)
   if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)

@@ -3,6 +3,7 @@
 #   cellwalk                 tools    the program
 #   libcellwalk-dev          dev      headers and libraries of the core, which need no reader's libraries
 #   cellwalk-readers         readers  modules that the program, the Python module and programs of users load to read by Gmsh and VTK
+#   cellwalk-mpi             mpi      the module by which the program shares its work among the processes of mpirun
 #   libcellwalk-io-dev       io       those of io
 #   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
 #   python3-cellwalk         python   the Python module
@@ -43,6 +44,14 @@ if(TARGET Gmsh::Gmsh OR TARGET VTK::IOXML)
   set(CPACK_COMPONENT_READERS_DESCRIPTION "Readers of meshes by Gmsh and VTK, for Cellwalk")
 endif()
 
+if(TARGET cellwalk_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME cellwalk-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin)
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "Runs of Cellwalk shared among the processes of mpirun (Open MPI)")
+endif()
+
 list(APPEND CPACK_COMPONENTS_ALL io)
 set(io_depends "libcellwalk-dev (= ${PROJECT_VERSION})" zlib1g-dev ${readers})
 list(JOIN io_depends ", " CPACK_DEBIAN_IO_PACKAGE_DEPENDS)
@@ -63,12 +72,16 @@ set(licences dev io meshing)
 if(readers)
   list(APPEND licences readers)
 endif()
+if(TARGET cellwalk_mpi)
+  list(APPEND licences mpi)
+endif()
 if(TARGET cellwalk_cli)
   list(APPEND CPACK_COMPONENTS_ALL tools)
   list(APPEND licences tools)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME cellwalk)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${readers}")
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS cellwalk-mpi)
   set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
 endif()
 if(TARGET cellwalk_python)
@@ -92,7 +105,7 @@ foreach(component ${licences})
   set(licence LICENSE)
   if(component STREQUAL readers AND TARGET Gmsh::Gmsh)
     set(licence COPYING.GPL)
-  elseif(NOT component MATCHES "^(dev|io|readers)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
+  elseif(NOT component MATCHES "^(dev|io|readers|mpi)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
     set(licence COPYING.GPL)
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} RENAME copyright COMPONENT ${component}

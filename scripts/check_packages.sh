@@ -64,6 +64,13 @@ cat "$log"
 for part in gmsh vtk; do
   if grep -q "$part *no" "$log"; then echo "packages: the program does not find its reader for $part" >&2; exit 1; fi
 done
+if [ -e "$root$(package cellwalk-mpi)" ]; then
+  install "the module of MPI is installed" "$(package cellwalk-mpi)"
+  inside "two processes share a query" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm=isolated \
+    sh -c 'cellwalk generate vessel -o /tmp/vessel.ovm && mpirun --oversubscribe -n 2 cellwalk query /tmp/vessel.ovm \
+           /examples/data/moves.csv -o /tmp/two.csv && cellwalk query /tmp/vessel.ovm /examples/data/moves.csv -o /tmp/one.csv &&
+           cmp /tmp/one.csv /tmp/two.csv'
+fi
 inside "it imports a surface" cellwalk import /examples/data/torus.off -o /tmp/torus.ovm
 inside "it runs a scene" cellwalk run /examples/data/rooms.json -o /tmp/rooms --steps 20
 if [ -e "$root$(package python3-cellwalk)" ]; then

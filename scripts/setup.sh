@@ -4,7 +4,7 @@
 #
 #   scripts/setup.sh [--for demo|test|ci|dev|package|peers|paper|docs] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, Python, Node.js, Chromium, the test tools and clang-format (default)
+#   demo  build and run the program            test   also Gmsh, VTK, MPI, Python, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   as ci                                peers  demo, the libraries that experiments compare with, and gnuplot
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
 #   ci    test, clang, clang-tidy, ccache and valgrind   package  build the Debian packages, and a clean root to try them in
@@ -15,6 +15,7 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
       zlib1g-dev libxxhash-dev)
 meshing=(libtet1.5-dev)
 io=(libgmsh-dev libvtk9-dev)
+mpi=(libboost-mpi-dev libopenmpi-dev openmpi-bin) # runs shared among processes
 python=(pybind11-dev python3-dev python3-numpy)
 cluster=(python3-distributed) # for the example of Dask
 tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
@@ -40,9 +41,9 @@ done
 packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
-  test) packages+=("${io[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}") ;;
-  ci | dev) packages+=("${io[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
-  package) packages+=("${io[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
+  test) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}") ;;
+  ci | dev) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
+  package) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
   docs) packages=("${documentation[@]}") ;;

@@ -10,13 +10,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "common/manifest.h"
+#include "common/shared.h"
 #include "failures.h"
 #include "flights.h"
 #include "sweeps.h"
@@ -41,7 +40,6 @@ struct Options {
 /// Runs the parts that are wanted; returns how often the exact kernels were wrong.
 std::uint64_t run(const Options& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
-  std::filesystem::create_directories(options.folder);
   nlohmann::ordered_json manifest = experiments::manifest(options.commit);
   manifest["seed"] = options.seed;
   std::uint64_t wrong = 0;
@@ -55,7 +53,7 @@ std::uint64_t run(const Options& options) {
   if (options.runs("sweeps")) note("sweeps", run_sweeps(options.with(options.sweeps)));
   if (options.runs("flights")) note("flights", run_flights(options.with(options.moves)));
   if (options.runs("failures")) manifest["failures"] = run_failures(options.with(options.motions));
-  if (options.runs("times")) run_times(options.with(options.timed));
+  if (options.runs("times") && experiments::ranks().is_first()) run_times(options.with(options.timed));
   io::write_json(std::filesystem::path(options.folder) / "manifest.json", manifest);
   return wrong;
 }
@@ -63,6 +61,7 @@ std::uint64_t run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  experiments::silence_later_ranks();
   CLI::App app("Counts wrong walks and sweeps of exact and rounded kernels");
   Options options;
   app.add_option("-o,--out", options.folder, "folder for the tables and manifest.json")->required();
@@ -79,10 +78,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "tables do not depend on it")->check(CLI::Range(1, 1024));
   app.add_option("--commit", options.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
-  try {
+  return experiments::run_on_ranks("exact_versus_float", options.folder, [&](const auto& folder) {
+    options.folder = folder.string();
     return run(options) == 0 ? 0 : 1;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "exact_versus_float: {}\n", error.what());
-    return 1;
-  }
+  });
 }

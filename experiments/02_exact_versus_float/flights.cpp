@@ -4,7 +4,6 @@
 #include <cellwalk/internal/io/csv.h>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "common/confidence.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "failures.h"
 #include "tally.h"
 
@@ -172,13 +172,11 @@ void write_row(io::Csv_writer& table, int dimension, const char* kernel, const F
 Exact_summary run_flights(const Run_options& options) {
   const auto in_plane = kernels<2>();
   const auto in_space = kernels<3>();
-  std::array<Flown, 2 * kernel_count> flown;
-  tbb::parallel_for(std::size_t{0}, 2 * kernel_count, [&](std::size_t i) {
-    if (i < kernel_count)
-      flown[i] = Flight_trial<2>(in_plane[i], options).run(options.count);
-    else
-      flown[i] = Flight_trial<3>(in_space[i - kernel_count], options).run(options.count);
+  const auto flown = experiments::shared_trials(2 * kernel_count, [&](std::size_t i) {
+    return i < kernel_count ? Flight_trial<2>(in_plane[i], options).run(options.count)
+                            : Flight_trial<3>(in_space[i - kernel_count], options).run(options.count);
   });
+  experiments::gather_files(options.folder, "escape_");
   io::Csv_writer table(
       options.folder / "flights.csv",
       {"dimension", "kernel", "moves", "first_escape", "escapes", "escapes_per_million", "low", "high",

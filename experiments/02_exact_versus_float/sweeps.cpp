@@ -6,13 +6,13 @@
 #include <cellwalk/internal/io/csv.h>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 
 #include "common/confidence.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "edge/sweep_judge.h"
 #include "grid.h"
 #include "kernels.h"
@@ -164,12 +164,11 @@ class Sweep_trial {
 template <int D>
 Counts sweep_at(const Grid_point& point, const Run_options& options) {
   const std::uint64_t worlds = (options.count + sweeps_per_world - 1) / sweeps_per_world;
-  std::vector<Counts> counts(worlds);
-  tbb::parallel_for(std::uint64_t{0}, worlds, [&](std::uint64_t w) {
+  const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
     const std::uint64_t seed = experiments::part_seed(
         options.seed, fmt::format("sweeps {} {} {}", D, point.variable, point.value), w);
-    counts[w] = Sweep_trial<D>(point.setting, seed)
-                    .run(std::min(sweeps_per_world, options.count - w * sweeps_per_world));
+    return Sweep_trial<D>(point.setting, seed)
+        .run(std::min(sweeps_per_world, options.count - w * sweeps_per_world));
   });
   Counts sum;
   for (const Counts& c : counts) sum += c;

@@ -4,13 +4,13 @@
 #include <cellwalk/internal/io/csv.h>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 
 #include "common/confidence.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "grid.h"
 #include "kernels.h"
 #include "scene.h"
@@ -74,12 +74,11 @@ Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t m
 template <int D>
 Counts walk_at(const Grid_point& point, const Run_options& options) {
   const std::uint64_t worlds = (options.count + motions_per_world - 1) / motions_per_world;
-  std::vector<Counts> counts(worlds);
-  tbb::parallel_for(std::uint64_t{0}, worlds, [&](std::uint64_t w) {
+  const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
     const std::uint64_t seed = experiments::part_seed(
         options.seed, fmt::format("walks {} {} {}", D, point.variable, point.value), w);
-    counts[w] = walk_in_world<D>(point.setting, seed,
-                                 std::min(motions_per_world, options.count - w * motions_per_world));
+    return walk_in_world<D>(point.setting, seed,
+                            std::min(motions_per_world, options.count - w * motions_per_world));
   });
   Counts sum;
   for (const Counts& c : counts) sum += c;

@@ -5,7 +5,9 @@
 #ifndef CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FACE_TRIALS_H
 
+#include <concepts>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace cellwalk::small_obstacles {
@@ -41,6 +43,17 @@ struct Spike_tally {
   std::uint64_t pierced_with_faces = 0;  ///< with faces swept: the spike in the face; none
   std::uint64_t stopped_by_face = 0;     ///< with faces swept: by the face itself
 };
+
+/// All members, for experiments::shared_trials().
+template <class Archive, class Tally>
+void members(Archive& archive, Tally& tally) requires std::same_as<std::remove_const_t<Tally>, Spike_tally> {
+  archive(tally.bound);
+  archive(tally.by_edges);
+  archive(tally.not_pierced);
+  archive(tally.not_stopped);
+  archive(tally.pierced_with_faces);
+  archive(tally.stopped_by_face);
+}
 
 /// Cost: some ms a face.
 Spike_tally run_spikes(const Spike_setting& setting);

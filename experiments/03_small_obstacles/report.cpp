@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include "common/confidence.h"
 #include "common/manifest.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "face_trials.h"
 #include "sweep_trials.h"
 
@@ -72,8 +72,7 @@ Rows plan_rows(const Plan& plan) {
 
 template <class Setting, class Tally, class Run>
 void run_rows(const std::vector<Setting>& settings, std::vector<Tally>& tallies, Run run) {
-  tallies.resize(settings.size());
-  tbb::parallel_for(std::size_t{0}, settings.size(), [&](std::size_t i) { tallies[i] = run(settings[i]); });
+  tallies = experiments::shared_trials(settings.size(), [&](std::size_t i) { return run(settings[i]); });
 }
 
 void write_sweeps(const Rows& rows, const std::filesystem::path& folder) {
@@ -178,7 +177,7 @@ void run(const Plan& plan, const std::filesystem::path& folder) {
   write_costs(rows, folder);
   write_spikes(rows, folder);
   write_floating(rows, folder);
-  if (plan.rounds > 0) {
+  if (plan.rounds > 0 && experiments::ranks().is_first()) {
     for (std::size_t i = 0; i < rows.sweeps.size(); ++i)
       time_sweeps(rows.sweep_settings[i], plan.rounds, rows.sweeps[i]);
     write_timings(rows, folder);

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 
 #include "common/manifest.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "search_trials.h"
 
 namespace cellwalk::contact_search {
@@ -118,17 +118,20 @@ void write_timings(const Tallies& tallies, const std::vector<Search>& searches,
 
 void run(const Plan& plan, const std::filesystem::path& folder) {
   const std::vector<Search> searches = all_searches();
-  Tallies tallies(std::size(worlds));
-  const int threads = plan.rounds > 0 ? 1 : plan.threads;
+  const bool is_timed = plan.rounds > 0;
+  if (experiments::is_idle(is_timed)) return;
+  Tallies tallies;
   {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    tbb::parallel_for(std::size_t{0}, tallies.size(), [&](std::size_t w) {
+                                    is_timed ? 1 : static_cast<std::size_t>(plan.threads));
+    const auto trial = [&](std::size_t w) {
       const std::string_view name = contact_search::name_of(worlds[w]);
-      tallies[w] = contact_search::run(worlds[w], searches,
-                                       {experiments::part_seed(plan.seed, name),
-                                        plan.quick ? quick_contacts : full_contacts, plan.rounds});
-    });
+      return contact_search::run(worlds[w], searches,
+                                 {experiments::part_seed(plan.seed, name),
+                                  plan.quick ? quick_contacts : full_contacts, plan.rounds});
+    };
+    tallies = experiments::shared_trials(
+        std::size(worlds), trial, is_timed ? experiments::Trials::timed : experiments::Trials::on_threads);
   }
   write_errors(tallies, searches, folder);
   write_costs(tallies, searches, folder);

@@ -6,8 +6,10 @@
 
 #include <cellwalk/edge/sweep.h>
 
+#include <concepts>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace cellwalk::contact_search {
@@ -46,6 +48,17 @@ struct Search_tally {
   Edge_counts counts;                ///< of the sweeps with the search
   double microseconds = 0;  ///< a contact, with the sweep that finds it; median of the rounds, 0 if not timed
 };
+
+/// All members, for experiments::shared_trials().
+template <class Archive, class Tally>
+void members(Archive& archive, Tally& tally) requires std::same_as<std::remove_const_t<Tally>, Search_tally> {
+  archive(tally.errors);
+  archive(tally.same_time);
+  archive(tally.late);
+  archive(tally.same_feature);
+  archive(tally.counts);
+  archive(tally.microseconds);
+}
 
 struct Trial_options {
   std::uint64_t seed = 1;

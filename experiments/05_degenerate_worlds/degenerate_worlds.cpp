@@ -10,12 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <exception>
+#include <filesystem>
 #include <string>
 
 #include "02_exact_versus_float/kernels.h"
@@ -24,6 +22,7 @@
 #include "common/confidence.h"
 #include "common/manifest.h"
 #include "common/seeds.h"
+#include "common/shared.h"
 #include "kinds.h"
 
 namespace cellwalk::degenerate_worlds {
@@ -119,11 +118,10 @@ Counts walk_in_world(const Family& family, std::uint64_t seed, std::uint64_t mot
 template <int D>
 Counts walk_family(const Family& family, std::uint64_t seed, std::uint64_t motions) {
   const std::uint64_t worlds = (motions + motions_per_world - 1) / motions_per_world;
-  std::vector<Counts> counts(worlds);
-  tbb::parallel_for(std::uint64_t{0}, worlds, [&](std::uint64_t w) {
-    counts[w] = walk_in_world<D>(
-        family, experiments::part_seed(seed, fmt::format("degenerate {} {}", D, name(family)), w),
-        std::min(motions_per_world, motions - w * motions_per_world));
+  const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
+    return walk_in_world<D>(family,
+                            experiments::part_seed(seed, fmt::format("degenerate {} {}", D, name(family)), w),
+                            std::min(motions_per_world, motions - w * motions_per_world));
   });
   Counts sum;
   for (const Counts& c : counts) sum += c;
@@ -163,7 +161,6 @@ void run_dimension(std::uint64_t seed, std::uint64_t motions, Tables& tables) {
 /// Returns how often the exact kernels, or the touch policy, were wrong.
 std::uint64_t run(const std::filesystem::path& folder, std::uint64_t seed, std::uint64_t motions,
                   const std::string& commit) {
-  std::filesystem::create_directories(folder);
   std::vector<std::string> columns{"dimension", "world",   "placement", "motion", "kernel",
                                    "motions",   "blocked", "wrong",     "low",    "high"};
   columns.insert(columns.end(), exact_float::outcome_names.begin() + 1, exact_float::outcome_names.end());
@@ -191,6 +188,7 @@ std::uint64_t run(const std::filesystem::path& folder, std::uint64_t seed, std::
 }  // namespace cellwalk::degenerate_worlds
 
 int main(int argc, char** argv) {
+  cellwalk::experiments::silence_later_ranks();
   CLI::App app("Walks degenerate motions in degenerate worlds by exact and rounded kernels");
   std::string folder, commit = "unknown";
   std::uint64_t seed = 1, motions = 100;
@@ -201,11 +199,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "tables do not depend on it")->check(CLI::Range(1, 1024));
   app.add_option("--commit", commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
-  try {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return cellwalk::degenerate_worlds::run(folder, seed, motions, commit) == 0 ? 0 : 1;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "degenerate_worlds: {}\n", error.what());
-    return 1;
-  }
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return cellwalk::experiments::run_on_ranks("degenerate_worlds", folder, [&](const auto& of_rank) {
+    return cellwalk::degenerate_worlds::run(of_rank, seed, motions, commit) == 0 ? 0 : 1;
+  });
 }

@@ -4,9 +4,11 @@
 #ifndef CELLWALK_EXPERIMENTS_REAL_SCENES_MEASURE_H
 #define CELLWALK_EXPERIMENTS_REAL_SCENES_MEASURE_H
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "peers/peer.h"
@@ -24,6 +26,22 @@ struct Row {
   std::vector<double> rounds;   ///< nanoseconds a move of a vertex
   std::vector<double> step_us;  ///< microseconds of each step, the least of all rounds
 };
+
+/// All members, for experiments::shared_trials().
+template <class Archive, class Value>
+void members(Archive& archive, Value& row) requires std::same_as<std::remove_const_t<Value>, Row> {
+  archive(row.method);
+  archive(row.library);
+  archive(row.is_exact);
+  archive(row.is_reproducible);
+  archive(row.margin);
+  experiments::members_of_build(archive, row.build);
+  archive(row.missed);
+  archive(row.reported);
+  archive(row.counts);
+  archive(row.rounds);
+  archive(row.step_us);
+}
 
 struct Measure_options {
   int rounds = 7;  ///< after one to warm up; 0: no times are taken

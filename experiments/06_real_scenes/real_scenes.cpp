@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "common/order_statistics.h"
+#include "common/shared.h"
 #include "report.h"
 #include "scenes.h"
 
@@ -37,20 +37,24 @@ Result measure_scene(const Scene_entry& entry, const Measure_options& options) {
                 static_cast<std::uint64_t>(std::ranges::count(scene.motion.blocked, 1)),
                 scene.motion.step_length,
                 {}};
+  result.rows = measure({&scene.soup, &mesh}, scene.motion, options);
+  return result;
+}
+
+void print(const Result& result) {
   fmt::print("{}: {} cells, {} wall triangles, {} moves, {} blocked\n", result.scene, result.cells,
              result.walls, result.moves(), result.blocked);
-  result.rows = measure({&scene.soup, &mesh}, scene.motion, options);
   for (const Row& row : result.rows)
     fmt::print("  {:<26}{:>4}{:>10.1f} ns a move {:>9.1f} us p99 a step {:>7} missed {:>7} false\n",
                row.method, row.margin, experiments::median(row.rounds),
                experiments::quantile(row.step_us, 0.99), row.missed, row.reported);
   std::fflush(stdout);
-  return result;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  experiments::silence_later_ranks();
   CLI::App app("Replays recorded motions of real scenes with all methods");
   std::string list, folder, scenes, commit = "unknown";
   Measure_options options;
@@ -64,17 +68,29 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", scenes, "scenes whose names match a regular expression");
   app.add_option("--commit", commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
-  try {
-    std::filesystem::create_directories(folder);
+  return experiments::run_on_ranks("real_scenes", folder, [&](const std::filesystem::path& of_rank) {
+    const bool is_timed = options.rounds > 0;
+    if (experiments::is_idle(is_timed)) return 0;
+    std::vector<Scene_entry> entries = read_scene_list(list);
+    std::erase_if(entries, [pattern = std::regex(scenes)](const Scene_entry& entry) {
+      return !std::regex_search(entry.name, pattern);
+    });
+    // While all is on this rank, what is done is printed and written before the next scene begins.
+    const bool is_alone = is_timed || experiments::ranks().is_alone();
     std::vector<Result> results;
-    for (const Scene_entry& entry : read_scene_list(list)) {
-      if (!std::regex_search(entry.name, std::regex(scenes))) continue;
-      results.push_back(measure_scene(entry, options));
-      write_report(folder, results, options, commit);
-    }
+    const auto trial = [&](std::size_t i) {
+      Result result = measure_scene(entries[i], options);
+      if (!is_alone) return result;
+      print(result);
+      results.push_back(result);
+      write_report(of_rank, results, options, commit);
+      return result;
+    };
+    const auto all = experiments::shared_trials(
+        entries.size(), trial, is_timed ? experiments::Trials::timed : experiments::Trials::in_order);
+    if (is_alone) return 0;
+    for (const Result& result : all) print(result);
+    write_report(of_rank, all, options, commit);
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "real_scenes: {}\n", error.what());
-    return 1;
-  }
+  });
 }

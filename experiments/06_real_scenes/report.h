@@ -4,8 +4,10 @@
 #ifndef CELLWALK_EXPERIMENTS_REAL_SCENES_REPORT_H
 #define CELLWALK_EXPERIMENTS_REAL_SCENES_REPORT_H
 
+#include <concepts>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "measure.h"
@@ -21,6 +23,17 @@ struct Result {
 
   std::uint64_t moves() const { return vertices * steps; }
 };
+
+/// All members, for experiments::shared_trials().
+template <class Archive, class Value>
+void members(Archive& archive, Value& value) requires std::same_as<std::remove_const_t<Value>, Result> {
+  archive(value.scene);
+  for (auto* count : {&value.cells, &value.walls, &value.bodies, &value.vertices, &value.edges, &value.steps,
+                      &value.blocked})
+    archive(*count);
+  archive(value.step_length);
+  archive(value.rows);
+}
 
 /// Writes the files into a folder, which must exist.
 void write_report(const std::filesystem::path& folder, const std::vector<Result>& results,

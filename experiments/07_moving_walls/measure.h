@@ -3,11 +3,13 @@
 #ifndef CELLWALK_EXPERIMENTS_MOVING_WALLS_MEASURE_H
 #define CELLWALK_EXPERIMENTS_MOVING_WALLS_MEASURE_H
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "common/peers/measured_build.h"
@@ -55,6 +57,34 @@ struct Result {
   Judged judged;
   std::vector<Row> rows;
 };
+
+/// All members, for experiments::shared_trials().
+template <class Archive, class Value>
+void members(Archive& archive, Value& times) requires std::same_as<std::remove_const_t<Value>, Times> {
+  archive(times.update);
+  archive(times.query);
+  archive(times.answer);
+}
+template <class Archive, class Value>
+void members(Archive& archive, Value& row) requires std::same_as<std::remove_const_t<Value>, Row> {
+  archive(row.method);
+  archive(row.library);
+  archive(row.arithmetic);
+  archive(row.tally);
+  archive(row.times);
+  archive(row.pairs);
+  experiments::members_of_build(archive, row.build);
+}
+template <class Archive, class Value>
+void members(Archive& archive, Value& result) requires std::same_as<std::remove_const_t<Value>, Result> {
+  archive(result.scene);
+  archive(result.movers);
+  for (auto* count : {&result.cells, &result.points, &result.walls, &result.bodies, &result.edges,
+                      &result.steps, &result.point_moves, &result.moves, &result.dropped})
+    archive(*count);
+  archive(result.judged);
+  archive(result.rows);
+}
 
 /// What answers of a method are changed before they are judged: for tests of the judge.
 enum class Spoiled : std::uint8_t {

@@ -8,17 +8,16 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <regex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/order_statistics.h"
+#include "common/shared.h"
 #include "report.h"
 
 namespace {
@@ -55,32 +54,62 @@ void print(const Result& r) {
   std::fflush(stdout);
 }
 
-void run(const Arguments& arguments) {
-  // All methods use one thread, so that their processor times can be compared.
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  std::vector<Result> results;
+/// A scene to be measured.
+struct Wanted {
+  Size size;
+  Movers movers;
+  std::string name;
+};
+
+std::vector<Wanted> wanted_scenes(const Arguments& arguments) {
   const auto sizes =
       arguments.is_quick ? std::span<const Size>(quick_sizes) : std::span<const Size>(full_sizes);
-  for (const Size& size : sizes) {
-    const Vessel_options vessel{.generations = 1, .cell_size = size.cell_size};
-    std::optional<Cell_soup<3>> soup;
+  std::vector<Wanted> scenes;
+  for (const Size& size : sizes)
     for (const Movers movers : all_movers) {
       const std::string name = fmt::format("{}_{}", size.name, name_of(movers));
-      if (!std::regex_search(name, std::regex(arguments.scenes))) continue;
-      if (!soup) soup = branching_vessel(vessel);
-      Measure_options options = arguments.options;
-      options.judged = size.judged;
-      results.push_back(measure([&] { return std::make_unique<Scene>(*soup, vessel, movers); }, name,
-                                name_of(movers), options));
-      print(results.back());
-      write_report(arguments.folder, results, arguments.options, arguments.commit);
+      if (std::regex_search(name, std::regex(arguments.scenes))) scenes.push_back({size, movers, name});
     }
-  }
+  return scenes;
+}
+
+Result measure_scene(const Wanted& wanted, const Arguments& arguments) {
+  const Vessel_options vessel{.generations = 1, .cell_size = wanted.size.cell_size};
+  const Cell_soup<3> soup = branching_vessel(vessel);
+  Measure_options options = arguments.options;
+  options.judged = wanted.size.judged;
+  return measure([&] { return std::make_unique<Scene>(soup, vessel, wanted.movers); }, wanted.name,
+                 name_of(wanted.movers), options);
+}
+
+void run(const Arguments& arguments, const std::filesystem::path& folder) {
+  if (experiments::is_idle(arguments.options.is_timed)) return;
+  // All methods use one thread, so that their processor times can be compared.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const std::vector<Wanted> scenes = wanted_scenes(arguments);
+  // While all is on this rank, what is done is printed and written before the next scene begins.
+  const bool is_alone = arguments.options.is_timed || experiments::ranks().is_alone();
+  std::vector<Result> results;
+  const auto trial = [&](std::size_t i) {
+    Result result = measure_scene(scenes[i], arguments);
+    if (!is_alone) return result;
+    print(result);
+    results.push_back(result);
+    write_report(folder, results, arguments.options, arguments.commit);
+    return result;
+  };
+  const auto all = experiments::shared_trials(
+      scenes.size(), trial,
+      arguments.options.is_timed ? experiments::Trials::timed : experiments::Trials::in_order);
+  if (is_alone) return;
+  for (const Result& result : all) print(result);
+  write_report(folder, all, arguments.options, arguments.commit);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  experiments::silence_later_ranks();
   CLI::App app("Moves walls among bodies, and asks all methods what they pass through");
   Arguments arguments;
   const std::map<std::string, Spoiled> spoiled{{"hits", Spoiled::hits}, {"boxes", Spoiled::boxes}};
@@ -93,14 +122,10 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(spoiled));
   app.add_option("--commit", arguments.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
-  try {
-    arguments.options.is_timed = !arguments.is_untimed;
-    arguments.options.steps = arguments.is_quick ? quick_steps : full_steps;
-    std::filesystem::create_directories(arguments.folder);
-    run(arguments);
+  arguments.options.is_timed = !arguments.is_untimed;
+  arguments.options.steps = arguments.is_quick ? quick_steps : full_steps;
+  return experiments::run_on_ranks("moving_walls", arguments.folder, [&](const auto& folder) {
+    run(arguments, folder);
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "moving_walls: {}\n", error.what());
-    return 1;
-  }
+  });
 }

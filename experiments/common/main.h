@@ -4,14 +4,12 @@
 #define CELLWALK_EXPERIMENTS_COMMON_MAIN_H
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 
 #include "plan.h"
+#include "shared.h"
 
 namespace cellwalk::experiments {
 
@@ -21,9 +19,10 @@ struct Descriptions {
 };
 
 /// The program PROGRAM -o DIR [--quick] [--threads N] [--rounds N] [--seed N] [--commit NAME]: makes the
-/// folder and runs the plan, run(plan, folder). Returns its exit code; a failure is printed.
+/// folder and runs the plan, run(plan, folder), on every rank. Returns its exit code; a failure is printed.
 template <class Run>
 int run_program(int argc, char** argv, const std::string& name, const Descriptions& descriptions, Run run) {
+  silence_later_ranks();
   CLI::App app(descriptions.program);
   std::string folder;
   Plan plan;
@@ -34,14 +33,10 @@ int run_program(int argc, char** argv, const std::string& name, const Descriptio
   app.add_option("--seed", plan.seed, "of everything random");
   app.add_option("--commit", plan.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
-  try {
-    std::filesystem::create_directories(folder);
-    run(plan, std::filesystem::path(folder));
+  return run_on_ranks(name, folder, [&](const std::filesystem::path& of_rank) {
+    run(plan, of_rank);
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
-    return 1;
-  }
+  });
 }
 
 }  // namespace cellwalk::experiments

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The program: parses the command line, runs one command, turns exceptions into one line and an exit code.
 #include <cellwalk/internal/io/output.h>
+#include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ namespace {
 
 using cellwalk::Error;
 using cellwalk::Error_code;
+using cellwalk::Ranks;
 
 /// Removes unfinished files when the program is interrupted.
 void discard_and_stop(int signal) {
@@ -56,10 +58,14 @@ std::string with_short_words(std::string message, std::span<char* const> words, 
   return message;
 }
 
-int fail(Error_code code, const std::string& message) {
-  std::fflush(stdout);
-  std::fprintf(stderr, "cellwalk: %s\n", message.substr(0, message.find('\n')).c_str());
-  return static_cast<int>(code);
+/// Prints an error, once for all ranks, and ends them.
+int fail(Ranks& ranks, Error_code code, const std::string& message) {
+  if (ranks.is_first()) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "cellwalk: %s\n", message.substr(0, message.find('\n')).c_str());
+  }
+  ranks.fail(code, message);
+  return ranks.is_first() ? static_cast<int>(code) : EXIT_SUCCESS;
 }
 
 /// The error in a command line. An unknown word explains more than an argument that is missing because of it.
@@ -114,18 +120,21 @@ void add_log(CLI::App& app, Log_options& log) {
   }
 }
 
-int run(const cellwalk::cli::Action& action, std::span<char* const> words) {
+int run(Ranks& ranks, const cellwalk::cli::Action& action, std::span<char* const> words) {
   try {
-    action();
+    // mpirun gives it to the first rank only.
+    if (std::ranges::any_of(words, cellwalk::names_standard_input)) share_standard_input(ranks);
+    action(ranks);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw Error(Error_code::other, "standard output cannot be written");
+    ranks.leave();
     return EXIT_SUCCESS;
   } catch (const Error& error) {
-    return fail(error.code(), with_short_words(error.what(), words, error.code()));
+    return fail(ranks, error.code(), with_short_words(error.what(), words, error.code()));
   } catch (const std::bad_alloc&) {
-    return fail(Error_code::other, "out of memory: use a smaller input or a larger machine");
+    return fail(ranks, Error_code::other, "out of memory: use a smaller input or a larger machine");
   } catch (const std::exception& error) {
-    return fail(Error_code::other, error.what());
+    return fail(ranks, Error_code::other, error.what());
   }
 }
 
@@ -137,8 +146,15 @@ int main(int argc, char** argv) {
   // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
+  Ranks ranks;
+  try {
+    ranks = Ranks::join();
+  } catch (const std::exception& error) {
+    if (!cellwalk::is_later_rank()) return fail(ranks, Error_code::other, error.what());
+    return static_cast<int>(Error_code::other);
+  }
   if (const std::string problem = empty_word(words); !problem.empty())
-    return fail(Error_code::usage, problem + "; see cellwalk --help");
+    return fail(ranks, Error_code::usage, problem + "; see cellwalk --help");
 
   CLI::App app{"Exact, fast contact detection in convex cell complexes.", "cellwalk"};
   add_version(app);
@@ -166,16 +182,19 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    return run([&] { app.exit(help_or_version); }, words);
+    return run(
+        ranks, [&] { app.exit(help_or_version); }, words);
   } catch (const CLI::ParseError& error) {
-    return fail(Error_code::usage, with_short_words(explain(app, error), words, Error_code::usage));
+    return fail(ranks, Error_code::usage, with_short_words(explain(app, error), words, Error_code::usage));
   } catch (const Error& error) {  // --version --json FILE
-    return fail(error.code(), error.what());
+    return fail(ranks, error.code(), error.what());
   }
   std::optional<Work_log> work_log;
-  const auto logged = [&] {
-    if (!log.file.empty()) work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
-    action();
+  const auto logged = [&](Ranks& all) {
+    // What all do is said by the first.
+    if (!log.file.empty() && !is_later_rank())
+      work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
+    action(all);
   };
-  return run(logged, words);
+  return run(ranks, logged, words);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/json_file.h>
+#include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
@@ -34,6 +35,8 @@ std::vector<Part> parts() {
                         {"tetgen", mesher.tetgen, "", "tetrahedra that keep a surface exactly (AGPL)"}};
   for (const io::Build_feature& feature : io::build_features())
     all.push_back({feature.name, feature.present, feature.version, feature.purpose});
+  const std::string mpi = mpi_version();
+  all.push_back({"mpi", !mpi.empty(), mpi, "work shared among the processes of mpirun (Open MPI)"});
   all.push_back({"viewer", !viewer_page.empty(), "", "pages that replay a run (three.js)"});
   return all;
 }

@@ -51,14 +51,14 @@ void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const
 }
 
 Body_replay::Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
-                         const Body_options& options)
-    : snapshot_(&snapshot), locator_(&locator), trace_(&trace), options_(options) {
+                         const Body_options& options, std::size_t first_body)
+    : snapshot_(&snapshot), locator_(&locator), trace_(&trace), options_(options), first_body_(first_body) {
   if (options.sweep.sweep == Sweep::faces)
     throw Error(Error_code::usage,
                 "faces are not answered in a trace: replay it by three_segments or triangle");
   for (std::size_t b = 0, first = 0; b < trace.bodies.size(); first += trace.bodies[b++].vertices) {
     first_vertex_.push_back(first);
-    degrees_.push_back(answerable_degrees(trace.bodies[b], b));
+    degrees_.push_back(answerable_degrees(trace.bodies[b], first_body + b));
     bodies_.push_back(registered(b, 0));
   }
   reports_.resize(bodies_.size());
@@ -76,7 +76,8 @@ Body<3> Body_replay::registered(std::size_t body, std::size_t step) const {
     return Body<3>(*snapshot_, *locator_,
                    {{positions.begin(), positions.end()}, trace_->bodies[body].edges, {}});
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("body {} before step {}: {}", body, step, error.what()));
+    throw Error(error.code(),
+                fmt::format("body {} before step {}: {}", first_body_ + body, step, error.what()));
   }
 }
 

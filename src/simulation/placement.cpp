@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,9 @@ World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<
   place_bodies(locator);
   if (scene.catheter) place_catheter(*scene.catheter, locator);
   conditions_ = {scene.time_step, scene.gravity, scene.restitution, scene.friction, options};
+  own_particles_ = {0, static_cast<std::uint32_t>(particles_.size())};
+  own_bodies_.resize(bodies_.size());
+  std::iota(own_bodies_.begin(), own_bodies_.end(), 0);
 }
 
 template <int D>

@@ -11,7 +11,7 @@
 namespace cellwalk {
 
 Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
-               const Replay_options& options)
+               const Replay_options& options, std::size_t first_body)
     : snapshot_(&snapshot), trace_(&trace) {
   if (options.sweep == Sweep::faces)
     throw Error(Error_code::usage,
@@ -26,7 +26,7 @@ Replay::Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Tra
           snapshot, locator,
           trace_body_soup(std::span<const Point<3>, trace_vertices>(&trace.start(b, 0), trace_vertices)));
     } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("body {}: {}", b, error.what()));
+      throw Error(error.code(), fmt::format("body {}: {}", first_body + b, error.what()));
     }
   }
 }

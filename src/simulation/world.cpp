@@ -92,7 +92,7 @@ template <int D>
 void World<D>::step_free() {
   const double dt = scene_.time_step;
   const Wall_response response{scene_.restitution, scene_.friction};
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
+  for (std::size_t i = own_particles_.first; i < own_particles_.second; ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
     velocities_[i] =
         (1 / dt) * advance(*snapshot_, particles_[i], displacement, response, timed_contacts_, counts_);
@@ -106,14 +106,15 @@ template <int D>
 void World<D>::step_bodies() {
   constexpr std::size_t bodies_at_once = 8;
   body_steps_.resize(bodies_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bodies_.size(), bodies_at_once),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, own_bodies_.size(), bodies_at_once),
                     [&](const auto& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                      for (std::size_t own = range.begin(); own < range.end(); ++own) {
+                        const std::uint32_t i = own_bodies_[own];
                         body_steps_[i].report.clear();
                         bodies_[i].step(conditions_, body_steps_[i].report, body_steps_[i].counts);
                       }
                     });
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+  for (const std::uint32_t i : own_bodies_)
     for (Contact<D> met : body_steps_[i].report.contacts) {
       met.normal = met.normal + Vector<D>{};
       contacts_.push_back({steps_done_, 0, met, snapshot_->index(met.cell), i});
@@ -123,19 +124,27 @@ void World<D>::step_bodies() {
 template <int D>
 Body_counts World<D>::body_counts() const {
   Body_counts sum;
-  for (const Body_step& step : body_steps_) sum += step.counts;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) sum += body_counts(i);
+  return sum;
+}
+
+template <int D>
+Walk_counts World<D>::counts() const {
+  Walk_counts sum = counts_;
+  for (const Walk_counts& more : counts_elsewhere_) sum += more;
   return sum;
 }
 
 template <int D>
 Body_counts World<D>::body_counts(std::size_t body) const {
+  if (is_elsewhere(body)) return elsewhere_[body]->counts;
   return body < body_steps_.size() ? body_steps_[body].counts : Body_counts{};  // empty before the first step
 }
 
 template <int D>
 void World<D>::validate() {
   check_epoch();
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
+  for (std::size_t i = own_particles_.first; i < own_particles_.second; ++i) {
     const Particle<D>& p = particles_[i];
     if (p.cell != Cell::none && !snapshot_->is_solid(p.cell) && in_closure(*snapshot_, p.cell, p.position))
       continue;
@@ -143,8 +152,8 @@ void World<D>::validate() {
                 fmt::format("particle {} is not in the closure of its cell after step {} (position {})", i,
                             steps_done_, fmt::join(p.position, ", ")));
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    body_steps_.resize(bodies_.size());
+  body_steps_.resize(bodies_.size());
+  for (const std::uint32_t i : own_bodies_) {
     bodies_[i].body().refresh(body_steps_[i].counts);
     try {
       bodies_[i].body().validate();

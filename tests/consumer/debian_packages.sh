@@ -16,6 +16,7 @@ for package in "$folder"/made/*.deb; do
   # What is linked is found by dpkg-shlibdeps.
   case "$package" in
     */cellwalk-readers_*) needed="libgmsh4.*libvtk9" ;;
+    */cellwalk-mpi_*) needed="openmpi-bin.*libboost-mpi.*libopenmpi3" ;;
     *) needed="libgmp10.*libtbb12" ;;
   esac
   grep -q "Depends:.*$needed" <(tr '\n' ' ' <"$folder/info") || { echo "$package misses dependencies" >&2; exit 1; }

@@ -18,6 +18,13 @@ struct Build {
   const char* per = "wall";  ///< what the bytes grow with: "wall" (triangle) or "cell"
 };
 
+/// What two processes can tell each other of a build, for experiments::shared_trials().
+template <class Archive, class Measured>
+void members_of_build(Archive& archive, Measured& build) {
+  archive(build.milliseconds);
+  archive(build.bytes);
+}
+
 /// Bytes that the program holds from the C library, in all arenas and in mapped blocks.
 inline std::size_t held_bytes() {
   const struct mallinfo2 info = mallinfo2();

@@ -23,9 +23,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
+
+template <int D>
+class World_part;  // <cellwalk/internal/simulation/world_part.h>
 
 /// All moving objects, and their contacts. Deterministic: the same scene gives the same bits. Refers to the
 /// snapshot, which must outlive it and is edited by move_walls(), relax() and change() only.
@@ -83,13 +87,28 @@ class World {
   std::span<const Moving_body<D>> bodies() const { return bodies_; }
   /// The index of a body in Scene::bodies; none for the catheter.
   std::optional<std::size_t> entry_of(std::size_t body) const { return entry_of_[body]; }
+  /// Where the vertices of a body are.
+  std::span<const Point<D>> positions(std::size_t body) const {
+    return is_elsewhere(body) ? std::span<const Point<D>>(elsewhere_[body]->positions)
+                              : bodies_[body].body().positions();
+  }
+  /// The input index of the cell in which a vertex of a body is.
+  /// Cost: that of Body::cell_of().
+  std::uint32_t cell_of(std::size_t body, std::uint32_t vertex) const {
+    return is_elsewhere(body) ? elsewhere_[body]->cells[vertex]
+                              : snapshot_->index(bodies_[body].body().cell_of(vertex));
+  }
+  /// True for a body at the end of its path.
+  bool has_arrived(std::size_t body) const {
+    return is_elsewhere(body) ? elsewhere_[body]->has_arrived : bodies_[body].has_arrived();
+  }
   /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
   /// The contacts of the last step: those of particles by number and time, then those of bodies in the order
   /// met. Once cells were replaced, as by a cut, they name no facet and no cell any more.
   std::span<const Run_contact<D>> contacts() const { return contacts_; }
   /// The counts of the walks of particles.
-  const Walk_counts& counts() const { return counts_; }
+  Walk_counts counts() const;
   /// The counts of the moves of all bodies.
   Body_counts body_counts() const;
   /// The counts of one body.
@@ -110,6 +129,7 @@ class World {
   void step_bodies();
   void record_contacts(std::size_t particle);
 
+  bool is_elsewhere(std::size_t body) const { return !elsewhere_.empty() && elsewhere_[body].has_value(); }
   void check_epoch() const;
   void forget_cells();
   template <class Use>
@@ -133,6 +153,20 @@ class World {
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
   std::vector<Contact<D>> timed_contacts_;
   Walk_counts counts_;
+
+  /// What is advanced here, by World_part: all, unless other processes advance the rest.
+  std::pair<std::uint32_t, std::uint32_t> own_particles_;  ///< the first, and the one after the last
+  std::vector<std::uint32_t> own_bodies_;
+  /// A body that another process advances: how it was when that last told.
+  struct Stand_in {
+    std::vector<Point<D>> positions;
+    std::vector<std::uint32_t> cells;
+    Body_counts counts;
+    bool has_arrived = false;
+  };
+  std::vector<std::optional<Stand_in>> elsewhere_;  ///< of each body; empty: all are advanced here
+  std::vector<Walk_counts> counts_elsewhere_;       ///< of each other part
+  friend class World_part<D>;
 };
 
 extern template class World<2>;

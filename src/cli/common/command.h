@@ -4,9 +4,12 @@
 #ifndef CELLWALK_CLI_COMMON_COMMAND_H
 #define CELLWALK_CLI_COMMON_COMMAND_H
 
+#include <cellwalk/internal/ranks/ranks.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -18,7 +21,24 @@
 namespace cellwalk::cli {
 
 /// Runs after the whole command line is parsed. A failure is an exception; Error's code is the exit code.
-using Action = std::function<void()>;
+class Action {
+ public:
+  Action() = default;
+  /// The action of a command that shares its work among ranks.
+  template <std::invocable<Ranks&> Work>
+  Action(Work work) : work_(std::move(work)) {}
+  /// That of a command that does not: the first rank works alone.
+  template <std::invocable Work>
+  Action(Work work)
+      : work_([work](Ranks& ranks) {
+          if (ranks.is_first()) work();
+        }) {}
+
+  void operator()(Ranks& ranks) const { work_(ranks); }
+
+ private:
+  std::function<void(Ranks&)> work_;
+};
 
 // Each is defined in the file of its name. A new command needs a line here and one in main.cpp.
 void add_import(CLI::App& app, Action& chosen);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "outputs.h"
 
+#include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/kernel/error.h>
 
 #include <sys/stat.h>
@@ -35,6 +36,7 @@ Named_file::Named_file(std::string name) : name_(std::move(name)) {
   device_ = status.st_dev;
   inode_ = status.st_ino;
   keeps_nothing_ = S_ISCHR(status.st_mode);
+  is_pipe_ = S_ISFIFO(status.st_mode) && !names_standard_input(name_);
 }
 
 bool Named_file::is_same(const Named_file& other) const {
@@ -51,6 +53,16 @@ bool Named_file::is_within(const Named_file& folder) const {
 Outputs::Outputs(const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs)
     if (!input.empty()) inputs_.emplace_back(input);
+}
+
+void Outputs::refuse_pipe(const Named_file& input) const {
+  if (are_inputs_shared_ && input.is_pipe())
+    refuse(input.name() + ": is a pipe, which only one process can read: give a file, or /dev/stdin");
+}
+
+void Outputs::inputs_are_shared() {
+  are_inputs_shared_ = true;
+  for (const Named_file& input : inputs_) refuse_pipe(input);
 }
 
 void Outputs::refuse_clash(const Named_file& output, const Named_file& input) const {
@@ -75,6 +87,7 @@ void Outputs::add(const Named_file& output) {
 
 void Outputs::also_reads(const std::string& name) {
   const Named_file input(name);
+  refuse_pipe(input);
   for (const Named_file& output : outputs_) refuse_clash(output, input);
   if (folder_name_) refuse_clash(*folder_name_, input);
   inputs_.push_back(input);

@@ -27,6 +27,8 @@ class Named_file {
   bool is_same(const Named_file& other) const;
   /// True if it lies in a folder, at any depth.
   bool is_within(const Named_file& folder) const;
+  /// True for a pipe, which is read once, but for the standard input.
+  bool is_pipe() const { return is_pipe_; }
   /// True for terminals and /dev/null, which may be named several times: they store nothing that could be
   /// lost.
   bool keeps_nothing() const { return keeps_nothing_; }
@@ -34,7 +36,7 @@ class Named_file {
  private:
   std::string name_;
   std::filesystem::path path_;  ///< absolute, without links
-  bool exists_ = false, keeps_nothing_ = false;
+  bool exists_ = false, keeps_nothing_ = false, is_pipe_ = false;
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };
@@ -45,6 +47,10 @@ class Outputs {
   /// `inputs` are the files that the command reads; empty names are ignored.
   explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
   explicit Outputs(const std::vector<std::string>& inputs);
+
+  /// To be called where several processes read the inputs.
+  /// \throw Error(usage) if one is a pipe, and also_reads() likewise
+  void inputs_are_shared();
 
   /// Adds a file that is read as well.
   /// \throw Error(usage) if one is an output
@@ -63,9 +69,11 @@ class Outputs {
   void commit(const std::string& summary);
 
  private:
+  void refuse_pipe(const Named_file& input) const;
   void refuse_clash(const Named_file& output, const Named_file& input) const;
   void add(const Named_file& output);
 
+  bool are_inputs_shared_ = false;
   std::vector<Named_file> inputs_, outputs_;
   std::unique_ptr<Named_file> folder_name_;
   std::vector<std::unique_ptr<io::Atomic_file>> files_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "progress.h"
 
+#include <cellwalk/internal/ranks/ranks.h>
+
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -36,7 +38,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string label, std::uint64_t total) : on_terminal_(isatty(STDERR_FILENO) == 1) {
+Progress::Progress(std::string label, std::uint64_t total)
+    : on_terminal_(isatty(STDERR_FILENO) == 1 && !is_later_rank()) {
   stage_.label = std::move(label);
   stage_.total = total;
   Work_log::begin(stage_);

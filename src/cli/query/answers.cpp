@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "answers.h"
 
-#include <cellwalk/internal/io/csv.h>
-
 #include <array>
 #include <limits>
 #include <string>
@@ -25,14 +23,17 @@ std::array<double, 3> fields(const std::array<double, D>& p) {
 
 }  // namespace
 
-template <int D, std::size_t N>
-void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
-                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
-  constexpr bool has_body = N == 3;
+std::vector<std::string> answer_columns(bool of_edges) {
   std::vector<std::string> columns{"row",  "status", "time", "x",  "y",     "z",
                                    "kind", "nx",     "ny",   "nz", "cells", "cell"};
-  if (has_body) columns.insert(columns.begin() + 7, "body");
-  io::Csv_writer table(file, columns);
+  if (of_edges) columns.insert(columns.begin() + 7, "body");
+  return columns;
+}
+
+template <int D, std::size_t N>
+void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& snapshot,
+                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
+  constexpr bool has_body = N == 3;
   for (std::size_t row = 0; row < answers.size(); ++row) {
     const Answer<D>& answer = answers[row];
     double time = absent;
@@ -49,8 +50,8 @@ void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
       body = feature_names[static_cast<std::size_t>(contact->body)];
     }
     const auto write = [&](const auto&... body_field) {
-      table.row(row, motion_status_names[static_cast<std::size_t>(answer.status)], time, end[0], end[1],
-                end[2], kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
+      table.row(first + row, motion_status_names[static_cast<std::size_t>(answer.status)], time, end[0],
+                end[1], end[2], kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
                 answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell)));
     };
     if constexpr (has_body)
@@ -60,14 +61,14 @@ void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
   }
 }
 
-template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 2>>&,
-                            const std::vector<Answer<2>>&);
-template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 2>>&,
-                            const std::vector<Answer<3>>&);
+template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
+                            const std::vector<Query_row<2, 2>>&, const std::vector<Answer<2>>&);
+template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
+                            const std::vector<Query_row<3, 2>>&, const std::vector<Answer<3>>&);
 
-template void write_answers(io::Atomic_file&, const Snapshot<2>&, const std::vector<Query_row<2, 3>>&,
-                            const std::vector<Answer<2>>&);
-template void write_answers(io::Atomic_file&, const Snapshot<3>&, const std::vector<Query_row<3, 3>>&,
-                            const std::vector<Answer<3>>&);
+template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
+                            const std::vector<Query_row<2, 3>>&, const std::vector<Answer<2>>&);
+template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
+                            const std::vector<Query_row<3, 3>>&, const std::vector<Answer<3>>&);
 
 }  // namespace cellwalk::cli

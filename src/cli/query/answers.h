@@ -4,8 +4,8 @@
 #define CELLWALK_CLI_QUERY_ANSWERS_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/records/queries.h>
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/query/answer.h>
 
 #include <tbb/blocked_range.h>
@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "cli/common/progress.h"
@@ -40,12 +41,16 @@ std::vector<Answer<D>> answer_rows(const std::vector<Query_row<D, N>>& rows, con
   return answers;
 }
 
-/// Writes the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges (rows of three
-/// points) with `body` after `kind`. Rows and cells count from 0; cells are those of the file; fields that do
-/// not apply are empty. A free motion ends at the second point of its row.
+/// The columns of the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges (rows of
+/// three points) with `body` after `kind`.
+std::vector<std::string> answer_columns(bool of_edges);
+
+/// Writes rows of the table of answers. Rows and cells count from 0; cells are those of the file; fields that
+/// do not apply are empty. A free motion ends at the second point of its row.
+/// \param first the number of the first row in the whole table
 /// \throw Error(other) if it cannot be written
 template <int D, std::size_t N>
-void write_answers(io::Atomic_file& file, const Snapshot<D>& snapshot,
+void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& snapshot,
                    const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers);
 
 }  // namespace cellwalk::cli

@@ -1,144 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk query ENV QUERIES.csv -o OUT.csv: answers every motion of a table, of points or of edges, exactly.
-#include <cellwalk/internal/io/query_file.h>
-#include <cellwalk/query/move.h>
-#include <cellwalk/query/sweep.h>
-
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 
-#include "answers.h"
 #include "cli/common/command.h"
-#include "cli/common/counts_json.h"
 #include "cli/common/environment_file.h"
-#include "cli/common/outputs.h"
+#include "cli/common/node_environment.h"
 #include "kernel_names.h"
-#include "picture.h"
+#include "table.h"
 #include "walk_repro.h"
 
 namespace cellwalk::cli {
 namespace {
-
-enum class Query_mode { move, sweep };
-struct Query_options {
-  std::string environment, queries, output, json;
-  std::string failure;             // if set, a repro file to replay, and nothing else
-  std::string record;              // if set, the repro file for the motion of the row
-  std::string picture;             // if set, the picture of the row
-  std::optional<std::size_t> row;  // of the repro file or the picture
-  Query_mode mode = Query_mode::move;
-  Move_options move;
-  Sweep_options sweep;                    // its `touch` also applies to moves
-  std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
-  int threads = 0;
-  Build_options build{.keep_map = false};
-};
-
-/// The output files of a query; null for those not requested.
-struct Query_files {
-  explicit Query_files(const Query_options& options)
-      : all({options.environment, options.queries}),
-        answers(all.file(options.output)),
-        json(all.file(options.json)),
-        record(all.file(options.record)),
-        picture(all.file(options.picture)) {}
-
-  Outputs all;
-  io::Atomic_file *answers, *json, *record, *picture;
-};
-
-/// Completes all files and prints the number of answers of each status.
-template <int D, std::size_t N>
-void report(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
-            const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers,
-            const nlohmann::ordered_json& counts) {
-  write_answers(*files.answers, snapshot, rows, answers);
-  std::array<std::size_t, std::size(motion_status_names)> tally{};
-  for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
-  nlohmann::ordered_json by_status;
-  std::string line;
-  for (std::size_t s = 0; s < tally.size(); ++s) {
-    by_status[motion_status_names[s]] = tally[s];
-    if (tally[s] != 0)
-      line += fmt::format("{} {} {}", line.empty() ? ":" : ",", tally[s], motion_status_names[s]);
-  }
-  write_json(files.json, {{"motions", answers.size()}, {"status", by_status}, {"counts", counts}});
-  files.all.commit(fmt::format("{}: {} motions{}\n", options.output, answers.size(), line));
-  const auto error =
-      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.error.empty(); });
-  if (error != rows.end())
-    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, error->line,
-               error->error, tally[static_cast<std::size_t>(Motion_status::invalid)]);
-}
-
-/// Refuses a row of which the requested repro file or picture cannot be made, before anything is answered.
-template <int D, std::size_t N>
-void check_row(const Query_options& options, const std::vector<Query_row<D, N>>& rows) {
-  if (options.row && (*options.row >= rows.size() || !rows[*options.row].error.empty()))
-    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
-  if (D == 3 && !options.picture.empty())
-    throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
-}
-
-/// Draws the requested row.
-template <int D, std::size_t N>
-void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
-              const Locator<D>& locator, const std::vector<Query_row<D, N>>& rows,
-              const std::vector<Answer<D>>& answers) {
-  if constexpr (D == 2)
-    if (files.picture != nullptr)
-      write_picture(*files.picture, snapshot, locator, *options.row, rows[*options.row].points,
-                    answers[*options.row]);
-}
-
-/// Writes the repro file of the requested row.
-template <int D>
-void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
-                const std::vector<Move_query<D>>& moves, const std::vector<Answer<D>>& answers) {
-  if (files.record == nullptr) return;
-  const std::size_t row = *options.row;
-  const char* status = motion_status_names[static_cast<std::size_t>(answers[row].status)];
-  write_repro_of(*files.record, environment, moves[row].points[0], moves[row].points[1], options.move,
-                 fmt::format("row {} of a query: {}", row, status));
-}
-
-template <int D>
-void query_environment(const Query_options& options, Query_files& files, const Environment<D>& environment) {
-  const Snapshot<D>& snapshot = environment.snapshot();
-  Edge_counts counts;
-  if (options.mode == Query_mode::move) {
-    const auto moves = io::read_moves<D>(options.queries);
-    check_row(options, moves);
-    const Locator<D> locator(snapshot);
-    const auto answers =
-        answer_rows(moves, "walking", counts, [&](const Move_query<D>& move, Edge_counts& local) {
-          return answer_move(snapshot, locator, move.points[0], move.points[1], options.move, local);
-        });
-    record_row(options, files, environment, moves, answers);
-    draw_row(options, files, snapshot, locator, moves, answers);
-    report(options, files, snapshot, moves, answers, cli::to_json(counts.walk));
-  } else {
-    const auto sweeps = io::read_sweeps<D>(options.queries);
-    check_row(options, sweeps);
-    const Locator<D> locator(snapshot);
-    const auto answers =
-        answer_rows(sweeps, "sweeping", counts, [&](const Sweep_query<D>& sweep, Edge_counts& local) {
-          const auto& [p, target, q] = sweep.points;
-          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
-        });
-    nlohmann::ordered_json work = cli::to_json(counts);
-    work["walk"] = cli::to_json(counts.walk);
-    draw_row(options, files, snapshot, locator, sweeps, answers);
-    report(options, files, snapshot, sweeps, answers, work);
-  }
-}
 
 /// Refuses missing arguments: a repro file is replayed alone; otherwise an environment, queries and an output
 /// are needed.
@@ -186,20 +66,27 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
     need({"--search-cells", "--search-limit"}, "--contact exhaustive");
 }
 
-void query(Query_options& options, const CLI::App& command) {
+void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
   refuse_missing(options, command);
-  if (!options.failure.empty()) return walk_repro(options.failure);
+  if (!options.failure.empty()) {
+    if (ranks.is_first()) walk_repro(options.failure);
+    return;
+  }
   refuse_misfits(options, command);
   options.move.strategy = options.strategy.value_or(
       options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
   options.move.touch = options.sweep.touch;
-  Query_files files(options);
+  std::optional<Query_files> files;
+  if (ranks.is_first()) files.emplace(options);
+  if (files && !ranks.is_alone()) files->all.inputs_are_shared();
   const auto threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
                                            : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const Loaded_environment loaded = load_with_progress(options.environment, options.build);
-  std::visit([&](const auto& environment) { query_environment(options, files, environment); },
-             loaded.environment);
+  const Loaded_environment loaded = load_once_a_node(ranks, options.environment, options.build);
+  const auto query_it = [&](const auto& environment) {
+    answer_table(options, files ? &*files : nullptr, ranks, environment);
+  };
+  std::visit(query_it, loaded.environment);
 }
 
 void add_move_options(CLI::App& command, Query_options& options) {
@@ -308,8 +195,9 @@ void add_query(CLI::App& app, Action& chosen) {
   add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
                           "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",
                           "cellwalk query rooms.ovm moves.csv -o answers.csv --picture first.png --row 0"});
-  command->callback(
-      [options, command, &chosen] { chosen = [options, command] { query(*options, *command); }; });
+  command->callback([options, command, &chosen] {
+    chosen = [options, command](Ranks& ranks) { query(*options, *command, ranks); };
+  });
 }
 
 }  // namespace cellwalk::cli

@@ -16,9 +16,10 @@
 #include <variant>
 
 #include "cli/common/contact_kind_names.h"
-#include "cli/common/environment_file.h"
 #include "cli/common/machine.h"
+#include "cli/common/node_environment.h"
 #include "cli/common/progress.h"
+#include "parts.h"
 #include "replay.h"
 
 namespace cellwalk::cli {
@@ -26,16 +27,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What all rounds found: they differ in time only.
-struct Replayed_bodies {
-  std::vector<double> ns_per_move;  ///< of each round
-  /// Of each step, the least of all rounds: others took longer because the machine was interrupted.
-  std::vector<double> step_us;
-  std::uint64_t mismatches = 0, registered_anew = 0;
-  Body_counts counts;  ///< of one round
-};
-
-Environment<3> load_environment_of_bodies(const Replay_options& options) {
+Environment<3> load_environment_of_bodies(const Replay_options& options, Ranks& ranks) {
   if (options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment is missing: {} holds bodies, and not the walls around "
@@ -48,7 +40,7 @@ Environment<3> load_environment_of_bodies(const Replay_options& options) {
                             options.trace));
   Build_options build;
   build.keep_map = false;
-  Loaded_environment loaded = load_with_progress(options.environment, build);
+  Loaded_environment loaded = load_once_a_node(ranks, options.environment, build);
   auto* environment = std::get_if<Environment<3>>(&loaded.environment);
   if (!environment)
     throw Error(Error_code::input,
@@ -60,20 +52,21 @@ Environment<3> load_environment_of_bodies(const Replay_options& options) {
 
 /// Replays the trace again and again. Only the moves are timed: bodies are put in place, and answers
 /// compared, in between.
-Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environment<3>& environment,
-                                        const Replay_options& options) {
+Rounds<Body_counts> replay_rounds_of_bodies(const Body_trace& trace, std::size_t first_body,
+                                            const Environment<3>& environment,
+                                            const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());
   const int rounds = options.warmup + options.rounds;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
   Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
-  Replayed_bodies result;
+  Rounds<Body_counts> result;
   result.step_us.assign(trace.steps, std::numeric_limits<double>::infinity());
   for (int round = 0; round < rounds; ++round) {
     Body_replay replay = naming(options.trace, [&] {
       Body_options rule = body_trace_options(options.sweep);
       rule.parallel = options.threads > 1;
-      return Body_replay(environment.snapshot(), locator, trace, rule);
+      return Body_replay(environment.snapshot(), locator, trace, rule, first_body);
     });
     double ns = 0;
     for (std::uint32_t s = 0; s < trace.steps; ++s) {
@@ -91,7 +84,7 @@ Replayed_bodies replay_rounds_of_bodies(const Body_trace& trace, const Environme
           std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
     result.registered_anew = replay.registered_anew();
     result.counts = replay.counts();
-    if (round >= options.warmup) result.ns_per_move.push_back(ns / static_cast<double>(trace.moves()));
+    if (round >= options.warmup) result.ns.push_back(ns);
   }
   return result;
 }
@@ -111,7 +104,7 @@ ordered_json step_times(std::vector<double> step_us) {
 }
 
 ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& environment,
-                                const Replay_options& options) {
+                                const Replay_options& options, const Ranks& ranks) {
   ordered_json result = machine_json();
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   result["trace"] = {{"file", name(options.trace)},
@@ -124,24 +117,25 @@ ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& e
   result["rounds"] = options.rounds;
   result["warmup"] = options.warmup;
   result["threads"] = options.threads;
+  result["ranks"] = ranks.size();
   return result;
 }
 
 std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& environment,
-                              const Replay_options& options, const Replayed_bodies& replayed,
-                              const ordered_json& us) {
+                              const Replay_options& options, const Rounds<Body_counts>& replayed,
+                              const std::vector<double>& ns_per_move, const ordered_json& us) {
   std::string text =
       fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells\n", options.trace,
                   trace.bodies.size(), trace.vertices(), trace.steps, environment.snapshot().cell_count());
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };
-  const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
+  const auto [least, most] = std::minmax_element(ns_per_move.begin(), ns_per_move.end());
   line("time",
        fmt::format(
            "{:.1f} ns per vertex move with its edges, by {} (median of {} rounds, from {:.1f} to {:.1f})",
-           median(replayed.ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)], options.rounds,
-           *least, *most));
+           median(ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)], options.rounds, *least,
+           *most));
   line("steps", fmt::format("{:.1f} us in the median, 99 % within {:.1f}, 99.9 % within {:.1f}",
                             us["median"].get<double>(), us["p99"].get<double>(), us["p999"].get<double>()));
   line("mismatches", trace.answers.empty()
@@ -155,23 +149,30 @@ std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& env
 
 }  // namespace
 
-Replay_report replay_bodies(const Body_trace& trace, const Replay_options& options) {
+std::optional<Replay_report> replay_bodies(const Body_trace& trace, const Replay_options& options,
+                                           Ranks& ranks) {
   if (trace.moves() == 0)
     throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
                                                options.trace, trace.bodies.size(), trace.steps));
-  const Environment<3> environment = load_environment_of_bodies(options);
-  const Replayed_bodies replayed = replay_rounds_of_bodies(trace, environment, options);
+  const Environment<3> environment = load_environment_of_bodies(options, ranks);
+  const Block bodies = ranks.block(trace.bodies.size());
+  const Body_trace part = ranks.is_alone() ? Body_trace{} : part_of(trace, bodies);
+  Rounds<Body_counts> replayed =
+      replay_rounds_of_bodies(ranks.is_alone() ? trace : part, bodies.begin, environment, options);
+  replayed.gather(ranks);
+  if (!ranks.is_first()) return std::nullopt;
+  const std::vector<double> ns_per_move = per_move(replayed.ns, trace.moves());
   const ordered_json us = step_times(replayed.step_us);
-  ordered_json json{{"ns_per_vertex_move", median(replayed.ns_per_move)},
-                    {"ns_per_vertex_move_rounds", replayed.ns_per_move},
+  ordered_json json{{"ns_per_vertex_move", median(ns_per_move)},
+                    {"ns_per_vertex_move_rounds", ns_per_move},
                     {"moves", trace.moves()},
                     {"blocked", replayed.counts.held},
                     {"step_us", us}};
   json["mismatches"] = trace.answers.empty() ? ordered_json() : ordered_json(replayed.mismatches);
   json["registered_anew"] = replayed.registered_anew;
   json["counts"] = to_json(replayed.counts);
-  json["manifest"] = manifest_of_bodies(trace, environment, options);
-  return {json, summary_of_bodies(trace, environment, options, replayed, us)};
+  json["manifest"] = manifest_of_bodies(trace, environment, options, ranks);
+  return Replay_report{json, summary_of_bodies(trace, environment, options, replayed, ns_per_move, us)};
 }
 
 }  // namespace cellwalk::cli

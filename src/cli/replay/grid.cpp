@@ -17,19 +17,13 @@
 #include "cli/common/machine.h"
 #include "cli/common/progress.h"
 #include "cli/run/bodies.h"
+#include "parts.h"
 #include "replay.h"
 
 namespace cellwalk::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// The results of all rounds, which differ in time only.
-struct Replayed {
-  std::vector<double> ns_per_move;  ///< of each round
-  std::uint64_t mismatches = 0;
-  Replay_counts counts;  ///< of one round
-};
 
 Environment<3> build(const Trace& trace, const Replay_options& options) {
   const Progress progress("generating and certifying the grid");
@@ -44,15 +38,16 @@ Environment<3> build(const Trace& trace, const Replay_options& options) {
 
 /// Replays the trace repeatedly. Only the moves are timed, neither the comparison of answers nor the
 /// registration of bodies.
-Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, const Replay_options& options) {
+Rounds<Replay_counts> replay_rounds(const Trace& trace, std::size_t first_body,
+                                    const Environment<3>& environment, const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());
   const int rounds = options.warmup + options.rounds;
   Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
-  Replayed result;
+  Rounds<Replay_counts> result;
   for (int round = 0; round < rounds; ++round) {
     Replay replay = naming(options.trace, [&] {
-      return Replay(environment.snapshot(), locator, trace, {options.sweep, true});
+      return Replay(environment.snapshot(), locator, trace, {options.sweep, true}, first_body);
     });
     const Clock::time_point begin = Clock::now();
     replay.run();
@@ -60,14 +55,12 @@ Replayed replay_rounds(const Trace& trace, const Environment<3>& environment, co
     progress.update(static_cast<std::uint64_t>(round) + 1);
     result.mismatches = std::max(result.mismatches, count_mismatches(trace, replay.answers(), options.sweep));
     result.counts = replay.counts();
-    if (round >= options.warmup)
-      result.ns_per_move.push_back(passed.count() / static_cast<double>(trace.moves()));
+    if (round >= options.warmup) result.ns.push_back(passed.count());
   }
   return result;
 }
 
-ordered_json counts_json(const Replayed& replayed) {
-  const Replay_counts& c = replayed.counts;
+ordered_json counts_json(const Replay_counts& c) {
   const Edge_counts& edges = c.body.edges;
   ordered_json result{{"moves", c.body.moves},
                       {"in_region", c.body.in_region},
@@ -83,7 +76,7 @@ ordered_json counts_json(const Replayed& replayed) {
   return result;
 }
 
-ordered_json manifest(const Trace& trace, const Replay_options& options) {
+ordered_json manifest(const Trace& trace, const Replay_options& options, const Ranks& ranks) {
   ordered_json result = machine_json();
   result["trace"] = {{"file", std::filesystem::path(options.trace).filename().string()},
                      {"cells", {trace.nx, trace.ny, trace.nz}},
@@ -99,22 +92,24 @@ ordered_json manifest(const Trace& trace, const Replay_options& options) {
   result["rounds"] = options.rounds;
   result["warmup"] = options.warmup;
   result["threads"] = 1;
+  result["ranks"] = ranks.size();
   return result;
 }
 
-std::string summary(const Trace& trace, const Replay_options& options, const Replayed& replayed) {
+std::string summary(const Trace& trace, const Replay_options& options, const Rounds<Replay_counts>& replayed,
+                    const std::vector<double>& ns_per_move) {
   std::string text;
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };
   const Replay_counts& c = replayed.counts;
-  const auto [least, most] = std::minmax_element(replayed.ns_per_move.begin(), replayed.ns_per_move.end());
+  const auto [least, most] = std::minmax_element(ns_per_move.begin(), ns_per_move.end());
   text = fmt::format("{}: {} x {} x {} cells{}, {} of them solid, {} bodies, {} steps\n", options.trace,
                      trace.nx, trace.ny, trace.nz, options.sheared ? ", sheared" : "", trace.obstacles.size(),
                      trace.bodies, trace.steps);
   line("time", fmt::format("{:.1f} ns per vertex move with its three edges, by {} (median of {} rounds, from "
                            "{:.1f} to {:.1f})",
-                           median(replayed.ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)],
+                           median(ns_per_move), sweep_names[static_cast<std::size_t>(options.sweep)],
                            options.rounds, *least, *most));
   line("mismatches", fmt::format("{} answer bits differ from the recorded ones", replayed.mismatches));
   line("moves", describe_moves(c.body));
@@ -126,7 +121,7 @@ std::string summary(const Trace& trace, const Replay_options& options, const Rep
 
 }  // namespace
 
-Replay_report replay_grid(Trace trace, const Replay_options& options) {
+std::optional<Replay_report> replay_grid(Trace trace, const Replay_options& options, Ranks& ranks) {
   if (trace.moves() == 0)
     throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
                                                options.trace, trace.bodies, trace.steps));
@@ -140,13 +135,17 @@ Replay_report replay_grid(Trace trace, const Replay_options& options) {
                             options.trace));
   if (options.sheared) trace = mapped(std::move(trace), sheared<3>());
   const Environment<3> environment = build(trace, options);
-  const Replayed replayed = replay_rounds(trace, environment, options);
-  return {{{"ns_per_vertex_move", median(replayed.ns_per_move)},
-           {"ns_per_vertex_move_rounds", replayed.ns_per_move},
-           {"mismatches", replayed.mismatches},
-           {"counts", counts_json(replayed)},
-           {"manifest", manifest(trace, options)}},
-          summary(trace, options, replayed)};
+  const Block bodies = ranks.block(trace.bodies);
+  Rounds<Replay_counts> replayed = replay_rounds(part_of(trace, bodies), bodies.begin, environment, options);
+  replayed.gather(ranks);
+  if (!ranks.is_first()) return std::nullopt;
+  const std::vector<double> ns_per_move = per_move(replayed.ns, trace.moves());
+  return Replay_report{{{"ns_per_vertex_move", median(ns_per_move)},
+                        {"ns_per_vertex_move_rounds", ns_per_move},
+                        {"mismatches", replayed.mismatches},
+                        {"counts", counts_json(replayed.counts)},
+                        {"manifest", manifest(trace, options, ranks)}},
+                       summary(trace, options, replayed, ns_per_move)};
 }
 
 }  // namespace cellwalk::cli

@@ -26,15 +26,17 @@ namespace {
 
 constexpr int most_rounds = 100000;
 
-void replay(const Replay_options& options) {
+void replay(const Replay_options& options, Ranks& ranks) {
   Outputs outputs({options.trace, options.environment});
-  io::Atomic_file* const json = outputs.file(options.json);
+  io::Atomic_file* const json = ranks.is_first() ? outputs.file(options.json) : nullptr;
+  if (ranks.is_first() && !ranks.is_alone()) outputs.inputs_are_shared();
   auto read = io::read_any_trace(options.trace);
-  const Replay_report report = std::holds_alternative<Trace>(read)
-                                   ? replay_grid(std::get<Trace>(std::move(read)), options)
-                                   : replay_bodies(std::get<Body_trace>(read), options);
-  write_json(json, report.json);
-  outputs.commit(report.summary);
+  const std::optional<Replay_report> report =
+      std::holds_alternative<Trace>(read) ? replay_grid(std::get<Trace>(std::move(read)), options, ranks)
+                                          : replay_bodies(std::get<Body_trace>(read), options, ranks);
+  if (!report) return;
+  write_json(json, report->json);
+  outputs.commit(report->summary);
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ void add_replay(CLI::App& app, Action& chosen) {
   add_json(*command, options->json);
   add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
                           "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});
-  command->callback([options, &chosen] { chosen = [options] { replay(*options); }; });
+  command->callback([options, &chosen] { chosen = [options](Ranks& ranks) { replay(*options, ranks); }; });
 }
 
 }  // namespace cellwalk::cli

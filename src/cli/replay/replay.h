@@ -4,11 +4,13 @@
 #define CELLWALK_CLI_REPLAY_REPLAY_H
 
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/internal/records/body_trace.h>
 #include <cellwalk/internal/records/trace.h>
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,13 +29,15 @@ struct Replay_report {
   std::string summary;
 };
 
-/// Replays a trace in a grid of unit cubes, which holds its environment.
+/// Replays a trace in a grid of unit cubes, which holds its environment; ranks share the bodies. The report
+/// is that of all, on the first rank.
 /// \throw Error naming the trace, or the option that does not apply to it
-Replay_report replay_grid(Trace trace, const Replay_options& options);
+std::optional<Replay_report> replay_grid(Trace trace, const Replay_options& options, Ranks& ranks);
 
-/// Replays a trace of any bodies in the environment of a file.
+/// Replays a trace of any bodies in the environment of a file; the same.
 /// \throw Error naming the trace, the environment, or the option that does not apply
-Replay_report replay_bodies(const Body_trace& trace, const Replay_options& options);
+std::optional<Replay_report> replay_bodies(const Body_trace& trace, const Replay_options& options,
+                                           Ranks& ranks);
 
 /// The middle value, or the mean of the two in the middle.
 /// \pre there is one

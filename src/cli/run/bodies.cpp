@@ -65,7 +65,7 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     const std::optional<std::size_t> entry = world.entry_of(i);
     if (!entry) continue;
     sizes.guided += scene.bodies[*entry].guided.has_value();
-    sizes.arrived += moving.has_arrived();
+    sizes.arrived += world.has_arrived(i);
   }
   return sizes;
 }

@@ -57,7 +57,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>
       feature.push_back(static_cast<std::int64_t>(of));
       number.push_back(static_cast<std::int64_t>(at));
     };
-    for (const Point<D>& x : moving.body().positions()) {
+    for (const Point<D>& x : world.positions(b)) {
       const std::size_t point = grid.points.size();
       grid.points.push_back(in_space(x));
       body_of_point.push_back(static_cast<std::int64_t>(b));
@@ -120,8 +120,8 @@ io::Vtu_grid contacts_grid(const std::vector<Run_contact<D>>& contacts) {
 template <int D>
 std::vector<Point<D>> body_positions(const World<D>& world) {
   std::vector<Point<D>> positions;
-  for (const Moving_body<D>& moving : world.bodies()) {
-    const auto of_body = moving.body().positions();
+  for (std::size_t b = 0; b < world.bodies().size(); ++b) {
+    const auto of_body = world.positions(b);
     positions.insert(positions.end(), of_body.begin(), of_body.end());
   }
   return positions;

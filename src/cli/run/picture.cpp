@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <span>
 
 namespace cellwalk::cli {
 namespace {
@@ -153,13 +154,15 @@ template <int D>
 void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, double unit, double height) {
   std::size_t all_edges = 0;
   for (const Moving_body<D>& moving : world.bodies()) all_edges += moving.body().edges().size();
-  for (const Moving_body<D>& moving : world.bodies()) {
+  for (std::size_t b = 0; b < world.bodies().size(); ++b) {
+    const Moving_body<D>& moving = world.bodies()[b];
     if (moving.template as<Rod<D>>()) continue;
     const Body<D>& body = moving.body();
+    const std::span<const Point<D>> positions = world.positions(b);
     const auto faces = body.faces();
     if (!faces.empty()) {
       std::vector<Point<3>> points;
-      for (const Point<D>& x : body.positions()) points.push_back(io::in_space(x));
+      for (const Point<D>& x : positions) points.push_back(io::in_space(x));
       std::vector<std::vector<std::uint32_t>> loops;
       for (const auto& face : faces) loops.emplace_back(face.begin(), face.end());
       drawing::add_surface(drawing, points, loops, m.body_face);
@@ -167,16 +170,15 @@ void draw_bodies(Drawing& drawing, const World<D>& world, const Materials& m, do
     }
     const double share = faces.empty() ? edge_share : surface_edge_share;
     double sum = 0;
-    for (const auto& [u, v] : body.edges()) sum += length(body.positions()[v] - body.positions()[u]);
+    for (const auto& [u, v] : body.edges()) sum += length(positions[v] - positions[u]);
     const double size =
         body.edges().empty()
             ? particle_size * unit
             : std::min(body_edge_size * unit, share * sum / static_cast<double>(body.edges().size()));
     for (const auto& [u, v] : body.edges())
-      draw_line(drawing, std::vector<Point<D>>{body.positions()[u], body.positions()[v]}, size, height,
-                m.body);
+      draw_line(drawing, std::vector<Point<D>>{positions[u], positions[v]}, size, height, m.body);
     if (body.edges().empty())
-      for (const Point<D>& x : body.positions()) draw_dot(drawing, x, size, height, m.body);
+      for (const Point<D>& x : positions) draw_dot(drawing, x, size, height, m.body);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace cellwalk::cli {
@@ -111,10 +112,10 @@ void Run_recording<D>::add(const World<D>& world) {
     cells.push_back(snapshot_.index(particle.cell));
   }
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
-    const Body<D>& body = world.bodies()[b].body();
-    for (std::uint32_t v = 0; v < body.vertex_count(); ++v) {
-      positions.push_back(in_space(body.positions()[v]));
-      cells.push_back(snapshot_.index(body.cell_of(v)));
+    const std::span<const Point<D>> of_body = world.positions(b);
+    for (std::uint32_t v = 0; v < of_body.size(); ++v) {
+      positions.push_back(in_space(of_body[v]));
+      cells.push_back(world.cell_of(b, v));
     }
     const Body_counts now = world.body_counts(b);
     decisions.push_back(decision(before_[b], now));

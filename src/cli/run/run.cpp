@@ -3,7 +3,6 @@
 #include <cellwalk/internal/io/body_trace_file.h>
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
-#include <cellwalk/loading/generators.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -28,8 +27,10 @@
 #include "cli/common/progress.h"
 #include "files.h"
 #include "picture.h"
+#include "prepared_environment.h"
 #include "recording.h"
 #include "scene_source.h"
+#include "sharing.h"
 #include "trace.h"
 #include "walls.h"
 
@@ -63,53 +64,12 @@ struct Run_outputs {
   io::Atomic_file *record, *json;
 };
 
-struct Prepared_environment {
-  Any_environment environment;
-  Certificate certificate;
-  Any_groups groups{};  ///< that its file names
-};
-
-/// \param walls how they move; null: they stand still
-template <int D>
-Prepared_environment prepare(const Environment_source& source, const Scene_walls<D>* walls,
-                             const Environment_changes<D>& changes, const std::string& scene) {
-  const bool has_cut = std::any_of(changes.list.begin(), changes.list.end(),
-                                   [](const auto& change) { return change.kind == Change_kind::cut; });
-  const bool needs_map = !changes.list.empty() || (walls != nullptr && walls->relax);
-  if (const auto* file = std::get_if<std::string>(&source)) {
-    Build_options options;
-    options.keep_map = needs_map;
-    options.simplicial = walls != nullptr || has_cut;
-    Loaded_environment loaded = load_with_progress(*file, options);
-    if (walls != nullptr && !walls->motion.empty()) refuse_other_numbers(*file, loaded.built);
-    return {std::move(loaded.environment), loaded.built.certificate, std::move(loaded.groups)};
-  }
-  const auto& generator_call = std::get<Generator_call>(source);
-  const Progress progress("generating and certifying the environment");
-  Build_report report;
-  const auto build = [&](auto soup) -> Any_environment {
-    constexpr int dimension = std::tuple_size_v<typename decltype(soup.points)::value_type>;
-    Build_options options = build_of_generated;
-    options.simplicial = walls != nullptr || has_cut;
-    options.keep_map = needs_map;
-    return Environment<dimension>::build(std::move(soup), options, &report);
-  };
-  try {
-    auto environment = std::visit([&](auto soup) { return build(std::move(soup)); },
-                                  generate(generator_call.generator, generator_call.options));
-    return {std::move(environment), report.certificate};
-  } catch (const Error& error) {
-    // A recipe is input here, whatever it would be on a command line.
-    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
-    throw Error(code, fmt::format("{}: environment: {}", scene, error.what()));
-  }
-}
-
 template <int D>
 struct Run {
   const Scene<D>& scene;
   const Run_options& options;
-  Run_outputs& outputs;
+  Ranks& ranks;
+  Run_outputs* outputs;  ///< on the first rank
   Environment<D>& environment;
   const Certificate& certificate;
   const Groups<D>& groups;  ///< that the file of the environment names
@@ -120,6 +80,8 @@ struct Run {
 
  private:
   World<D> make_world() const;
+  State_times state_times(const World<D>& world) const;
+  void write(World<D>& world) const;
   std::string caption(const World<D>& world, std::uint64_t contacts) const;
   ordered_json scene_text() const;
   ordered_json report(const World<D>& world, const Run_files<D>& files, const Run_walls<D>* walls,
@@ -140,11 +102,30 @@ World<D> Run<D>::make_world() const {
 }
 
 template <int D>
+State_times Run<D>::state_times(const World<D>& world) const {
+  return {steps(), scene.output.frame_every, motion_interval(scene, environment.snapshot(), world, steps()),
+          scene.output.picture.has_value() && !world.particles().empty()};
+}
+
+template <int D>
 void Run<D>::operator()() const {
   World<D> world = make_world();
-  const auto record = start_trace(outputs.record, options.scene, world);
-  const std::filesystem::path& folder = outputs.folder.path();
+  if (outputs != nullptr) return write(world);
+  Run_sharing<D> sharing(ranks, world, state_times(world));
+  for (std::uint32_t i = 1; i <= steps(); ++i) {
+    world.step();
+    sharing.step();
+  }
+  world.validate();
+  sharing.finish();
+}
+
+template <int D>
+void Run<D>::write(World<D>& world) const {
+  const auto record = start_trace(outputs->record, options.scene, world);
+  const std::filesystem::path& folder = outputs->folder.path();
   const Interruption interruption;
+  const Attentive_wait wait(ranks, interruption);
   Run_files<D> files(folder, environment, world, scene);
   std::optional<Run_walls<D>> walls;
   if (scene.walls) walls.emplace(folder, environment, scene, options.scene);
@@ -156,6 +137,7 @@ void Run<D>::operator()() const {
                    Motion_times{scene.time_step, steps(), every}, wall_motion(scene));
   std::optional<Run_picture<D>> picture;
   if (scene.output.picture) picture.emplace(world, scene.walls.has_value());
+  Run_sharing<D> sharing(ranks, world, state_times(world));
   {
     Progress progress("running " + options.scene, steps());
     for (std::uint32_t i = 1; i <= steps(); ++i) {
@@ -165,6 +147,7 @@ void Run<D>::operator()() const {
       }
       if (walls) walls->step(world);
       world.step();
+      sharing.step();
       if (record) record->record_step();
       files.record(world, i == steps());
       if (motion) motion->record(world, i == steps());
@@ -174,6 +157,7 @@ void Run<D>::operator()() const {
     }
   }
   world.validate();
+  sharing.finish();
   files.finish();
   if (walls || changes) {
     const Progress progress("certifying the environment as it is now");
@@ -202,11 +186,11 @@ void Run<D>::operator()() const {
   const ordered_json said = report(world, files, walls ? &*walls : nullptr, changes ? &*changes : nullptr,
                                    motion ? &*motion : nullptr);
   io::write_json(folder / "run.json", said);
-  if (record) io::write_body_trace(*outputs.record, record->trace());
-  write_json(outputs.json, said);
+  if (record) io::write_body_trace(*outputs->record, record->trace());
+  write_json(outputs->json, said);
   interruption.check();
-  outputs.all.commit(summary(world, files, walls ? &*walls : nullptr, changes ? &*changes : nullptr,
-                             motion.has_value(), picture.has_value()));
+  outputs->all.commit(summary(world, files, walls ? &*walls : nullptr, changes ? &*changes : nullptr,
+                              motion.has_value(), picture.has_value()));
 }
 
 template <int D>
@@ -297,15 +281,25 @@ std::string Run<D>::summary(const World<D>& world, const Run_files<D>& files, co
 }
 
 template <int D>
-void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>& scene) {
-  if (const auto* file = std::get_if<std::string>(&scene.environment)) outputs.all.also_reads(*file);
-  for (const auto& body : scene.bodies)
-    if (const auto* file = std::get_if<std::string>(&body.source)) outputs.all.also_reads(*file);
+void run_scene(const Run_options& options, Ranks& ranks, Run_outputs* outputs, const Scene<D>& scene) {
+  if (outputs != nullptr) {
+    if (const auto* file = std::get_if<std::string>(&scene.environment)) outputs->all.also_reads(*file);
+    for (const auto& body : scene.bodies)
+      if (const auto* file = std::get_if<std::string>(&body.source)) outputs->all.also_reads(*file);
+  }
+  Ranks alone;
+  const std::string reason = hindrance(scene, !options.record.empty());
+  Ranks& sharing = reason.empty() ? ranks : alone;
+  if (!reason.empty() && outputs == nullptr) return;
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
   if (!options.record.empty()) check_recordable(scene, options.scene);
-  if (scene.walls && !scene.walls->motion.empty()) outputs.all.also_reads(scene.walls->motion);
-  Prepared_environment prepared =
-      prepare(scene.environment, scene.walls ? &*scene.walls : nullptr, scene.changes, options.scene);
+  if (outputs != nullptr && scene.walls && !scene.walls->motion.empty())
+    outputs->all.also_reads(scene.walls->motion);
+  if (!reason.empty() && !ranks.is_alone())
+    fmt::print(stderr, "cellwalk: {}: {}, so the first of {} ranks works alone\n", options.scene, reason,
+               ranks.size());
+  Prepared_environment prepared = prepare(scene.environment, scene.walls ? &*scene.walls : nullptr,
+                                          scene.changes, options.scene, sharing);
   auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
     throw Error(Error_code::input,
@@ -313,15 +307,20 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
                             options.scene, 5 - D, D));
   const auto* const known = std::get_if<Groups<D>>(&prepared.groups);  // none are generated
   const Groups<D> groups = known ? *known : Groups<D>{};
-  Run<D>{scene, options, outputs, *environment, prepared.certificate, groups, bodies}();
+  Run<D>{scene, options, sharing, outputs, *environment, prepared.certificate, groups, bodies}();
 }
 
-void run(Run_options options) {
-  Run_outputs outputs(options);
+void run(Run_options options, Ranks& ranks) {
+  std::optional<Run_outputs> outputs;
+  if (ranks.is_first()) outputs.emplace(options);
+  if (outputs && !ranks.is_alone()) outputs->all.inputs_are_shared();
   Scene_source source = load_scene(options.scene, options.changes);
   options.scene = source.name;
   options.scene_text = std::move(source.text);
-  std::visit([&](const auto& scene) { run_scene(options, outputs, scene); }, source.scene);
+  const auto run_it = [&](const auto& scene) {
+    run_scene(options, ranks, outputs ? &*outputs : nullptr, scene);
+  };
+  std::visit(run_it, source.scene);
 }
 
 }  // namespace
@@ -365,11 +364,11 @@ void add_run(CLI::App& app, Action& chosen) {
   add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
                           "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50"});
   command->callback([options, &chosen] {
-    chosen = [options] {
+    chosen = [options](Ranks& ranks) {
       std::optional<tbb::global_control> limit;
       if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);
       try {
-        run(*options);
+        run(*options, ranks);
       } catch (const Interrupted& interrupted) {
         end_by(interrupted);
       }

@@ -46,6 +46,17 @@ std::optional<int> own_descriptor(const std::filesystem::path& path) {
   return wrong == std::errc{} && end == digits.data() + digits.size() ? std::optional(number) : std::nullopt;
 }
 
+/// Writes all of a text; false, with errno, if the system refuses.
+bool put_out(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
 }  // namespace
 
 Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::move(destination)) {
@@ -84,20 +95,17 @@ Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::
 Atomic_file::~Atomic_file() { discard(); }
 
 void Atomic_file::write(std::string_view text) {
+  if (!is_direct_ && text.size() >= buffer_size) {  // a copy of it would take longer
+    flush();
+    if (!put_out(descriptor_, text)) fail("writing failed");
+    return;
+  }
   buffer_.append(text);
   if (!is_direct_ && buffer_.size() >= buffer_size) flush();
 }
 
 void Atomic_file::flush() {
-  const char* p = buffer_.data();
-  std::size_t left = buffer_.size();
-  while (left > 0) {
-    const ssize_t n = ::write(descriptor_, p, left);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("writing failed");
-    p += n;
-    left -= static_cast<std::size_t>(n);
-  }
+  if (!put_out(descriptor_, buffer_)) fail("writing failed");
   buffer_.clear();
 }
 

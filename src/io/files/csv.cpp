@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/mapped_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -49,9 +50,18 @@ std::vector<std::string> split(const Line_reader& in) {
   return fields;
 }
 
+/// Where the bytes of a part begin, of a table whose rows begin at `first`: after the end of a line.
+std::size_t begin_of_part(std::string_view text, std::size_t first, std::size_t number, std::size_t count) {
+  if (number == count) return text.size();
+  const std::size_t about = first + (text.size() - first) / count * number;
+  if (about <= first) return first;
+  const std::size_t end = text.find('\n', about - 1);
+  return end == std::string_view::npos ? text.size() : end + 1;
+}
+
 }  // namespace
 
-Csv_table Csv_table::parse(const std::string& name, std::string_view text) {
+Csv_table Csv_table::parse(const std::string& name, std::string_view text, const Table_part& part) {
   Csv_table table;
   table.name_ = name;
   Line_reader in(name, text, '\0');
@@ -68,6 +78,11 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text) {
     if (column.empty()) in.fail("a column without a name");
     if (!names.insert(column).second) in.fail(fmt::format("two columns are named '{}'", shown(column)));
   }
+  if (part.count > 1) {
+    const std::size_t first = text.size() - in.remaining().size();
+    in.narrow(begin_of_part(text, first, part.number, part.count),
+              begin_of_part(text, first, part.number + 1, part.count));
+  }
   while (next()) {
     for (std::string& field : split(in)) table.fields_.push_back(std::move(field));
     table.field_begin_.push_back(table.fields_.size());
@@ -76,7 +91,14 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text) {
   return table;
 }
 
-Csv_table Csv_table::read(const std::filesystem::path& path) { return parse(path.string(), load(path)); }
+Csv_table Csv_table::read(const std::filesystem::path& path, const Table_part& part) {
+  if (part.count == 1) return parse(path.string(), load(path));
+  // Of a part, the other pages of the file are not copied.
+  const Mapped_file file = map_file(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+  return is_gzip(bytes) ? parse(path.string(), unpack(path.string(), std::string(bytes)), part)
+                        : parse(path.string(), bytes, part);
+}
 
 std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {
   const auto found = std::find(columns_.begin(), columns_.end(), name);
@@ -114,14 +136,17 @@ std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
 }
 
 Csv_writer::Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns)
-    : own_(std::make_unique<Atomic_file>(std::move(path))), file_(*own_), column_count_(columns.size()) {
+    : own_(std::make_unique<Atomic_file>(std::move(path))), file_(own_.get()), column_count_(columns.size()) {
   header(columns);
 }
 
 Csv_writer::Csv_writer(Atomic_file& file, const std::vector<std::string>& columns)
-    : file_(file), column_count_(columns.size()) {
+    : file_(&file), column_count_(columns.size()) {
   header(columns);
 }
+
+Csv_writer::Csv_writer(std::string& text, std::size_t column_count)
+    : text_(&text), column_count_(column_count) {}
 
 void Csv_writer::header(const std::vector<std::string>& columns) {
   begin_row(columns.size());
@@ -138,7 +163,10 @@ void Csv_writer::begin_row(std::size_t count) {
 
 void Csv_writer::end_row() {
   row_.push_back('\n');
-  file_.write(row_);
+  if (text_ != nullptr)
+    text_->append(row_);
+  else
+    file_->write(row_);
 }
 
 void Csv_writer::add_bare(std::string_view text) {

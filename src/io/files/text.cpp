@@ -112,6 +112,13 @@ bool Line_reader::next_line() {
   return false;
 }
 
+void Line_reader::narrow(std::size_t begin, std::size_t end) {
+  const std::string_view passed = text_.substr(position_, begin - position_);
+  line_number_ += static_cast<std::size_t>(std::count(passed.begin(), passed.end(), '\n'));
+  position_ = begin;
+  text_ = text_.substr(0, end);
+}
+
 void Line_reader::need_line(std::string_view expected) {
   if (!next_line()) fail(fmt::format("the file ends where {} should be: it is cut short", expected));
 }

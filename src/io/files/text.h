@@ -48,6 +48,11 @@ class Line_reader {
   /// Makes the next call of next_line() return the current line again.
   void unread() { position_ = line_begin_, --line_number_; }
 
+  /// Leaves only a part of the text to be read; lines keep their numbers.
+  /// \pre it begins at a line that is not read yet, and ends with one
+  /// Cost: a look at all bytes before it.
+  void narrow(std::size_t begin, std::size_t end);
+
   /// The text after the current line.
   std::string_view remaining() const { return text_.substr(position_); }
 

@@ -36,10 +36,8 @@ struct Reader_module {
 inline constexpr const char* reader_module_entry = "cellwalk_reader_module";
 using Reader_module_entry = const Reader_module* (*)();
 
-/// A module, found and loaded at the first call. It is searched for in the folder CELLWALK_READERS; beside
-/// the program or Python module in its build or prefix; in the search paths of the linker and the system; and
-/// in the folder of the installation. Null, with the problem, if it cannot be loaded or belongs to another
-/// version. Thread-safe.
+/// A module, found and loaded at the first call by load_module(). Null, with the problem, if it cannot be
+/// loaded or belongs to another version. Thread-safe.
 struct Loaded_module {
   const Reader_module* module = nullptr;
   std::string problem;

@@ -28,6 +28,50 @@ TEST(Csv, ColumnsAreFoundByName) {
   EXPECT_EQ(table.line(1), 7u);
 }
 
+/// The rows of all parts, one after the other, are those of the whole table, with their lines.
+TEST(Csv, PartsTogetherAreTheTable) {
+  const std::string texts[] = {"# a comment\nx,y\n", "x,y\n1,2", "x,y\n1,2\n\n# no\n3,4\n5,6,7\n8,9\r\n",
+                               "\xef\xbb\xbfx,y\n\n\n\n1,2\n\n\n\n\n\n\n\n3,4\n\n",
+                               "x\n1\n22\n333\n4444\n55555\n666666\n7777777\n88888888\n"};
+  for (const std::string& text : texts)
+    for (std::size_t count = 1; count <= 9; ++count) {
+      const Csv_table whole = Csv_table::parse("t.csv", text);
+      std::size_t row = 0;
+      for (std::size_t number = 0; number < count; ++number) {
+        const Csv_table part = Csv_table::parse("t.csv", text, {number, count});
+        EXPECT_EQ(part.columns(), whole.columns());
+        for (std::size_t r = 0; r < part.row_count(); ++r, ++row) {
+          ASSERT_LT(row, whole.row_count());
+          EXPECT_EQ(part.line(r), whole.line(row)) << text << count;
+          EXPECT_EQ(part.row_problem(r), whole.row_problem(row));
+          for (std::size_t c = 0; c < whole.columns().size(); ++c)
+            EXPECT_EQ(part.field(r, c), whole.field(row, c));
+        }
+      }
+      EXPECT_EQ(row, whole.row_count()) << text << count;
+    }
+}
+
+TEST(Csv, PartsNameTheLineOfAnError) {
+  const std::string text = "x\n1\n2\n3\n\"4\n5\n";
+  int refused = 0;
+  for (std::size_t number = 0; number < 3; ++number) try {
+      Csv_table::parse("t.csv", text, {number, 3});
+    } catch (const Error& error) {
+      EXPECT_STREQ(error.what(), "t.csv:5: a quote is left open");
+      ++refused;
+    }
+  EXPECT_EQ(refused, 1);
+}
+
+TEST(Csv, RowsAreWrittenIntoATextAlike) {
+  std::string text;
+  Csv_writer rows(text, 2);
+  rows.row(1, "a,b");
+  rows.row(0.5, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(text, "1,\"a,b\"\n0.5,\n");
+}
+
 TEST(Csv, IsRefusedWithFileAndLine) {
   const auto why = [](const char* text) { return refusal([&] { Csv_table::parse("t.csv", text); }); };
   EXPECT_EQ(why("# only a comment\n"),

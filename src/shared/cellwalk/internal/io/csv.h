@@ -19,13 +19,19 @@
 
 namespace cellwalk::io {
 
+/// Which rows of a table: of `count` parts, about equal in bytes and in the order of rows, that with a number
+/// below it.
+struct Table_part {
+  std::size_t number = 0, count = 1;
+};
+
 /// A table in memory. The first line that is neither blank nor a comment (#) is the header. Fields may be
 /// quoted (""). A row of the wrong length does not invalidate the table; only its own numbers are invalid.
 class Csv_table {
  public:
   /// \throw Error(input) with file and line: no header, a column named twice or not at all, a quote left open
-  static Csv_table read(const std::filesystem::path& path);
-  static Csv_table parse(const std::string& name, std::string_view text);
+  static Csv_table read(const std::filesystem::path& path, const Table_part& part = {});
+  static Csv_table parse(const std::string& name, std::string_view text, const Table_part& part = {});
 
   std::size_t row_count() const { return lines_.size(); }
   const std::vector<std::string>& columns() const { return columns_; }
@@ -60,6 +66,8 @@ class Csv_writer {
   Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns);
   /// Writes into a file that the caller commits, and that outlives the writer.
   Csv_writer(Atomic_file& file, const std::vector<std::string>& columns);
+  /// Appends rows to a text that outlives the writer, without a header.
+  Csv_writer(std::string& text, std::size_t column_count);
 
   /// Writes one row, with a value for each column: texts (quoted where needed), integers, and doubles in the
   /// shortest form that reads back the same; a double that is not finite is empty.
@@ -90,7 +98,8 @@ class Csv_writer {
   void add_bare(std::string_view text);
 
   std::unique_ptr<Atomic_file> own_;
-  Atomic_file& file_;
+  Atomic_file* file_ = nullptr;
+  std::string* text_ = nullptr;  ///< instead of a file
   std::size_t column_count_;
   std::string row_;
   bool first_ = true;

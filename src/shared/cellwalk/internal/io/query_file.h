@@ -24,15 +24,15 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
 /// Motions of points: columns ax,ay,az,bx,by,bz (2D: without z).
 /// \throw Error(input) as above
 template <int D>
-std::vector<Move_query<D>> read_moves(const std::filesystem::path& path) {
-  return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
+std::vector<Move_query<D>> read_moves(const std::filesystem::path& path, const Table_part& part = {}) {
+  return query_rows<D, 2>(Csv_table::read(path, part), {"a", "b"});
 }
 
 /// Motions of edges: columns px,py,pz,tx,ty,tz,qx,qy,qz (2D: without z); p moves to t, q stands still.
 /// \throw Error(input) as above
 template <int D>
-std::vector<Sweep_query<D>> read_sweeps(const std::filesystem::path& path) {
-  return query_rows<D, 3>(Csv_table::read(path), {"p", "t", "q"});
+std::vector<Sweep_query<D>> read_sweeps(const std::filesystem::path& path, const Table_part& part = {}) {
+  return query_rows<D, 3>(Csv_table::read(path, part), {"p", "t", "q"});
 }
 
 extern template std::vector<Query_row<2, 1>> query_rows(const Csv_table&,

@@ -7,6 +7,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/records/body_trace.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,11 +35,12 @@ void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const
 class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
+  /// \param first_body number of the first one in errors, if the trace is a part of another
   /// \pre the trace is one that io::read_body_trace accepts
   /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more
   ///        than 64 edges; Error(usage) for Sweep::faces
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
-              const Body_options& options);
+              const Body_options& options, std::size_t first_body = 0);
 
   /// Puts all bodies where they stand before the next step: by a step, which keeps what is known of walls
   /// nearby; anew where walls are in its way. Not timed.
@@ -72,6 +74,7 @@ class Body_replay {
   const Locator<3>* locator_;
   const Body_trace* trace_;
   Body_options options_;
+  std::size_t first_body_;
   std::vector<std::size_t> first_vertex_;  ///< of each body
   std::vector<std::vector<std::uint32_t>> degrees_;
   std::vector<Body<3>> bodies_;

@@ -8,6 +8,7 @@
 #include <cellwalk/internal/records/trace.h>
 #include <cellwalk/simulation/run_contact.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,11 +33,12 @@ struct Replay_options {
 class Replay {
  public:
   /// Registers the bodies at their start positions.
+  /// \param first_body number of the first one in errors, if the trace is a part of another
   /// \pre the trace is one that io::read_trace accepts
   /// \throw Error(outside) naming the body, and its vertex or edge; Error(usage) for Sweep::faces: the bodies
   ///        of a trace have no faces
   Replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace& trace,
-         const Replay_options& options);
+         const Replay_options& options, std::size_t first_body = 0);
 
   /// Moves all vertices of all bodies, in order, to the targets of the next step.
   /// \pre there is one

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "table.h"
+
+#include <cellwalk/internal/io/query_file.h>
+#include <cellwalk/internal/kernel/bytes.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "answers.h"
+#include "cli/common/counts_json.h"
+#include "cli/common/environment_file.h"
+#include "picture.h"
+#include "walk_repro.h"
+
+namespace cellwalk::cli {
+namespace {
+
+/// What a rank found out about its rows.
+struct Answered {
+  std::array<std::uint64_t, std::size(motion_status_names)> tally{};
+  Edge_counts counts;
+  std::size_t line = 0;  ///< of the first invalid row; 0: none
+  std::string error;     ///< of that row
+
+  template <class Answers, class Rows>
+  Answered(const Answers& answers, const Rows& rows, const Edge_counts& work) : counts(work) {
+    for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
+    const auto invalid =
+        std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.error.empty(); });
+    if (invalid == rows.end()) return;
+    line = invalid->line;
+    error = invalid->error;
+  }
+
+  /// Adds those of the rank that is next.
+  void add(Byte_reader& bytes) {
+    const auto more = bytes.value<decltype(tally)>();
+    for (std::size_t s = 0; s < tally.size(); ++s) tally[s] += more[s];
+    counts += bytes.value<Edge_counts>();
+    const auto line_of_rank = bytes.value<std::size_t>();
+    const std::string_view error_of_rank = bytes.text();
+    if (line == 0) line = line_of_rank, error = error_of_rank;
+  }
+  void write(Byte_writer& bytes) const {
+    bytes.value(tally);
+    bytes.value(counts);
+    bytes.value(line);
+    bytes.text(error);
+  }
+};
+
+/// Completes all files and prints the number of answers of each status.
+void report(const Query_options& options, Query_files& files, const Answered& answered) {
+  nlohmann::ordered_json by_status;
+  std::string line;
+  std::uint64_t motions = 0;
+  for (std::size_t s = 0; s < answered.tally.size(); ++s) {
+    motions += answered.tally[s];
+    by_status[motion_status_names[s]] = answered.tally[s];
+    if (answered.tally[s] != 0)
+      line += fmt::format("{} {} {}", line.empty() ? ":" : ",", answered.tally[s], motion_status_names[s]);
+  }
+  nlohmann::ordered_json counts;
+  if (options.mode == Query_mode::sweep) {
+    counts = cli::to_json(answered.counts);
+    counts["walk"] = cli::to_json(answered.counts.walk);
+  } else {
+    counts = cli::to_json(answered.counts.walk);
+  }
+  write_json(files.json, {{"motions", motions}, {"status", by_status}, {"counts", counts}});
+  files.all.commit(fmt::format("{}: {} motions{}\n", options.output, motions, line));
+  if (answered.line != 0)
+    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, answered.line,
+               answered.error, answered.tally[static_cast<std::size_t>(Motion_status::invalid)]);
+}
+
+/// The number of the first row of this rank in the whole table.
+std::size_t first_row(Ranks& ranks, std::size_t rows) {
+  std::vector<std::size_t> firsts;
+  std::size_t sum = 0;
+  const auto add = [&](std::size_t of_rank) {
+    firsts.push_back(sum);
+    sum += of_rank;
+  };
+  Byte_writer own, all;
+  own.value(rows);
+  ranks.gather(own.take(), [&](const std::string& bytes) { add(Byte_reader(bytes).value<std::size_t>()); });
+  all.list(firsts);
+  const std::string shared = ranks.broadcast(all.take());
+  return Byte_reader(shared).list<std::size_t>()[ranks.rank()];
+}
+
+/// The points of the row of which a repro file or a picture is wanted, on the first rank; none if none is.
+/// \throw Error(usage) if there is no such valid row, before anything is answered
+template <int D, std::size_t N>
+std::optional<std::array<Point<D>, N>> wanted_row(const Query_options& options, Ranks& ranks,
+                                                  std::size_t first,
+                                                  const std::vector<Query_row<D, N>>& rows) {
+  if (!options.row) return std::nullopt;
+  using Points = std::array<Point<D>, N>;
+  Byte_writer own;
+  if (*options.row >= first && *options.row - first < rows.size() && rows[*options.row - first].error.empty())
+    own.value(rows[*options.row - first].points);
+  std::optional<Points> found;
+  ranks.gather(own.take(), [&](const std::string& bytes) {
+    if (!bytes.empty()) found = Byte_reader(bytes).value<Points>();
+  });
+  if (!ranks.is_first()) return std::nullopt;
+  if (!found)
+    throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
+  if (D == 3 && !options.picture.empty())
+    throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
+  return found;
+}
+
+/// Draws the requested row.
+template <int D, std::size_t N>
+void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
+              const Locator<D>& locator, const std::array<Point<D>, N>& points, const Answer<D>& answer) {
+  if constexpr (D == 2)
+    if (files.picture != nullptr)
+      write_picture(*files.picture, snapshot, locator, *options.row, points, answer);
+}
+
+/// Writes the repro file of the requested row.
+template <int D>
+void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
+                const std::array<Point<D>, 2>& points, const Answer<D>& answer) {
+  if (files.record == nullptr) return;
+  const char* status = motion_status_names[static_cast<std::size_t>(answer.status)];
+  write_repro_of(*files.record, environment, points[0], points[1], options.move,
+                 fmt::format("row {} of a query: {}", *options.row, status));
+}
+
+/// Answers the rows of this rank by answer(points, counts), and hands the answers to the first, which writes
+/// those of all.
+/// \param files on the first rank
+template <int D, std::size_t N, class Answer_points>
+void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks& ranks,
+                         const Environment<D>& environment, const std::vector<Query_row<D, N>>& rows,
+                         const char* label, const Answer_points& answer, const Locator<D>& locator) {
+  const Snapshot<D>& snapshot = environment.snapshot();
+  const std::size_t first = first_row(ranks, rows.size());
+  const auto wanted = wanted_row(options, ranks, first, rows);
+  Edge_counts counts;
+  const std::vector<Answer<D>> answers =
+      answer_rows(rows, label, counts,
+                  [&](const Query_row<D, N>& row, Edge_counts& local) { return answer(row.points, local); });
+  Answered answered(answers, rows, counts);
+  const std::vector<std::string> columns = answer_columns(N == 3);
+  if (files == nullptr) {
+    std::string text;
+    io::Csv_writer table(text, columns.size());
+    write_answers(table, first, snapshot, rows, answers);
+    Byte_writer bytes;
+    answered.write(bytes);
+    ranks.gather(bytes.take());
+    ranks.gather(std::move(text));
+    return;
+  }
+  if (wanted) {
+    Edge_counts not_counted;
+    const Answer<D> once_more = answer(*wanted, not_counted);
+    if constexpr (N == 2) record_row(options, *files, environment, *wanted, once_more);
+    draw_row(options, *files, snapshot, locator, *wanted, once_more);
+  }
+  io::Csv_writer table(*files->answers, columns);
+  write_answers(table, first, snapshot, rows, answers);
+  ranks.gather({}, [&](const std::string& of_rank) {
+    if (of_rank.empty()) return;  // that of the first itself
+    Byte_reader bytes(of_rank);
+    answered.add(bytes);
+  });
+  ranks.gather({}, [&](const std::string& text) { files->answers->write(text); });
+  report(options, *files, answered);
+}
+
+}  // namespace
+
+template <int D>
+void answer_table(const Query_options& options, Query_files* files, Ranks& ranks,
+                  const Environment<D>& environment) {
+  const Snapshot<D>& snapshot = environment.snapshot();
+  const io::Table_part part{ranks.rank(), ranks.size()};
+  if (options.mode == Query_mode::move) {
+    const auto moves = io::read_moves<D>(options.queries, part);
+    const Locator<D> locator(snapshot);
+    answer_rows_of_rank(
+        options, files, ranks, environment, moves, "walking",
+        [&](const std::array<Point<D>, 2>& points, Edge_counts& local) {
+          return answer_move(snapshot, locator, points[0], points[1], options.move, local);
+        },
+        locator);
+  } else {
+    const auto sweeps = io::read_sweeps<D>(options.queries, part);
+    const Locator<D> locator(snapshot);
+    answer_rows_of_rank(
+        options, files, ranks, environment, sweeps, "sweeping",
+        [&](const std::array<Point<D>, 3>& points, Edge_counts& local) {
+          const auto& [p, target, q] = points;
+          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
+        },
+        locator);
+  }
+}
+
+template void answer_table(const Query_options&, Query_files*, Ranks&, const Environment<2>&);
+template void answer_table(const Query_options&, Query_files*, Ranks&, const Environment<3>&);
+
+}  // namespace cellwalk::cli

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A run whose particles and bodies ranks share: each advances a part, and the first writes what all did.
+#ifndef CELLWALK_CLI_RUN_SHARING_H
+#define CELLWALK_CLI_RUN_SHARING_H
+
+#include <cellwalk/internal/ranks/ranks.h>
+#include <cellwalk/internal/simulation/world_part.h>
+#include <cellwalk/records/scene.h>
+#include <cellwalk/simulation/world.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli/common/interruption.h"
+
+namespace cellwalk::cli {
+
+/// A first rank that waits for others notices an interruption.
+class Attentive_wait {
+ public:
+  Attentive_wait(Ranks& ranks, const Interruption& interruption) : ranks_(ranks) {
+    ranks.while_waiting([&interruption] { interruption.check(); });
+  }
+  ~Attentive_wait() { ranks_.while_waiting({}); }
+  Attentive_wait(const Attentive_wait&) = delete;
+  Attentive_wait& operator=(const Attentive_wait&) = delete;
+
+ private:
+  Ranks& ranks_;
+};
+
+/// Why ranks cannot share a run; empty if they can.
+template <int D>
+std::string hindrance(const Scene<D>& scene, bool is_recorded);
+
+/// When the first rank has to know where everything is: at the end, and as follows.
+struct State_times {
+  std::uint32_t steps = 0;
+  std::uint32_t frames = 0, motion = 0;  ///< steps from one to the next; 0: never
+  bool trails = false;                   ///< of particles, in every step
+};
+
+template <int D>
+class Run_sharing {
+ public:
+  /// Alone, all stays in the world, and nothing is done.
+  Run_sharing(Ranks& ranks, World<D>& world, const State_times& times);
+
+  /// To be called after each step of the world. Afterwards the world of the first rank knows the contacts of
+  /// all.
+  /// \throw Error on the first rank if another one failed
+  void step();
+  /// To be called after World::validate(): the world of the first rank knows everything.
+  /// \throw Error as step()
+  void finish();
+
+ private:
+  bool needs_states() const;
+  void exchange(const Told& what);
+
+  Ranks& ranks_;
+  World<D>& world_;
+  State_times times_;
+  std::optional<World_part<D>> part_;
+};
+
+extern template std::string hindrance(const Scene<2>&, bool);
+extern template std::string hindrance(const Scene<3>&, bool);
+extern template class Run_sharing<2>;
+extern template class Run_sharing<3>;
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_SHARING_H
