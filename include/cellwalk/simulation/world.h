@@ -7,6 +7,7 @@
 #define CELLWALK_SIMULATION_WORLD_H
 
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -101,6 +102,9 @@ class World {
   void validate();
 
  private:
+  struct Empty {};
+  /// Without anything that moves.
+  World(const Snapshot<D>& snapshot, const Scene<D>& scene, const Body_options& options, Empty);
   void place_cloud(const Particle_cloud& cloud, const std::string& key);
   void place_catheter(const Catheter<D>& catheter, const Locator<D>& locator);
   void place_bodies(const Locator<D>& locator);
@@ -133,6 +137,8 @@ class World {
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
   std::vector<Contact<D>> timed_contacts_;
   Walk_counts counts_;
+
+  friend detail::Saved_simulation<D>;
 };
 
 extern template class World<2>;
