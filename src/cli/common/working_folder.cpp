@@ -110,6 +110,12 @@ std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destinat
   return folder;
 }
 
+bool Working_folder::has_ended(const fs::path& destination) {
+  const Working_folder folder(destination);
+  std::error_code ignored;
+  return !fs::exists(folder.path_, ignored) && fs::is_regular_file(folder.destination_ / "run.json", ignored);
+}
+
 void Working_folder::lock() {
   constexpr mode_t permissions = 0666;
   lock_ = open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);

@@ -22,6 +22,9 @@ class Working_folder final : public io::Output {
   /// \throw Error(usage) if there is none, or another process uses it
   static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
 
+  /// True if there is none, but results of a run.
+  static bool has_ended(const std::filesystem::path& destination);
+
   ~Working_folder() override;
 
   std::filesystem::path results() const { return path_ / "results"; }

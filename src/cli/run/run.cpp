@@ -161,11 +161,14 @@ void check_same(const Run_options& options, const Asked& asked, const Run_settin
 }
 
 void resume(Run_options options, const Asked& asked) {
+  const auto note_end = [&] {
+    fmt::print("{}: the run had ended, and its results are there\n", options.resume);
+  };
+  if (Working_folder::has_ended(options.resume)) return note_end();
   Run_outputs outputs(options.resume);
   if (outputs.working->is_done()) {
     outputs.working->settle();
-    fmt::print("{}: the run had ended, and its results are there\n", options.resume);
-    return;
+    return note_end();
   }
   Kept_run kept = read_checkpoint(outputs.working->checkpoints());
   const Run_settings& settings = kept.settings;
