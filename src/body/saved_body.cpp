@@ -61,7 +61,9 @@ class Saved_body {
   static Body<D> read(const Snapshot<D>& snapshot, Byte_reader& in) {
     const auto known = in.next<std::array<std::uint64_t, 5>>();
     if (known != identity(snapshot))
-      refuse("this body was saved in another environment, or before an edit: restore it in the one in which it was");
+      refuse(
+          "this body was saved in another environment, or before an edit: restore it in the one in which it "
+          "was");
     auto positions = in.next<std::vector<Point<D>>>();
     auto edges = in.next<std::vector<std::array<std::uint32_t, 2>>>();
     auto faces = in.next<std::vector<std::array<std::uint32_t, 3>>>();
@@ -112,7 +114,9 @@ class Saved_body {
     for (const Chain& chain : state.chains) is_good = is_good && std::ranges::all_of(chain, is_facet);
     for (const Supporting_walls& walls : state.supporting_walls)
       is_good = is_good && std::ranges::all_of(walls, is_facet);
-    const auto has_anchor = [&](const Clear_region<D>& region) { return snapshot.is_cell(region.anchor().cell); };
+    const auto has_anchor = [&](const Clear_region<D>& region) {
+      return snapshot.is_cell(region.anchor().cell);
+    };
     if (state.region.has_region()) is_good = is_good && has_anchor(*state.region.region());
     is_good = is_good && std::ranges::all_of(state.pool.regions(), has_anchor);
     if (!is_good) Byte_reader::refuse();
@@ -161,8 +165,8 @@ Body<D> restore_body(const Snapshot<D>& snapshot, std::span<const std::byte> byt
                    " of the format, and this program reads version " + std::to_string(expected.version) +
                    ": save it again");
   if (head.dimension != D)
-    detail::refuse("this body was saved in " + std::to_string(head.dimension) + "D, and the environment is of " +
-                   std::to_string(D) + "D");
+    detail::refuse("this body was saved in " + std::to_string(head.dimension) +
+                   "D, and the environment is of " + std::to_string(D) + "D");
   if (head.checksum != detail::checksum(bytes.subspan(head_size)))
     detail::refuse("this saved body is damaged: its checksum differs");
   detail::Byte_reader state(bytes.subspan(head_size));

@@ -24,8 +24,9 @@ struct Wall_plane {
   /// Of points of the box or the environment: where the product with the normal, as rounded, is less than
   /// `inside`, they lie before the plane; where it is greater than `outside`, they do not.
   double inside = 0, outside = 0;
-  bool has_corners = false;         ///< false: there is no plane but `inside`
-  std::array<Point<D>, D> corners;  ///< of the wall: copies, since edits elsewhere may move the points in memory
+  bool has_corners = false;  ///< false: there is no plane but `inside`
+  std::array<Point<D>, D>
+      corners;  ///< of the wall: copies, since edits elsewhere may move the points in memory
 
   Wall_plane() : corners{} {}
   /// \param sizes the largest size of each coordinate of points of the box and of the environment

@@ -31,7 +31,8 @@ void Environment_image<D>::follow(Environment<D>& environment, const Environment
     bool fits = first.size() <= snapshot.points().size() && std::ranges::all_of(first, is_good);
     for (const auto& [point, cell] : other_parts)
       fits = fits && point < first.size() && snapshot.is_cell(cell);
-    if (!fits) throw Error(Error_code::input, "the history of an environment is damaged: it is not of this one");
+    if (!fits)
+      throw Error(Error_code::input, "the history of an environment is damaged: it is not of this one");
     environment.stars_ = std::make_unique<Star_index<D>>(first, other_parts);
   }
   if (history.cluster_size != 0 &&

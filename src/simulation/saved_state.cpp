@@ -37,7 +37,8 @@ void visit_parts(Archive& a, Stitch& stitch) {
 template <int D>
 void Saved_simulation<D>::write(Byte_writer& out, const World<D>& world) {
   world.check_epoch();
-  out(world.steps_done_, world.particles_, world.velocities_, world.contacts_, world.counts_, world.entry_of_);
+  out(world.steps_done_, world.particles_, world.velocities_, world.contacts_, world.counts_,
+      world.entry_of_);
   for (const Moving_body<D>& moving : world.bodies_) {
     out(cellwalk::save(moving.body()));
     moving.visit([&](const auto& kind) { out(kind); });
@@ -47,7 +48,8 @@ void Saved_simulation<D>::write(Byte_writer& out, const World<D>& world) {
 
 /// What kind it is follows from the scene: all that its constructor finds is then replaced.
 template <int D>
-Moving_body<D> Saved_simulation<D>::read_body(Byte_reader& in, const std::optional<std::size_t>& entry) const {
+Moving_body<D> Saved_simulation<D>::read_body(Byte_reader& in,
+                                              const std::optional<std::size_t>& entry) const {
   Body<D> body = restore_body<D>(snapshot_, in.next<std::vector<std::byte>>());
   const auto made = [&](auto kind) {
     in(kind);
@@ -133,12 +135,12 @@ void save(Byte_writer& out, const Tissue<D>& tissue) {
   out(tissue);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                      \
-  template class Saved_simulation<D>;                                \
-  template void save(Byte_writer&, const World<D>&);                 \
-  template void save(Byte_writer&, const Change_schedule<D>&);       \
-  template void save(Byte_writer&, const Wall_pulsation<D>&);        \
-  template void save(Byte_writer&, const Elastic_foundation<D>&);    \
+#define CELLWALK_INSTANTIATE(D)                                   \
+  template class Saved_simulation<D>;                             \
+  template void save(Byte_writer&, const World<D>&);              \
+  template void save(Byte_writer&, const Change_schedule<D>&);    \
+  template void save(Byte_writer&, const Wall_pulsation<D>&);     \
+  template void save(Byte_writer&, const Elastic_foundation<D>&); \
   template void save(Byte_writer&, const Tissue<D>&);
 
 CELLWALK_INSTANTIATE(2)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Registered bodies as bytes, from which they are restored without being located again: for checkpoints, and for
-// copies in other processes.
+// Registered bodies as bytes, from which they are restored without being located again: for checkpoints, and
+// for copies in other processes.
 #ifndef CELLWALK_BODY_SAVED_BODY_H
 #define CELLWALK_BODY_SAVED_BODY_H
 
@@ -12,20 +12,22 @@
 
 namespace cellwalk {
 
-/// All that a body is made of and where it is registered: positions, edges, faces, particles, chains, the walls
-/// that faces rest on, the regions free of walls and what is stale in them. The same body gives the same bytes.
-/// They are for the same version of the program on machines of the same byte order, and carry a checksum.
+/// All that a body is made of and where it is registered: positions, edges, faces, particles, chains, the
+/// walls that faces rest on, the regions free of walls and what is stale in them. The same body gives the
+/// same bytes. They are for the same version of the program on machines of the same byte order, and carry a
+/// checksum.
 /// \pre no edit since the body was registered
 /// \throw Error(usage) if there was one
 /// Cost: about that of a copy.
 template <int D>
 std::vector<std::byte> save(const Body<D>& body);
 
-/// The body that was saved, in the same environment: the one in which it was, with no edit since, or a compiled
-/// copy of that (compile_to_bytes()). All that it does and counts from then on is what the body that was saved
-/// would have done and counted, if the snapshot also follows the same history, see Environment_history.
-/// \throw Error(input) for bytes that are no saved body, are damaged, or of another version or dimension, or that
-///        do not fit the environment: a vertex is not in its cell, or an edge has no valid chain
+/// The body that was saved, in the same environment: the one in which it was, with no edit since, or a
+/// compiled copy of that (compile_to_bytes()). All that it does and counts from then on is what the body that
+/// was saved would have done and counted, if the snapshot also follows the same history, see
+/// Environment_history.
+/// \throw Error(input) for bytes that are no saved body, are damaged, or of another version or dimension, or
+///        that do not fit the environment: a vertex is not in its cell, or an edge has no valid chain
 /// Cost: that of Body::validate(), some 0.2 us a vertex and an edge; no point is located.
 template <int D>
 Body<D> restore_body(const Snapshot<D>& snapshot, std::span<const std::byte> bytes);

@@ -3,7 +3,6 @@
 #ifndef CELLWALK_IO_ATOMIC_FILE_H
 #define CELLWALK_IO_ATOMIC_FILE_H
 
-#include <cellwalk/internal/io/byte_sink.h>
 #include <cellwalk/internal/io/output.h>
 
 #include <cstddef>

@@ -57,7 +57,8 @@ class Elastic_foundation {
   using Increments = std::vector<std::pair<std::uint32_t, Vector<D>>>;
   void spread(Increments& increments) const;
   /// One that knows no vertex yet.
-  Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft) : snapshot_(&snapshot), soft_(soft) {}
+  Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft)
+      : snapshot_(&snapshot), soft_(soft) {}
   /// All parts of its state that the scene and the environment do not tell.
   template <class Archive>
   void archive(Archive& a) {

@@ -25,8 +25,9 @@ constexpr std::array<Change_words, change_kind_count> words{{{"open", "opened", 
                                                              {"cut", "made", "cut"},
                                                              {"sew", "sewn", "point"}}};
 
-const std::vector<std::string> names_of_columns{"step", "change", "kind", "status",   "cell",    "facet",  "x",
-                                       "y",    "z",      "body", "particle", "feature", "number", "reason"};
+const std::vector<std::string> names_of_columns{"step",     "change",  "kind",   "status", "cell",
+                                                "facet",    "x",       "y",      "z",      "body",
+                                                "particle", "feature", "number", "reason"};
 
 /// The mean of the vertices of a facet, or of a cell if there is none.
 template <int D>

@@ -79,10 +79,11 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
     // What ended before its first checkpoint is of no use.
     const bool is_ours = fs::is_directory(folder->checkpoints(), ignored);
     if (!is_ours || (!replace && has_checkpoint(folder->checkpoints())))
-      throw Error(Error_code::usage,
-                  fmt::format("{}.part: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
-                              "or remove it",
-                              destination.string(), destination.string()));
+      throw Error(
+          Error_code::usage,
+          fmt::format("{}.part: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
+                      "or remove it",
+                      destination.string(), destination.string()));
     folder->lock();
     fs::remove_all(folder->results(), ignored);
     fs::remove_all(folder->checkpoints(), ignored);
@@ -100,9 +101,10 @@ std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destinat
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
   std::error_code ignored;
   if (!fs::is_directory(folder->checkpoints(), ignored))
-    throw Error(Error_code::usage, fmt::format("{}.part: is no folder of a run that did not end: only one with "
-                                               "--checkpoint-every leaves it",
-                                               destination.string()));
+    throw Error(Error_code::usage,
+                fmt::format("{}.part: is no folder of a run that did not end: only one with "
+                            "--checkpoint-every leaves it",
+                            destination.string()));
   folder->lock();
   const std::string ended = content(folder->path_ / "ended");
   folder->is_done_ = !ended.empty() && ended == identity(folder->destination_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A folder of results that is written beside its destination, as OUT.part, and stays there if the program ends
-// before: another one goes on with it.
+// A folder of results that is written beside its destination, as OUT.part, and stays there if the program
+// ends before: another one goes on with it.
 #ifndef CELLWALK_CLI_COMMON_WORKING_FOLDER_H
 #define CELLWALK_CLI_COMMON_WORKING_FOLDER_H
 
@@ -15,8 +15,8 @@ namespace cellwalk::cli {
 class Working_folder final : public io::Output {
  public:
   /// Makes it. Without a checkpoint, the destructor removes it.
-  /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(other) if it
-  ///        cannot be made
+  /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(other)
+  ///        if it cannot be made
   static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
   /// Takes up what an earlier process left: unfinished files in it are removed.
   /// \throw Error(usage) if there is none, or another process uses it

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Checkpoints of a run: all that another process needs to go on with it, the scene and the environment included.
+// Checkpoints of a run: all that another process needs to go on with it, the scene and the environment
+// included.
 #ifndef CELLWALK_CLI_RUN_CHECKPOINTS_H
 #define CELLWALK_CLI_RUN_CHECKPOINTS_H
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +46,7 @@ struct Kept_run {
   io::Checkpoint checkpoint;
   Run_settings settings;
   Result_files::Lengths lengths;
-  detail::Byte_reader rest{{}};  ///< the environment and the parts of the run
+  detail::Byte_reader rest{std::span<const std::byte>()};  ///< the environment and the parts of the run
 };
 
 /// Reads the newest checkpoint of a run that is not damaged, with a line on stderr for each that is.

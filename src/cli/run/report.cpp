@@ -27,8 +27,7 @@ std::string caption(const Run_input<D>& input, const Run_parts<D>& parts) {
   if (!world.particles().empty()) text += fmt::format("{} free particles, ", world.particles().size());
   if (const std::size_t count = world.bodies().size() - input.scene.catheter.has_value(); count > 0)
     text += fmt::format("{} {}, ", count, count == 1 ? "body" : "bodies");
-  return text +
-         fmt::format("{} steps, {} contacts", input.steps(), by_kind[0] + by_kind[1] + by_kind[2]);
+  return text + fmt::format("{} steps, {} contacts", input.steps(), by_kind[0] + by_kind[1] + by_kind[2]);
 }
 
 template <int D>
@@ -52,8 +51,8 @@ ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts) {
   result["validated"] = true;  // World::validate has returned
   result["counts"] = to_json(world.counts());
   if (!world.bodies().empty()) result["body_counts"] = to_json(world.body_counts());
-  // Everything needed to repeat the run, and nothing that differs between machines or days: the scene as it was
-  // run, too.
+  // Everything needed to repeat the run, and nothing that differs between machines or days: the scene as it
+  // was run, too.
   constexpr bool throws = true, skips_comments = true;
   result["manifest"] = {
       {"cellwalk", CELLWALK_VERSION},

@@ -149,8 +149,8 @@ void check_same(const Run_options& options, const Asked& asked, const Run_settin
                 std::uint32_t steps) {
   const auto refuse = [&](const char* what) {
     throw Error(Error_code::usage,
-                fmt::format("{}: this run began with {}: leave that out, or begin another run", options.resume,
-                            what));
+                fmt::format("{}: this run began with {}: leave that out, or begin another run",
+                            options.resume, what));
   };
   if (asked.scene && load_scene(options.scene, options.changes).text != settings.scene_text)
     refuse("another scene");
@@ -172,8 +172,8 @@ void resume(Run_options options, const Asked& asked) {
   }
   Kept_run kept = read_checkpoint(outputs.working->checkpoints());
   const Run_settings& settings = kept.settings;
-  const Any_scene scene =
-      io::parse_scene(settings.scene, settings.scene_text, std::filesystem::path(settings.scene).parent_path());
+  const Any_scene scene = io::parse_scene(settings.scene, settings.scene_text,
+                                          std::filesystem::path(settings.scene).parent_path());
   const std::uint32_t steps =
       settings.steps > 0 ? settings.steps : std::visit([](const auto& of) { return of.steps; }, scene);
   check_same(options, asked, settings, steps);
@@ -236,9 +236,10 @@ void add_run(CLI::App& app, Action& chosen) {
   CLI::Option* const force =
       command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
   command
-      ->add_option("--checkpoint-every", options->checkpoint_every,
-                   "Keep all that is needed to go on with the run after every N steps, in DIR.part; the results are "
-                   "the same")
+      ->add_option(
+          "--checkpoint-every", options->checkpoint_every,
+          "Keep all that is needed to go on with the run after every N steps, in DIR.part; the results are "
+          "the same")
       ->type_name("N")
       ->check(whole_number(1, 100000000));
   command
@@ -247,10 +248,10 @@ void add_run(CLI::App& app, Action& chosen) {
       ->type_name("DIR")
       ->excludes(output)
       ->excludes(force);
-  add_examples(*command, {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
-                          "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50",
-                          "cellwalk run -o long --steps 100000 --checkpoint-every 1000",
-                          "cellwalk run --resume long"});
+  add_examples(*command,
+               {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
+                "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50",
+                "cellwalk run -o long --steps 100000 --checkpoint-every 1000", "cellwalk run --resume long"});
   command->callback([options, command, &chosen] {
     if (options->folder.empty() && options->resume.empty()) throw CLI::RequiredError("--output");
     const auto is_given = [command](const char* name) { return command->get_option(name)->count() > 0; };

@@ -25,8 +25,7 @@ Run_walls<D>::Run_walls(Result_files& place, Environment<D>& environment, const 
                                        "cell", "body", "particle", "feature", "number"})) {
   options_.at_contact = scene.walls->push ? At_contact::push : At_contact::stop;
   const Scene_walls<D>& walls = *scene.walls;
-  if (walls.soft)
-    forces_.emplace(place.table("forces.csv", {"step", "vertices", "largest_yield", "force"}));
+  if (walls.soft) forces_.emplace(place.table("forces.csv", {"step", "vertices", "largest_yield", "force"}));
   name_ = name;
   material_ = walls.tissue;
   fixed_ = walls.fixed;

@@ -62,8 +62,8 @@ class Run_walls {
   template <class Archive>
   void archive(Archive& a) {
     a(largest_stretch_, largest_yield_, largest_force_, motion_, next_, pending_, relax_options_.keep,
-      relaxed_.smoothed, relaxed_.flipped, relaxed_.edges_removed, relaxed_.split, relaxed_.collapsed, moves_, ends_,
-      hits_, counts_);
+      relaxed_.smoothed, relaxed_.flipped, relaxed_.edges_removed, relaxed_.split, relaxed_.collapsed, moves_,
+      ends_, hits_, counts_);
   }
   friend detail::Byte_reader;
   friend detail::Byte_writer;

@@ -66,7 +66,8 @@ void sync(const fs::path& path) {
 void sync_all(const fs::path& folder) {
   std::error_code failure;
   fs::recursive_directory_iterator entry(folder, failure);
-  for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure)) sync(entry->path());
+  for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
+    sync(entry->path());
   if (failure) throw Error(Error_code::other, folder.string() + ": cannot be read: " + failure.message());
   sync(folder);
   sync(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
@@ -100,7 +101,8 @@ Growing_file::Growing_file(fs::path path, std::uint64_t length) : path_(std::mov
   struct stat status;
   if (fstat(descriptor_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) < length) {
     close(std::exchange(descriptor_, -1));
-    throw Error(Error_code::input, path_.string() + ": is shorter than it was at the checkpoint: it was changed");
+    throw Error(Error_code::input,
+                path_.string() + ": is shorter than it was at the checkpoint: it was changed");
   }
   const auto end = static_cast<off_t>(length);
   if (ftruncate(descriptor_, end) == 0 && lseek(descriptor_, end, SEEK_SET) == end) return;

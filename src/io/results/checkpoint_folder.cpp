@@ -62,20 +62,23 @@ Checkpoint unsealed(const fs::path& file, const std::string& program) {
   if (bytes.size() < head_size) throw Damage{"it is cut short"};
   detail::Byte_reader in(bytes.first(head_size));
   const auto head = in.next<Sealed>();
-  if (head.magic != magic || head.byte_order != byte_order) throw Damage{"it is no checkpoint of this machine"};
+  if (head.magic != magic || head.byte_order != byte_order)
+    throw Damage{"it is no checkpoint of this machine"};
   if (head.version != version)
-    throw Error(Error_code::input,
-                fmt::format("{}: was written in version {} of the format, and this program reads version {}: go "
-                            "on with the program that began the run",
-                            file.string(), head.version, version));
+    throw Error(
+        Error_code::input,
+        fmt::format("{}: was written in version {} of the format, and this program reads version {}: go "
+                    "on with the program that began the run",
+                    file.string(), head.version, version));
   const auto content = bytes.subspan(head_size);
   if (head.bytes != content.size()) throw Damage{"it is cut short"};
   if (head.checksum != checksum_of(head, content)) throw Damage{"its checksum differs"};
   detail::Byte_reader body(content);
   if (const auto writer = body.next<std::string>(); writer != program)
-    throw Error(Error_code::input, fmt::format("{}: was written by {}, and this is {}: go on with the program that "
-                                               "began the run",
-                                               file.string(), shown(writer), program));
+    throw Error(Error_code::input,
+                fmt::format("{}: was written by {}, and this is {}: go on with the program that "
+                            "began the run",
+                            file.string(), shown(writer), program));
   const auto state = body.take_rest();
   return {head.step, {state.begin(), state.end()}, file, {}};
 }
@@ -135,7 +138,8 @@ Checkpoint Checkpoint_folder::newest() const {
     }
   }
   if (!passed_over.empty())
-    throw Error(Error_code::input, passed_over.front() + ", and there is no other checkpoint: begin the run again");
+    throw Error(Error_code::input,
+                passed_over.front() + ", and there is no other checkpoint: begin the run again");
   throw Error(Error_code::input, folder_.string() + ": holds no checkpoint: begin the run again");
 }
 

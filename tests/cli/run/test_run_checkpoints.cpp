@@ -65,7 +65,8 @@ class Checkpoints : public Stopped_run {
 
 TEST_F(Checkpoints, AreGoneWhenTheRunHasEnded) {
   expect_same(run_program(begin(20), parts()));
-  expect_same(run_program({"run", "../scene.json", "-o", "out", "--force", "--checkpoint-every", "300"}, parts()));
+  expect_same(
+      run_program({"run", "../scene.json", "-o", "out", "--force", "--checkpoint-every", "300"}, parts()));
 }
 
 TEST_F(Checkpoints, TheLastTwoAreKept) {
@@ -129,7 +130,8 @@ TEST_F(Checkpoints, FilesThatWereCutShortAreNoticed) {
   const fs::path table = part() / "results" / "walls.csv";
   const std::string whole = read_text(table);
   write_text(table, "step\n");
-  expect_refusal(3, {}, fs::canonical(table).string() + ": is shorter than it was at the checkpoint: it was changed");
+  expect_refusal(
+      3, {}, fs::canonical(table).string() + ": is shorter than it was at the checkpoint: it was changed");
   write_text(table, whole);
   expect_same(go_on());
 }
@@ -158,9 +160,10 @@ TEST_F(Checkpoints, ANewRunDoesNotReplaceThemUnasked) {
   stop_at(40);
   const Outcome refused = run_program(begin(20), parts());
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.err,
-            "cellwalk: out.part: holds a run that did not end: go on with it by `cellwalk run --resume out`, or "
-            "remove it\n");
+  EXPECT_EQ(
+      refused.err,
+      "cellwalk: out.part: holds a run that did not end: go on with it by `cellwalk run --resume out`, or "
+      "remove it\n");
   std::vector<std::string> forced = begin(50);
   forced.push_back("--force");
   expect_same(run_program(forced, parts()));
@@ -179,7 +182,8 @@ TEST_F(Checkpoints, AFullDeviceLeavesTheLastOne) {
   stop_at(40);
   // The recording of the motion, which grows, does not fit any more.
   const std::size_t room = fs::file_size(part() / "checkpoints" / "motion.gz.content") + 20000;
-  const Outcome full = stop_program(resume(), parts(), SIGKILL, [] { return false; }, room);
+  const Outcome full = stop_program(
+      resume(), parts(), SIGKILL, [] { return false; }, room);
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_EQ(full.out, "");
   EXPECT_TRUE(full.err.ends_with(": writing failed (File too large)\n")) << full.err;
@@ -207,11 +211,13 @@ TEST_F(Checkpoints, ARunThatHadEndedSaysSo) {
 }
 
 TEST_F(Checkpoints, ARunThatDoesNotBeginLeavesNothing) {
-  write("bad.json", "{\"environment\": {\"generate\": \"hexes\"}, \"particles\": [{\"position\": [99, 0, 0]}]}");
+  write("bad.json",
+        "{\"environment\": {\"generate\": \"hexes\"}, \"particles\": [{\"position\": [99, 0, 0]}]}");
   expect_failure(5, {"run", "bad.json", "-o", "bad", "--checkpoint-every", "5"}, {"particles[0].position"});
   expect_failure(2, {"run", "--resume", "nothing"}, {"nothing.part: is no folder of a run that did not end"});
   expect_failure(2, {"run", "scene.json"}, {"--output is required"});
-  expect_failure(2, {"run", "scene.json", "-o", "o", "--checkpoint-every", "0"}, {"from 1 to 100000000, not 0"});
+  expect_failure(2, {"run", "scene.json", "-o", "o", "--checkpoint-every", "0"},
+                 {"from 1 to 100000000, not 0"});
 }
 
 }  // namespace

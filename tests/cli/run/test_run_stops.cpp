@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Runs of every kind of scene that are killed at any moment and go on from their checkpoints leave the same bytes
-// as runs that are not.
+// Runs of every kind of scene that are killed at any moment and go on from their checkpoints leave the same
+// bytes as runs that are not.
 #include <cellwalk/kernel/random.h>
 
 #include <algorithm>
@@ -40,7 +40,8 @@ const std::vector<Kind> kinds{
     {"excavation",
      {data + "/excavation.json", "--set", "changes[1].step=40", "--set", "changes[2].step=60", "--set",
       "changes[0].until=30"},
-     80, 7},
+     80,
+     7},
     {"cut", {data + "/cut.json", "--set", "changes[1].step=12"}, 36, 4},
     {"suture", {data + "/suture.json", "--set", "changes[1].step=8", "--set", "changes[2].step=20"}, 32, 4},
 };

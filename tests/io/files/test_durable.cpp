@@ -96,8 +96,9 @@ TEST(Durable, RefusesAFileThatIsShorterThanItWas) {
   folder.write("table", "header");
   EXPECT_NE(refusal([&] { Growing_file file(folder / "table", 7); }).find("is shorter than it was"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { Growing_file file(folder / "other", 7); }, Error_code::other).find("cannot be written"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] { Growing_file file(folder / "other", 7); }, Error_code::other).find("cannot be written"),
+      std::string::npos);
   EXPECT_EQ(content_of(folder / "table"), "header");
 }
 
@@ -106,7 +107,8 @@ TEST(Durable, AGrowingFileSaysThatTheDeviceIsFull) {
   Growing_file file(folder / "table");
   const Size_limit limit(1000);
   file.write(std::string(2000, 'x'));
-  EXPECT_NE(refusal([&] { file.sync(); }, Error_code::other).find("table: writing failed"), std::string::npos);
+  EXPECT_NE(refusal([&] { file.sync(); }, Error_code::other).find("table: writing failed"),
+            std::string::npos);
 }
 
 }  // namespace

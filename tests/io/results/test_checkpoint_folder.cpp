@@ -93,17 +93,20 @@ TEST_F(Checkpoints, SaysThatThereIsNone) {
   EXPECT_FALSE(checkpoints_.has_any());
   keep(checkpoints_, 1, "first");
   change(1, 60);
-  EXPECT_NE(refusal([&] { checkpoints_.newest(); })
-                .find("its checksum differs, and there is no other checkpoint: begin the run again"),
+  EXPECT_NE(refusal([&] {
+              checkpoints_.newest();
+            }).find("its checksum differs, and there is no other checkpoint: begin the run again"),
             std::string::npos);
 }
 
 TEST_F(Checkpoints, AnotherProgramDoesNotGoOn) {
   keep(checkpoints_, 1, "first");
   const Checkpoint_folder other(folder_ / "", "program 2");
-  EXPECT_NE(refusal([&] { other.newest(); })
-                .find("was written by program 1, and this is program 2: go on with the program that began the run"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] {
+        other.newest();
+      }).find("was written by program 1, and this is program 2: go on with the program that began the run"),
+      std::string::npos);
   std::string bytes = content_of(file(1));
   bytes[8] = 9;
   folder_.write(file(1).filename().string(), bytes);

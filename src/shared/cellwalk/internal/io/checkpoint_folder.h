@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Checkpoints of a run in a folder: the last two, sealed by a checksum, each there as a whole or not at all. See
-// docs/formats.md.
+// Checkpoints of a run in a folder: the last two, sealed by a checksum, each there as a whole or not at all.
+// See docs/formats.md.
 #ifndef CELLWALK_INTERNAL_IO_CHECKPOINT_FOLDER_H
 #define CELLWALK_INTERNAL_IO_CHECKPOINT_FOLDER_H
 

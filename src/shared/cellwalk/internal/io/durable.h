@@ -3,13 +3,13 @@
 #ifndef CELLWALK_INTERNAL_IO_DURABLE_H
 #define CELLWALK_INTERNAL_IO_DURABLE_H
 
+#include <cellwalk/internal/io/output.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
-
-#include <cellwalk/internal/io/byte_sink.h>
 
 namespace cellwalk::io {
 
@@ -23,9 +23,11 @@ void sync_all(const std::filesystem::path& folder);
 /// Writes a whole file, first beside its destination, and waits until content and name are on the device.
 /// After a loss of power at any moment the file is the old one or the new one.
 /// \throw Error(other) naming the file; then nothing is left beside it
-void write_durably(const std::filesystem::path& destination, std::span<const std::span<const std::byte>> pieces);
+void write_durably(const std::filesystem::path& destination,
+                   std::span<const std::span<const std::byte>> pieces);
 
-/// A file that grows where it is, and may be taken up again: what follows the length that was kept is cut off.
+/// A file that grows where it is, and may be taken up again: what follows the length that was kept is cut
+/// off.
 class Growing_file final : public Byte_sink {
  public:
   /// \param length that is kept of what is there; 0 makes a new file

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Values as bytes of this machine, written and read by the same enumeration of their parts: for states that are
-// saved and taken up again.
+// Values as bytes of this machine, written and read by the same enumeration of their parts: for states that
+// are saved and taken up again.
 //
 // A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, which may be
-// private to it and to both of these as friends, or there is a function visit_parts(a, value) in its namespace or
-// in detail. Archive::is_reading tells the directions apart.
+// private to it and to both of these as friends, or there is a function visit_parts(a, value) in its
+// namespace or in detail. Archive::is_reading tells the directions apart.
 #ifndef CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 #define CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 
@@ -33,7 +33,7 @@ struct Is_plain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T
 template <class T, std::size_t N>
 struct Is_plain<std::array<T, N>> : Is_plain<T> {};
 template <class T>
-constexpr bool is_plain = Is_plain<T>::value && std::is_trivially_copyable_v<T>;
+constexpr bool is_plain = Is_plain<T>::value&& std::is_trivially_copyable_v<T>;
 
 template <class T>
 constexpr bool is_pair = false;
@@ -72,7 +72,9 @@ class Byte_writer {
   void operator()(const T&... values) {
     (put(values), ...);
   }
-  void put_bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void put_bytes(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }

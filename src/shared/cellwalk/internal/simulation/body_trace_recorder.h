@@ -21,7 +21,8 @@ class Body_trace_recorder {
   /// \throw Error(input) naming the body of which a vertex has more than 64 edges
   explicit Body_trace_recorder(const World<3>& world);
   /// Goes on with the trace of a world that was saved where this one stands.
-  /// \pre the trace has the steps, positions, targets and answers of a recorder of that world; its bodies are found
+  /// \pre the trace has the steps, positions, targets and answers of a recorder of that world; its bodies are
+  ///        found
   Body_trace_recorder(const World<3>& world, Body_trace trace);
 
   /// Records the step that the world has just made: to be called after each.

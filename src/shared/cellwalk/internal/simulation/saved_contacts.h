@@ -10,8 +10,8 @@ namespace cellwalk::detail {
 template <class Archive, int D>
 void visit_parts(Archive& a, Contact<D>& contact) {
   double time = contact.rounded_time();
-  a(time, contact.point, contact.normal, contact.kind, contact.corner, contact.facet, contact.cell, contact.body,
-    contact.vertex, contact.feature);
+  a(time, contact.point, contact.normal, contact.kind, contact.corner, contact.facet, contact.cell,
+    contact.body, contact.vertex, contact.feature);
   if constexpr (Archive::is_reading) contact.time = Exact_time(time);
 }
 

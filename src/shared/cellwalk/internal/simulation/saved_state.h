@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The state of a simulation as bytes: a world, its walls and the changes to come, which go on from there as if
-// they had never stopped. What a scene says is not in it, and where the environment is kept is not its concern.
+// The state of a simulation as bytes: a world, its walls and the changes to come, which go on from there as
+// if they had never stopped. What a scene says is not in it, and where the environment is kept is not its
+// concern.
 #ifndef CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
 #define CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
 
@@ -27,8 +28,8 @@ void save(Byte_writer& out, const Elastic_foundation<D>& foundation);
 template <int D>
 void save(Byte_writer& out, const Tissue<D>& tissue);
 
-/// Makes again what was saved. The snapshot is that of the environment as it was then, or of a compiled copy; the
-/// scene is the same.
+/// Makes again what was saved. The snapshot is that of the environment as it was then, or of a compiled copy;
+/// the scene is the same.
 /// \throw Error(input) for bytes that are damaged or do not fit these
 template <int D>
 class Saved_simulation {
