@@ -21,6 +21,7 @@
 #include "bodies.h"
 #include "checkpoints.h"
 #include "cli/common/command.h"
+#include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/interruption.h"
 #include "cli/common/progress.h"

@@ -46,21 +46,21 @@ struct Sealed {
 constexpr std::size_t head_size = 40;
 
 std::vector<std::byte> bytes_of(const Sealed& head) {
-  detail::Byte_writer out;
+  cellwalk::detail::Byte_writer out;
   out(head);
   return out.take();
 }
 
 std::uint64_t checksum_of(Sealed head, std::span<const std::byte> content) {
-  head.checksum = detail::checksum(content);
-  return detail::checksum(bytes_of(head));
+  head.checksum = cellwalk::detail::checksum(content);
+  return cellwalk::detail::checksum(bytes_of(head));
 }
 
 Checkpoint unsealed(const fs::path& file, const std::string& program) {
   const std::string text = load_packed(file);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(text));
   if (bytes.size() < head_size) throw Damage{"it is cut short"};
-  detail::Byte_reader in(bytes.first(head_size));
+  cellwalk::detail::Byte_reader in(bytes.first(head_size));
   const auto head = in.next<Sealed>();
   if (head.magic != magic || head.byte_order != byte_order)
     throw Damage{"it is no checkpoint of this machine"};
@@ -73,7 +73,7 @@ Checkpoint unsealed(const fs::path& file, const std::string& program) {
   const auto content = bytes.subspan(head_size);
   if (head.bytes != content.size()) throw Damage{"it is cut short"};
   if (head.checksum != checksum_of(head, content)) throw Damage{"its checksum differs"};
-  detail::Byte_reader body(content);
+  cellwalk::detail::Byte_reader body(content);
   if (const auto writer = body.next<std::string>(); writer != program)
     throw Error(Error_code::input,
                 fmt::format("{}: was written by {}, and this is {}: go on with the program that "
@@ -108,7 +108,7 @@ std::vector<std::uint64_t> Checkpoint_folder::steps() const {
 }
 
 void Checkpoint_folder::keep(std::uint64_t step, std::span<const std::byte> state) {
-  detail::Byte_writer body;
+  cellwalk::detail::Byte_writer body;
   body(program_);
   std::vector<std::byte> content = body.take();
   content.insert(content.end(), state.begin(), state.end());
