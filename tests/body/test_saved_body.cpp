@@ -133,7 +133,9 @@ void test_twins(Body_kind kind) {
   EXPECT_GE(seen.blocked, in_ci(30));
   EXPECT_GE(seen.in_regions, in_ci(20));
   EXPECT_GE(seen.resting, in_ci(20));
-  if (D == 3 && kind == Body_kind::simplex) EXPECT_GE(seen.with_faces, in_ci(10));
+  if (D == 3 && kind == Body_kind::simplex) {
+    EXPECT_GE(seen.with_faces, in_ci(10));
+  }
 }
 
 TEST(SavedBody, SimplicesGoOnAsIfTheyHadNotStopped2) { test_twins<2>(Body_kind::simplex); }

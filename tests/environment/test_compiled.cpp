@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "environment/images.h"
 #include "environment/sample_soups.h"
 #include "environment/snapshot_checks.h"
-#include "environment/images.h"
 
 namespace cellwalk {
 namespace {

@@ -23,9 +23,9 @@ template <int D>
 std::vector<std::byte> save(const Body<D>& body);
 
 /// The body that was saved, in the same environment: the one in which it was, with no edit since, or a
-/// compiled copy of that (compile_to_bytes()). All that it does and counts from then on is what the body that
-/// was saved would have done and counted, if the snapshot also follows the same history, see
-/// Environment_history.
+/// compiled copy of that (compile_to_bytes()). All that it does from then on is what the body that was saved
+/// would have done. So are its counts; but in a copy of an environment whose facets were opened or closed,
+/// those of regions may be others.
 /// \throw Error(input) for bytes that are no saved body, are damaged, or of another version or dimension, or
 ///        that do not fit the environment: a vertex is not in its cell, or an edge has no valid chain
 /// Cost: that of Body::validate(), some 0.2 us a vertex and an edge; no point is located.

@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const char* what, const std::error_code& reason) {
+[[noreturn]] void fail_at(const fs::path& path, const char* what, const std::error_code& reason) {
   throw Error(Error_code::other, path.string() + ": " + what + ": " + reason.message());
 }
 
 void make_folder(const fs::path& path) {
   std::error_code failure;
-  if (!fs::create_directory(path, failure)) fail(path, "cannot be made", failure);
+  if (!fs::create_directory(path, failure)) fail_at(path, "cannot be made", failure);
 }
 
 /// What tells a folder from all others of its file system, whatever its name.
@@ -121,7 +121,7 @@ bool Working_folder::has_ended(const fs::path& destination) {
 void Working_folder::lock() {
   constexpr mode_t permissions = 0666;
   lock_ = open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);
-  if (lock_ < 0) fail(path_, "cannot be written", std::error_code(errno, std::generic_category()));
+  if (lock_ < 0) fail_at(path_, "cannot be written", std::error_code(errno, std::generic_category()));
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
   throw Error(Error_code::usage,
               fmt::format("{}.part: another process runs there: wait until it ends", name_.string()));
@@ -142,7 +142,7 @@ void Working_folder::prepare() {
 
 void Working_folder::put() {
   if (!replacement_.put(results(), destination_))
-    fail(name_, "cannot be put in place", std::error_code(errno, std::generic_category()));
+    fail_at(name_, "cannot be put in place", std::error_code(errno, std::generic_category()));
 }
 
 void Working_folder::take_back() noexcept { replacement_.take_back(results(), destination_); }

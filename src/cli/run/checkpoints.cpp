@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "checkpoints.h"
 
-#include <cellwalk/internal/environment/environment_history.h>
 #include <cellwalk/internal/io/mapped_file.h>
 #include <cellwalk/internal/kernel/checksum.h>
 #include <cellwalk/kernel/error.h>
@@ -52,7 +51,8 @@ Kept_run read_checkpoint(const fs::path& checkpoints) {
 }
 
 template <int D>
-Compiled_environment<D> take_environment(const fs::path& checkpoints, detail::Byte_reader& rest) {
+Compiled_environment<D> take_environment(const fs::path& checkpoints, detail::Byte_reader& rest,
+                                         detail::Environment_history& history) {
   const auto is_in_file = rest.next<bool>();
   const auto checksum = rest.next<std::uint64_t>();
   Any_compiled_environment any = [&] {
@@ -65,7 +65,7 @@ Compiled_environment<D> take_environment(const fs::path& checkpoints, detail::By
   }();
   auto* const environment = std::get_if<Compiled_environment<D>>(&any);
   if (environment == nullptr) detail::Byte_reader::refuse();
-  detail::follow_history(environment->environment, rest.next<detail::Environment_history>());
+  history = rest.next<detail::Environment_history>();
   return std::move(*environment);
 }
 
@@ -105,8 +105,10 @@ void Run_checkpoints<D>::keep(std::uint32_t step, const Environment<D>& environm
   folder_.keep(step, out.bytes());
 }
 
-template Compiled_environment<2> take_environment(const fs::path&, detail::Byte_reader&);
-template Compiled_environment<3> take_environment(const fs::path&, detail::Byte_reader&);
+template Compiled_environment<2> take_environment(const fs::path&, detail::Byte_reader&,
+                                                  detail::Environment_history&);
+template Compiled_environment<3> take_environment(const fs::path&, detail::Byte_reader&,
+                                                  detail::Environment_history&);
 template class Run_checkpoints<2>;
 template class Run_checkpoints<3>;
 

@@ -5,6 +5,7 @@
 #define CELLWALK_CLI_RUN_CHECKPOINTS_H
 
 #include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/environment/environment_history.h>
 #include <cellwalk/internal/io/checkpoint_folder.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 
@@ -54,9 +55,11 @@ struct Kept_run {
 Kept_run read_checkpoint(const std::filesystem::path& checkpoints);
 
 /// Takes the environment out of what is left of a checkpoint.
+/// \param history that it is to follow, once it is where it stays
 /// \throw Error(input) for one that is damaged, or of another dimension
 template <int D>
-Compiled_environment<D> take_environment(const std::filesystem::path& checkpoints, detail::Byte_reader& rest);
+Compiled_environment<D> take_environment(const std::filesystem::path& checkpoints, detail::Byte_reader& rest,
+                                         detail::Environment_history& history);
 
 /// Makes checkpoints.
 template <int D>
@@ -83,8 +86,10 @@ class Run_checkpoints {
   std::optional<std::uint64_t> environment_;  ///< the checksum of its file
 };
 
-extern template Compiled_environment<2> take_environment(const std::filesystem::path&, detail::Byte_reader&);
-extern template Compiled_environment<3> take_environment(const std::filesystem::path&, detail::Byte_reader&);
+extern template Compiled_environment<2> take_environment(const std::filesystem::path&, detail::Byte_reader&,
+                                                         detail::Environment_history&);
+extern template Compiled_environment<3> take_environment(const std::filesystem::path&, detail::Byte_reader&,
+                                                         detail::Environment_history&);
 extern template class Run_checkpoints<2>;
 extern template class Run_checkpoints<3>;
 

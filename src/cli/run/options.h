@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_OPTIONS_H
 
 #include <cellwalk/body/step.h>
+#include <cellwalk/internal/io/durable.h>
 #include <cellwalk/io/atomic_file.h>
 
 #include <cstddef>
@@ -51,6 +52,8 @@ struct Run_outputs {
       : all({}), working(&all.working_folder(resumed, false, true)) {}
 
   void open(const std::string& record_name, const std::string& json_name) {
+    for (const std::string& name : {record_name, json_name})
+      if (!name.empty()) io::remove_abandoned(name);
     record = all.file(record_name);
     json = all.file(json_name);
     make_durable();

@@ -129,8 +129,10 @@ void run_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>&
 template <int D>
 void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<D>& scene, Kept_run& kept) {
   const std::filesystem::path folder = outputs.working->checkpoints();
-  Compiled_environment<D> environment = take_environment<D>(folder, kept.rest);
+  detail::Environment_history history;
+  Compiled_environment<D> environment = take_environment<D>(folder, kept.rest, history);
   if (needs_map(scene)) environment.environment.thaw();
+  detail::follow_history(environment.environment, history);
   const Run_input<D> input{scene, options, environment.environment, environment.certificate,
                            kept.settings.notes};
   Result_files place(outputs.working->results(), folder, kept.lengths);

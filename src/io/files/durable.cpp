@@ -8,9 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace cellwalk::io {
 namespace {
@@ -18,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The size of the buffer of bytes before they are written.
-constexpr std::size_t buffer_size = std::size_t{1} << 18;
+constexpr std::size_t growing_buffer_size = std::size_t{1} << 18;
 
 [[noreturn]] void fail_of(const fs::path& path, const char* what) {
   const std::string reason = std::strerror(errno);
@@ -93,6 +98,28 @@ void write_durably(const fs::path& destination, std::span<const std::span<const 
   sync(destination.has_parent_path() ? destination.parent_path() : fs::path("."));
 }
 
+void remove_abandoned(const fs::path& destination) {
+  std::error_code failure;
+  const fs::path target = fs::weakly_canonical(destination, failure);
+  if (failure || !target.has_filename()) return;
+  // As Atomic_file names them: .NAME.PROCESS.NUMBER.tmp
+  constexpr std::size_t repeated_length = 200;
+  const std::string prefix = "." + target.filename().string().substr(0, repeated_length) + ".";
+  std::vector<fs::path> abandoned;
+  for (fs::directory_iterator entry(target.parent_path(), failure);
+       !failure && entry != fs::directory_iterator(); entry.increment(failure)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(".tmp")) continue;
+    pid_t process = 0;
+    const char* const end = name.data() + name.size();
+    const auto [after, wrong] = std::from_chars(name.data() + prefix.size(), end, process);
+    if (wrong == std::errc{} && after != end && *after == '.' && process > 0 && kill(process, 0) != 0 &&
+        errno == ESRCH)
+      abandoned.push_back(entry->path());
+  }
+  for (const fs::path& file : abandoned) fs::remove(file, failure);
+}
+
 Growing_file::Growing_file(fs::path path, std::uint64_t length) : path_(std::move(path)), length_(length) {
   constexpr mode_t permissions = 0666;
   const int mode = O_WRONLY | O_CLOEXEC | (length == 0 ? O_CREAT | O_TRUNC : 0);
@@ -118,7 +145,7 @@ Growing_file::~Growing_file() {
 
 void Growing_file::write(std::string_view bytes) {
   buffer_.append(bytes);
-  if (buffer_.size() >= buffer_size) flush();
+  if (buffer_.size() >= growing_buffer_size) flush();
 }
 
 void Growing_file::flush() {

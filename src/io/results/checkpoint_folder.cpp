@@ -45,7 +45,7 @@ struct Sealed {
 };
 constexpr std::size_t head_size = 40;
 
-std::vector<std::byte> bytes_of(const Sealed& head) {
+std::vector<std::byte> head_bytes(const Sealed& head) {
   cellwalk::detail::Byte_writer out;
   out(head);
   return out.take();
@@ -53,7 +53,7 @@ std::vector<std::byte> bytes_of(const Sealed& head) {
 
 std::uint64_t checksum_of(Sealed head, std::span<const std::byte> content) {
   head.checksum = cellwalk::detail::checksum(content);
-  return cellwalk::detail::checksum(bytes_of(head));
+  return cellwalk::detail::checksum(head_bytes(head));
 }
 
 Checkpoint unsealed(const fs::path& file, const std::string& program) {
@@ -116,7 +116,7 @@ void Checkpoint_folder::keep(std::uint64_t step, std::span<const std::byte> stat
   head.step = step;
   head.bytes = content.size();
   head.checksum = checksum_of(head, content);
-  const std::vector<std::byte> begin = bytes_of(head);
+  const std::vector<std::byte> begin = head_bytes(head);
   const std::array<std::span<const std::byte>, 2> pieces{begin, content};
   write_durably(file_of(step), pieces);
   std::size_t kept = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -89,6 +91,23 @@ TEST(Durable, GrowsFromALengthThatWasKept) {
   file.write("row\n");
   file.commit();
   EXPECT_EQ(content_of(folder / "table"), "header\nrow\n");
+}
+
+TEST(Durable, RemovesWhatKilledProcessesLeft) {
+  const Folder folder;
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  const std::string dead = std::to_string(child), alive = std::to_string(getpid());
+  for (const std::string& name :
+       {".out.json." + dead + ".0.tmp", ".out.json." + dead + ".12.tmp", ".out.json." + alive + ".0.tmp",
+        ".other.json." + dead + ".0.tmp", ".out.json.x.0.tmp", std::string("out.json")})
+    folder.write(name, "");
+  remove_abandoned(folder / "out.json");
+  EXPECT_EQ(folder.file_count(), 4u);
+  EXPECT_TRUE(std::filesystem::exists(folder / (".out.json." + alive + ".0.tmp")));
+  EXPECT_TRUE(std::filesystem::exists(folder / (".other.json." + dead + ".0.tmp")));
+  remove_abandoned(folder / "missing" / "out.json");
 }
 
 TEST(Durable, RefusesAFileThatIsShorterThanItWas) {
