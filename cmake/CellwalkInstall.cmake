@@ -47,6 +47,7 @@ set(installed_internals
   io/output.h
   kernel/box.h
   kernel/predicates.h
+  simulation/saved_parts.h
   walk/certified_exit.h
   walk/in_boundary.h
   walk/link_search.h

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <tuple>
+#include <utility>
 
 #include "body_faces.h"
 #include "body_state.h"
@@ -54,6 +55,9 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
     : state_(registered<D>(snapshot, locator, soup, {}, {})) {}
+
+template <int D>
+Body<D>::Body(std::unique_ptr<detail::Body_state<D>> state) : state_(std::move(state)) {}
 
 template <int D>
 Body<D>::Body(const Body& other) : state_(std::make_unique<detail::Body_state<D>>(*other.state_)) {}

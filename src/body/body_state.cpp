@@ -10,21 +10,30 @@ namespace cellwalk::detail {
 template <int D>
 Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
                           std::span<const Particle<D>> before, const Body_certificates& of_body)
-    : snapshot(&of_snapshot),
-      epoch(of_snapshot.epoch()),
-      positions(soup.points),
-      topology(soup.points.size(), soup.edges,
-               D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
-      supporting_walls(topology.faces().size()),
-      region(soup.points.size(), soup.edges.size(), of_body),
-      pool(soup.points.size(), of_body),
-      certificates(of_body),
-      free_moves(soup.points.size(), of_body) {
+    : Body_state(of_snapshot, soup.points,
+                 Body_topology(soup.points.size(), soup.edges,
+                               D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
+                 of_body) {
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
   pool.prepare(of_snapshot, particles);
 }
+
+template <int D>
+Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> points, Body_topology joined,
+                          const Body_certificates& of_body)
+    : snapshot(&of_snapshot),
+      epoch(of_snapshot.epoch()),
+      positions(std::move(points)),
+      topology(std::move(joined)),
+      particles(positions.size()),
+      chains(topology.edges().size()),
+      supporting_walls(topology.faces().size()),
+      region(positions.size(), topology.edges().size(), of_body),
+      pool(positions.size(), of_body),
+      certificates(of_body),
+      free_moves(positions.size(), of_body) {}
 
 template <int D>
 Chain Body_state<D>::seen_from(const Corner& corner) const {

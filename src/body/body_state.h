@@ -47,6 +47,9 @@ struct Body_state {
   /// \throw Error(outside) as Body does
   Body_state(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
              std::span<const Particle<D>> before, const Body_certificates& of_body);
+  /// A body of a snapshot that is not registered anywhere yet.
+  Body_state(const Snapshot<D>& snapshot, std::vector<Point<D>> points, Body_topology joined,
+             const Body_certificates& of_body);
 
   /// \throw Error(usage) if the environment was edited since the body was registered
   void check_epoch() const {

@@ -26,6 +26,7 @@ class Clear_region {
  public:
   static constexpr std::size_t most_planes = 16;
 
+  Clear_region() : Clear_region({}, {}, {}) {}
   Clear_region(const Particle<D>& anchor, const Point<D>& low, const Point<D>& high)
       : box_(low, high), anchor_(anchor) {}
 
@@ -58,6 +59,22 @@ class Clear_region {
     for (std::size_t k = 0; k < D; ++k) pairs_.back().normal[k][lane] = plane.normal[k];
     pairs_.back().inside[lane] = plane.inside;
     planes_.push_back(plane);
+  }
+
+  /// All that a copy has.
+  template <class Archive>
+  void archive(Archive& a) {
+    Point<D> low, high;
+    for (int k = 0; k < D; ++k) {
+      low[static_cast<std::size_t>(k)] = box_.low(k);
+      high[static_cast<std::size_t>(k)] = box_.high(k);
+    }
+    std::vector<Wall_plane<D>> planes = planes_;
+    a(low, high, anchor_, planes);
+    if constexpr (Archive::is_reading) {
+      *this = Clear_region(anchor_, low, high);
+      for (const Wall_plane<D>& plane : planes) cut(plane);
+    }
   }
 
   /// True if a facet lies in or behind the plane of a wall that bounds it.

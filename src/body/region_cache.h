@@ -92,6 +92,20 @@ class Region_cache {
   bool is_vertex_stale(std::uint32_t vertex) const { return is_vertex_stale_[vertex]; }
   bool is_edge_stale(std::uint32_t edge) const { return is_edge_stale_[edge]; }
   void mark_edge(std::uint32_t edge, bool is_stale) { is_edge_stale_[edge] = is_stale; }
+  /// All that a copy has, but the certificates, by which it was made.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(region_, outside_, is_outside_, outside_neighbours_, are_all_stale_, is_vertex_stale_, is_edge_stale_);
+    a(search_backoff_, target_backoff_, next_backoff_, steps_ahead_, anchor_vertex_);
+  }
+
+  /// True if what was read is that of so many vertices and edges.
+  bool is_consistent(std::size_t vertices, std::size_t edges) const {
+    return is_outside_.size() == vertices && outside_neighbours_.size() == vertices &&
+           is_vertex_stale_.size() == vertices && is_edge_stale_.size() == edges && outside_ <= vertices &&
+           (vertices == 0 || anchor_vertex_ < vertices);
+  }
+
   /// The vertex is registered now: its edges are what is stale.
   void pass_mark_on(std::uint32_t vertex, const Body_topology& topology);
 

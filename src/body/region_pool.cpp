@@ -246,6 +246,23 @@ void Region_pool<D>::clear() {
   users_.clear();
 }
 
+template <int D>
+bool Region_pool<D>::is_consistent(std::size_t vertices) const {
+  const int regions = static_cast<int>(regions_.size());
+  const std::size_t places = std::max(least_places, known_.size() / vertices_a_place);
+  if (regions_.size() > places || users_.size() != regions_.size() || hand_ < 0 ||
+      static_cast<std::size_t>(hand_) >= places)
+    return false;
+  if ((known_.size() != vertices && !known_.empty()) || wait_.size() != known_.size() ||
+      waits_.size() != known_.size())
+    return false;
+  return std::ranges::all_of(known_, [&](const Known& known) {
+    for (int k = 0; k < places_known; ++k)
+      if (known[k] < none || known[k] >= regions) return false;
+    return true;
+  });
+}
+
 template class Region_pool<2>;
 template class Region_pool<3>;
 

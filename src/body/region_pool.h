@@ -6,6 +6,7 @@
 
 #include <cellwalk/internal/body/certificates.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -73,6 +74,22 @@ class Region_pool {
   void forget_all();
   /// Edits of the environment void all regions.
   void clear();
+
+  /// All that a copy has, but what follows from the certificates, by which it was made.
+  template <class Archive>
+  void archive(Archive& a) {
+    std::vector<std::array<int, places_known>> known(known_.size());
+    for (std::size_t v = 0; v < known.size(); ++v)
+      for (int k = 0; k < places_known; ++k) known[v][static_cast<std::size_t>(k)] = known_[v][k];
+    a(is_used_, known, wait_, waits_, regions_, users_, hand_, margin_, walls_left_);
+    if constexpr (Archive::is_reading) {
+      known_.resize(known.size());
+      for (std::size_t v = 0; v < known.size(); ++v)
+        known_[v] = Known{known[v][0], known[v][1], known[v][2], known[v][3]};
+    }
+  }
+  /// True if all that was read refers to something.
+  bool is_consistent(std::size_t vertices) const;
 
  private:
   static constexpr int none = -1;

@@ -4,6 +4,7 @@
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_IMAGE_H
 
 #include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/environment/environment_history.h>
 #include <cellwalk/internal/environment/image_format.h>
 
 #include <cstdint>
@@ -64,6 +65,11 @@ class Environment_image {
   /// \param snapshot has its arrays
   /// \throw Error(input) if an index refers to nothing
   static Compiled_environment<D> assemble(Snapshot<D> snapshot, const Image_lists<D>& lists);
+
+  /// What arrays and lists do not tell.
+  static Environment_history history(const Environment<D>& environment);
+  /// \throw Error(input) for that of another environment
+  static void follow(Environment<D>& environment, const Environment_history& history);
 
   /// \throw Error(input) naming what is wrong
   static void check(const Snapshot<D>& snapshot);

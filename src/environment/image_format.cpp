@@ -15,8 +15,6 @@ struct Free_state {
 
 }  // namespace
 
-std::uint64_t checksum(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
-
 std::uint64_t checksum(Image_header header, std::span<const Image_section> table) {
   header.checksum = 0;
   const std::unique_ptr<XXH3_state_t, Free_state> state(XXH3_createState());

@@ -3,11 +3,23 @@
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
 
 #include <span>
+#include <utility>
 
 namespace cellwalk {
 
 Body_trace_recorder::Body_trace_recorder(const World<3>& world) : world_(world) {
-  for (const Moving_body<3>& moving : world.bodies()) {
+  take_bodies();
+  note_positions();
+}
+
+Body_trace_recorder::Body_trace_recorder(const World<3>& world, Body_trace trace)
+    : world_(world), trace_(std::move(trace)) {
+  trace_.bodies.clear();
+  take_bodies();
+}
+
+void Body_trace_recorder::take_bodies() {
+  for (const Moving_body<3>& moving : world_.bodies()) {
     const Body<3>& body = moving.body();
     trace_.bodies.push_back({static_cast<std::uint32_t>(body.vertex_count()),
                              {body.edges().begin(), body.edges().end()},
@@ -15,7 +27,6 @@ Body_trace_recorder::Body_trace_recorder(const World<3>& world) : world_(world) 
     degrees_.push_back(answerable_degrees(trace_.bodies.back(), degrees_.size()));
     before_.push_back(body);
   }
-  note_positions();
 }
 
 void Body_trace_recorder::note_positions() {

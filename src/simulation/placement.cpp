@@ -40,9 +40,17 @@ Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Point<D>& 
 }  // namespace
 
 template <int D>
+World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, const Body_options& options, Empty)
+    : snapshot_(&snapshot),
+      epoch_(snapshot.epoch()),
+      scene_(scene),
+      conditions_{scene.time_step, scene.gravity, scene.restitution, scene.friction, options} {}
+
+template <int D>
 World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes,
                 const Body_options& options)
-    : snapshot_(&snapshot), epoch_(snapshot.epoch()), scene_(scene), shapes_(std::move(shapes)) {
+    : World(snapshot, scene, options, Empty{}) {
+  shapes_ = std::move(shapes);
   const Locator<D> locator(snapshot);
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const std::string key = fmt::format("particles[{}]", i);
@@ -55,7 +63,11 @@ World<D>::World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<
   }
   place_bodies(locator);
   if (scene.catheter) place_catheter(*scene.catheter, locator);
-  conditions_ = {scene.time_step, scene.gravity, scene.restitution, scene.friction, options};
+  own_all();
+}
+
+template <int D>
+void World<D>::own_all() {
   own_particles_ = {0, static_cast<std::uint32_t>(particles_.size())};
   own_bodies_.resize(bodies_.size());
   std::iota(own_bodies_.begin(), own_bodies_.end(), 0);
@@ -96,6 +108,8 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
   entry_of_.push_back({});
 }
 
+template World<2>::World(const Snapshot<2>&, const Scene<2>&, const Body_options&, Empty);
+template World<3>::World(const Snapshot<3>&, const Scene<3>&, const Body_options&, Empty);
 template World<2>::World(const Snapshot<2>&, const Scene<2>&, std::vector<Body_soup<2>>, const Body_options&);
 template World<3>::World(const Snapshot<3>&, const Scene<3>&, std::vector<Body_soup<3>>, const Body_options&);
 template void World<2>::place_cloud(const Particle_cloud&, const std::string&);

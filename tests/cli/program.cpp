@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,7 +27,7 @@ void redirect(int descriptor, const fs::path& file) {
 }
 
 pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
-            const fs::path& err) {
+            const fs::path& err, std::size_t largest_file = 0) {
   std::vector<char*> argv{const_cast<char*>("cellwalk")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -36,6 +37,11 @@ pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, c
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
     if (chdir(folder.c_str()) != 0) _exit(126);
+    if (largest_file != 0) {
+      const rlimit limit{largest_file, largest_file};
+      if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
+      std::signal(SIGXFSZ, SIG_IGN);
+    }
     execv(CELLWALK_PROGRAM, argv.data());
     _exit(127);
   }
@@ -72,6 +78,27 @@ void interrupt_program(const std::vector<std::string>& arguments, const fs::path
   wait_for(child);
   fs::remove(out);
   fs::remove(err);
+}
+
+Outcome stop_program(const std::vector<std::string>& arguments, const fs::path& folder, int signal,
+                     const std::function<bool()>& is_time, std::size_t largest_file) {
+  const fs::path out = beside(folder, ".out"), err = beside(folder, ".err");
+  const pid_t child = start(arguments, folder, out, err, largest_file);
+  Outcome outcome;
+  int status = 0;
+  for (bool is_sent = false;;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) break;
+    if (ended < 0) throw std::runtime_error("waitpid failed");
+    if (!is_sent && is_time()) is_sent = kill(child, signal) == 0;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  outcome.out = read_text(out);
+  outcome.err = read_text(err);
+  fs::remove(out);
+  fs::remove(err);
+  return outcome;
 }
 
 std::string read_text(const fs::path& path) {

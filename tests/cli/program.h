@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,11 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
 /// Starts the program, interrupts it with SIGTERM after some milliseconds, and waits for it.
 void interrupt_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                        int milliseconds);
+
+/// Starts the program, sends it a signal once is_time() is true, and waits for it: it may have ended before.
+/// \param largest_file no file may grow beyond so many bytes, as on a full device; 0: any may
+Outcome stop_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                     int signal, const std::function<bool()>& is_time, std::size_t largest_file = 0);
 
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);

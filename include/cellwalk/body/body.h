@@ -29,6 +29,8 @@ template <int D>
 void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts);
 template <int D>
 class Body_access;
+template <int D>
+class Saved_body;
 }  // namespace detail
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is
@@ -118,9 +120,12 @@ class Body {
  private:
   friend void detail::use_certificates<D>(Body&, const detail::Body_certificates&, Body_counts&);
 
+  explicit Body(std::unique_ptr<detail::Body_state<D>> state);
+
   std::unique_ptr<detail::Body_state<D>> state_;
 
   friend detail::Body_access<D>;
+  friend detail::Saved_body<D>;
 };
 
 extern template class Body<2>;

@@ -16,7 +16,7 @@ namespace cellwalk::io {
 /// commit(), it leaves nothing behind, and an older file of that name unchanged. A replacement keeps the
 /// permissions of the old file, and a link its target. A destination that is a device, a pipe or a descriptor
 /// of the process (/dev/stdout, /dev/fd/3) is written directly, on prepare() or commit() and not before.
-class Atomic_file final : public Output {
+class Atomic_file final : public Output, public Byte_sink {
  public:
   /// \throw Error(other) if the destination or its directory does not exist, or may not be written
   explicit Atomic_file(std::filesystem::path destination);
@@ -24,11 +24,14 @@ class Atomic_file final : public Output {
 
   /// Appends.
   /// \throw Error(other) if the device is full
-  void write(std::string_view text);
+  void write(std::string_view text) override;
 
   /// Executes all steps, for a single file.
   /// \throw Error(other) if one fails; then nothing is left behind
-  void commit();
+  void commit() override;
+
+  /// From now on, what put() puts in place is there after a loss of power as well.
+  void make_durable() { is_durable_ = true; }
 
   void prepare() override;
   void put() override;
@@ -40,6 +43,7 @@ class Atomic_file final : public Output {
 
  private:
   void flush();
+  void sync_name();
   void discard() noexcept;
   [[noreturn]] void fail(const char* what);
 
@@ -49,7 +53,7 @@ class Atomic_file final : public Output {
   Unfinished unfinished_;
   Replacement replacement_;
   int descriptor_ = -1;
-  bool is_direct_ = false;
+  bool is_direct_ = false, is_durable_ = false;
 };
 
 /// Writes a whole file atomically.

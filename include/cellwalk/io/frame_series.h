@@ -18,6 +18,12 @@ struct Pvd_entry {
   double time = 0;
   std::string part;
   std::string file;  ///< relative to the collection
+
+  /// See byte_archive.h.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(time, part, file);
+  }
 };
 
 /// The text of a .pvd collection.

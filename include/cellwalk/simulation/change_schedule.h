@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/groups.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/environment_change.h>
 #include <cellwalk/reshape/reshaping.h>
 
@@ -61,11 +62,16 @@ class Change_schedule {
   struct Pointed {
     Name name;
     std::vector<std::uint32_t> points;
+
+    template <class Archive>
+    void archive(Archive& a) {
+      a(name, points);
+    }
   };
   struct Planned {
-    std::size_t number;
-    Change_kind kind;
-    std::uint32_t step, until;
+    std::size_t number = 0;
+    Change_kind kind = Change_kind::open;
+    std::uint32_t step = 0, until = 0;
     // What is still to be changed.
     std::vector<Pointed<Half_facet>> facets;
     std::vector<Pointed<Cell>> cells;
@@ -75,7 +81,18 @@ class Change_schedule {
     bool has_sewn = false;                      // or tried to
 
     bool is_done() const { return facets.empty() && cells.empty() && !blade && !suture; }
+
+    template <class Archive>
+    void archive(Archive& a) {
+      a(number, kind, step, until, facets, cells, blade, suture, has_sewn);
+    }
   };
+  Change_schedule() = default;
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(planned_, stitches_);
+  }
   void make_cut(Reshaping<D>& reshaping, Planned& planned, std::vector<Change_outcome>& outcomes);
   void sew(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned, std::uint32_t step,
            std::vector<Change_outcome>& outcomes);
@@ -84,6 +101,10 @@ class Change_schedule {
 
   std::vector<Planned> planned_;
   std::vector<Stitch> stitches_;  // not made yet, of all cuts
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
+  friend detail::Saved_simulation<D>;
 };
 
 extern template class Change_schedule<2>;

@@ -4,6 +4,7 @@
 #define CELLWALK_SIMULATION_DEFORMABLE_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/material.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/rigid_body.h>
@@ -59,6 +60,11 @@ class Deformable {
   double height_energy(const Vector<D>& gravity) const;
   bool predict(double dt);
   void limit(double most);
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(matching_, velocities_, moved_, targets_, stored_);
+  }
 
   Body<D> body_;
   Shape_matching<D> matching_;
@@ -66,6 +72,9 @@ class Deformable {
   std::vector<Point<D>> moved_, targets_;
   /// The bound of the kinetic energy, including the energy stored in the deformation.
   double stored_ = 0;
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
 };
 
 extern template class Deformable<2>;

@@ -4,6 +4,7 @@
 #define CELLWALK_SIMULATION_ELASTIC_FOUNDATION_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/simulation/world.h>
@@ -55,6 +56,14 @@ class Elastic_foundation {
  private:
   using Increments = std::vector<std::pair<std::uint32_t, Vector<D>>>;
   void spread(Increments& increments) const;
+  /// One that knows no vertex yet.
+  Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft)
+      : snapshot_(&snapshot), soft_(soft) {}
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(least_yield_, starts_, yields_, may_yield_, first_, neighbours_, active_);
+  }
 
   const Snapshot<D>* snapshot_;
   Soft_walls soft_;
@@ -64,6 +73,10 @@ class Elastic_foundation {
   std::vector<char> may_yield_;
   std::vector<std::uint32_t> first_, neighbours_;  ///< of each point, those along its walls
   std::vector<std::uint32_t> active_;              ///< that yield, or did in the step before; ascending
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
+  friend detail::Saved_simulation<D>;
 };
 
 extern template class Elastic_foundation<2>;

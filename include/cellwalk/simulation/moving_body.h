@@ -46,6 +46,11 @@ class Moving_body {
   bool has_arrived() const {
     return std::visit([](const auto& moving) { return moving.has_arrived(); }, kind_);
   }
+  /// Calls use() with the body as what it is.
+  template <class Use>
+  decltype(auto) visit(const Use& use) const {
+    return std::visit(use, kind_);
+  }
   /// The body as a given kind; null if it is of another kind.
   template <class Kind>
   const Kind* as() const {

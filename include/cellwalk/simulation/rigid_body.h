@@ -5,6 +5,7 @@
 #define CELLWALK_SIMULATION_RIGID_BODY_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/scene.h>
 
 #include <algorithm>
@@ -54,6 +55,11 @@ class Rigid_body {
  private:
   Point<D> middle() const;
   Point<D> on_path() const;
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(shape_, velocity_, spin_, angle_, turning_, travelled_, path_length_, targets_);
+  }
 
   Body<D> body_;
   std::vector<Vector<D>> shape_;  ///< from the centre of the vertices
@@ -64,6 +70,9 @@ class Rigid_body {
   std::optional<Guided_motion<D>> guide_;
   double travelled_ = 0, path_length_ = 0;
   std::vector<Point<D>> targets_;
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
 };
 
 extern template class Rigid_body<2>;

@@ -4,6 +4,7 @@
 #define CELLWALK_SIMULATION_ROD_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/rigid_body.h>
 
@@ -75,6 +76,11 @@ class Rod {
   double along(std::size_t vertex) const;
   detail::Rod_state<D> state() const;
   detail::Natural_bend<D> bend() const;
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(waypoints_, targets_, direction_, heading_, inside_, twist_, next_, waited_);
+  }
 
   const Snapshot<D>* snapshot_;
   Body<D> body_;
@@ -86,6 +92,9 @@ class Rod {
   double inside_ = 0, twist_ = 0;
   std::size_t next_ = 1;
   std::uint32_t waited_ = 0;
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
 };
 
 extern template class Rod<2>;

@@ -5,6 +5,7 @@
 #ifndef CELLWALK_SIMULATION_SHAPE_MATCHING_H
 #define CELLWALK_SIMULATION_SHAPE_MATCHING_H
 
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/material.h>
 
@@ -43,6 +44,12 @@ class Shape_matching {
   static constexpr int most_monomials = D + D * (D + 1) / 2;
   using Monomials = std::array<double, most_monomials>;
 
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(radius_, total_mass_, masses_, rest_, monomials_, linear_inverse_, inverse_, is_full_);
+  }
+
   Shape_material material_;
   double radius_ = 1;  ///< of the rest shape; the following members are in units of it
   double total_mass_ = 0;
@@ -52,6 +59,9 @@ class Shape_matching {
   std::array<Vector<D>, D> linear_inverse_{};  ///< of the moments of the rest shape, or their pseudo-inverse
   std::array<Monomials, most_monomials> inverse_{};  ///< the same of the monomials
   bool is_full_ = false;                             ///< the rest shape has a volume
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
 };
 
 /// The rotation nearest to a matrix (rows first), in the least-squares sense: its polar factor, corrected to

@@ -4,6 +4,7 @@
 #define CELLWALK_SIMULATION_TISSUE_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/simulation/world.h>
@@ -55,11 +56,31 @@ class Tissue {
   struct Edge {
     std::array<std::uint32_t, 2> ends;
     double rest;
+
+    template <class Archive>
+    void archive(Archive& a) {
+      a(ends, rest);
+    }
   };
   struct Simplex {
     std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners;
     double rest;  ///< D! times its volume
+
+    template <class Archive>
+    void archive(Archive& a) {
+      a(corners, rest);
+    }
   };
+  /// One that knows no cell yet.
+  Tissue(const Snapshot<D>& snapshot, const Tissue_material& material)
+      : snapshot_(&snapshot), material_(material) {}
+  /// All parts of its state that the scene and the environment do not tell.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(least_move_, rest_, before_, wanted_, velocities_, may_move_, edges_, multipliers_, simplices_);
+    a(followers_, first_, neighbours_);
+  }
+
   void find_constraints();
   void find_followers();
   void keep_lengths();
@@ -80,6 +101,10 @@ class Tissue {
   std::vector<Simplex> simplices_;
   std::vector<std::uint32_t> followers_;
   std::vector<std::uint32_t> first_, neighbours_;  ///< of each follower
+
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
+  friend detail::Saved_simulation<D>;
 };
 
 extern template class Tissue<2>;

@@ -7,6 +7,7 @@
 #define CELLWALK_SIMULATION_WORLD_H
 
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/simulation/saved_parts.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -120,6 +121,9 @@ class World {
   void validate();
 
  private:
+  struct Empty {};
+  /// Without anything that moves.
+  World(const Snapshot<D>& snapshot, const Scene<D>& scene, const Body_options& options, Empty);
   void place_cloud(const Particle_cloud& cloud, const std::string& key);
   void place_catheter(const Catheter<D>& catheter, const Locator<D>& locator);
   void place_bodies(const Locator<D>& locator);
@@ -130,6 +134,8 @@ class World {
   void record_contacts(std::size_t particle);
 
   bool is_elsewhere(std::size_t body) const { return !elsewhere_.empty() && elsewhere_[body].has_value(); }
+  /// All particles and bodies are advanced here.
+  void own_all();
   void check_epoch() const;
   void forget_cells();
   template <class Use>
@@ -167,6 +173,7 @@ class World {
   std::vector<std::optional<Stand_in>> elsewhere_;  ///< of each body; empty: all are advanced here
   std::vector<Walk_counts> counts_elsewhere_;       ///< of each other part
   friend class World_part<D>;
+  friend detail::Saved_simulation<D>;
 };
 
 extern template class World<2>;

@@ -25,8 +25,9 @@ constexpr std::array<Change_words, change_kind_count> words{{{"open", "opened", 
                                                              {"cut", "made", "cut"},
                                                              {"sew", "sewn", "point"}}};
 
-const std::vector<std::string> columns{"step", "change", "kind", "status",   "cell",    "facet",  "x",
-                                       "y",    "z",      "body", "particle", "feature", "number", "reason"};
+const std::vector<std::string> names_of_columns{"step",     "change",  "kind",   "status", "cell",
+                                                "facet",    "x",       "y",      "z",      "body",
+                                                "particle", "feature", "number", "reason"};
 
 /// The mean of the vertices of a facet, or of a cell if there is none.
 template <int D>
@@ -50,13 +51,16 @@ Point<D> place_of(const Snapshot<D>& snapshot, const Change_outcome& outcome) {
 
 template <int D>
 Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, io::Atomic_file& file) : snapshot_(snapshot) {
-  table_.emplace(file, columns);
+  table_.emplace(file, names_of_columns);
 }
 
 template <int D>
-Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, std::filesystem::path path)
-    : snapshot_(snapshot) {
-  table_.emplace(std::move(path), columns);
+Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, io::Csv_writer table)
+    : snapshot_(snapshot), table_(std::move(table)) {}
+
+template <int D>
+const std::vector<std::string>& Changes_table<D>::columns() {
+  return names_of_columns;
 }
 
 template <int D>

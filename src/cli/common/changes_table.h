@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,8 +27,9 @@ class Changes_table {
   explicit Changes_table(const Snapshot<D>& snapshot) : snapshot_(snapshot) {}
   /// \param file of the caller's, who commits it
   Changes_table(const Snapshot<D>& snapshot, io::Atomic_file& file);
-  /// \param path of a file that appears on commit()
-  Changes_table(const Snapshot<D>& snapshot, std::filesystem::path path);
+  /// \param table with these columns
+  Changes_table(const Snapshot<D>& snapshot, io::Csv_writer table);
+  static const std::vector<std::string>& columns();
 
   /// \param step of a run, from 1; 0 outside of runs
   void add(std::uint32_t step, const std::vector<Change_outcome>& outcomes);
@@ -40,6 +40,13 @@ class Changes_table {
   nlohmann::ordered_json to_json() const;
   /// Such as "24 facets closed; 2 refused, 1 of them for good".
   std::string describe() const;
+
+  /// All counts, but not the file.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(made_, refusals_, left_, cuts_.cells, cuts_.edges, cuts_.split, cuts_.snapped, cuts_.slit, cuts_.facets,
+      cuts_.opened, cuts_.rim, cuts_.held);
+  }
 
  private:
   void write(std::uint32_t step, const Change_outcome& outcome);

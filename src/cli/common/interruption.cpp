@@ -22,6 +22,8 @@ Interruption::~Interruption() {
   for (int i = 0; i < 3; ++i) std::signal(signals[i], before_[i]);
 }
 
+bool Interruption::has_come() const { return noted != 0; }
+
 void Interruption::check() const {
   if (noted) throw Interrupted{noted};
 }

@@ -20,6 +20,8 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
+  /// True if a signal has arrived.
+  bool has_come() const;
   /// \throw Interrupted if a signal has arrived
   void check() const;
 

@@ -26,8 +26,14 @@ std::vector<Vertex_move<D>> read_moves(const std::string& path, Environment<D>& 
 /// A move that is made in a step of a run.
 template <int D>
 struct Timed_move {
-  std::uint32_t step;
-  Vertex_move<D> move;
+  std::uint32_t step = 0;
+  Vertex_move<D> move{};
+
+  /// See byte_archive.h.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(step, move.point, move.target);
+  }
 };
 
 /// Reads moves as read_moves(), with the step of each in a column `step`: a whole number, at least 1. The

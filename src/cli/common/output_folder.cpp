@@ -19,15 +19,16 @@ namespace fs = std::filesystem;
   throw Error(Error_code::other, path.string() + ": " + what + ": " + reason.message());
 }
 
-/// The target of a name, absolute and without a slash at its end.
-fs::path place_of(const fs::path& name) {
+}  // namespace
+
+fs::path Output_folder::place_of(const fs::path& name) {
   std::error_code failure;
   fs::path place = fs::weakly_canonical(fs::absolute(name, failure), failure);
   if (failure) place = name;
   return place.has_filename() ? place : place.parent_path();
 }
 
-void check_destination(const fs::path& destination, bool replace) {
+void Output_folder::check_destination(const fs::path& destination, bool replace) {
   std::error_code ignored;
   if (!fs::exists(destination, ignored)) return;
   if (!replace)
@@ -37,8 +38,6 @@ void check_destination(const fs::path& destination, bool replace) {
     throw Error(Error_code::usage,
                 destination.string() + ": holds no run.json, so it is no earlier run; give another folder");
 }
-
-}  // namespace
 
 Output_folder::Output_folder(const fs::path& destination, bool replace)
     : name_(destination), destination_(place_of(destination)) {

@@ -26,6 +26,11 @@ class Output_folder final : public io::Output {
   void settle() noexcept override;
   bool can_be_taken_back() const override { return true; }
 
+  /// The target of a name, absolute and without a slash at its end.
+  static std::filesystem::path place_of(const std::filesystem::path& name);
+  /// \throw Error(usage) as the constructor
+  static void check_destination(const std::filesystem::path& destination, bool replace);
+
  private:
   std::filesystem::path name_, destination_, temporary_;  ///< the given name, its target, the new folder
   io::Unfinished unfinished_;

@@ -100,11 +100,25 @@ io::Atomic_file* Outputs::file(const std::string& name) {
   return files_.back().get();
 }
 
-Output_folder& Outputs::folder(const std::string& name, bool replace) {
+void Outputs::name_folder(const std::string& name) {
   folder_name_ = std::make_unique<Named_file>(name);
   add(*folder_name_);
-  folder_ = std::make_unique<Output_folder>(name, replace);
-  return *folder_;
+}
+
+Output_folder& Outputs::folder(const std::string& name, bool replace) {
+  name_folder(name);
+  auto folder = std::make_unique<Output_folder>(name, replace);
+  Output_folder& made = *folder;
+  folder_ = std::move(folder);
+  return made;
+}
+
+Working_folder& Outputs::working_folder(const std::string& name, bool replace, bool is_taken_up) {
+  name_folder(name);
+  auto folder = is_taken_up ? Working_folder::take_up(name) : Working_folder::make(name, replace);
+  Working_folder& made = *folder;
+  folder_ = std::move(folder);
+  return made;
 }
 
 void Outputs::commit(const std::string& summary) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "output_folder.h"
+#include "working_folder.h"
 
 namespace cellwalk::cli {
 
@@ -63,6 +64,9 @@ class Outputs {
   /// A folder of results.
   /// \throw Error as file() and Output_folder
   Output_folder& folder(const std::string& name, bool replace);
+  /// The same of one that another process may go on with, or goes on with.
+  /// \throw Error as file() and Working_folder
+  Working_folder& working_folder(const std::string& name, bool replace, bool is_taken_up);
 
   /// Moves all outputs to their places and prints the summary; if either fails, none appears.
   /// \throw Error(other)
@@ -72,12 +76,13 @@ class Outputs {
   void refuse_pipe(const Named_file& input) const;
   void refuse_clash(const Named_file& output, const Named_file& input) const;
   void add(const Named_file& output);
+  void name_folder(const std::string& name);
 
   bool are_inputs_shared_ = false;
   std::vector<Named_file> inputs_, outputs_;
   std::unique_ptr<Named_file> folder_name_;
   std::vector<std::unique_ptr<io::Atomic_file>> files_;
-  std::unique_ptr<Output_folder> folder_;
+  std::unique_ptr<io::Output> folder_;
 };
 
 }  // namespace cellwalk::cli

@@ -10,12 +10,27 @@
 namespace cellwalk::cli {
 
 template <int D>
-Run_changes<D>::Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
+Run_changes<D>::Run_changes(Result_files& place, Environment<D>& environment,
                             const Environment_changes<D>& changes, const Groups<D>& groups,
                             const std::string& scene)
     : environment_(environment),
       schedule_(naming(scene, [&] { return Change_schedule<D>(environment.snapshot(), changes, groups); })),
-      table_(environment.snapshot(), folder / "changes.csv") {}
+      table_(environment.snapshot(), place.table("changes.csv", Changes_table<D>::columns())) {}
+
+template <int D>
+Run_changes<D>::Run_changes(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
+                            detail::Byte_reader& saved)
+    : environment_(environment),
+      schedule_(detail::Saved_simulation<D>(environment.snapshot(), scene).read_schedule(saved)),
+      table_(environment.snapshot(), place.table("changes.csv", Changes_table<D>::columns())) {
+  saved(table_, counts_);
+}
+
+template <int D>
+void Run_changes<D>::save(detail::Byte_writer& out) const {
+  detail::save(out, schedule_);
+  out(table_, counts_);
+}
 
 template <int D>
 std::vector<Change_outcome> Run_changes<D>::step(World<D>& world) {

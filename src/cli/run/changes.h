@@ -3,15 +3,16 @@
 #ifndef CELLWALK_CLI_RUN_CHANGES_H
 #define CELLWALK_CLI_RUN_CHANGES_H
 
+#include <cellwalk/internal/simulation/saved_state.h>
 #include <cellwalk/simulation/world.h>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/common/changes_table.h"
+#include "result_files.h"
 
 namespace cellwalk::cli {
 
@@ -19,12 +20,16 @@ namespace cellwalk::cli {
 template <int D>
 class Run_changes {
  public:
-  /// \param folder for the table
+  /// \param place of the table
   /// \param groups that the file of the environment names
   /// \param scene names the scene in errors
   /// \throw Error(input) for a change that has no facet or cell
-  Run_changes(const std::filesystem::path& folder, Environment<D>& environment,
-              const Environment_changes<D>& changes, const Groups<D>& groups, const std::string& scene);
+  Run_changes(Result_files& place, Environment<D>& environment, const Environment_changes<D>& changes,
+              const Groups<D>& groups, const std::string& scene);
+  /// Those that were saved, in an environment that is as it was then.
+  Run_changes(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
+              detail::Byte_reader& saved);
+  void save(detail::Byte_writer& out) const;
 
   /// Makes what is due before the step that is next. Returns what came of it.
   std::vector<Change_outcome> step(World<D>& world);

@@ -5,9 +5,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "cli/common/contact_kind_names.h"
 #include "grids.h"
@@ -21,18 +21,21 @@ std::string field(bool is_there, std::uint32_t value) { return is_there ? std::t
 }  // namespace
 
 template <int D>
-Run_files<D>::Run_files(std::filesystem::path folder, const Environment<D>& environment,
-                        const World<D>& world, const Scene<D>& scene)
-    : folder_(std::move(folder)),
+Run_files<D>::Run_files(Result_files& place, const Environment<D>& environment, const World<D>& world,
+                        const Scene<D>& scene)
+    : place_(place),
       environment_(environment),
       every_(scene.output.frame_every),
       time_step_(scene.time_step),
       walls_change_(scene.walls.has_value() || !scene.changes.list.empty()),
-      table_(folder_ / "contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
-                                        "cell", "body", "vertex", "feature", "number"}) {
-  if (every_ == 0) return;
-  std::filesystem::create_directory(folder_ / "frames");
-  if (!walls_change_) io::write_vtu(folder_ / "walls.vtu", io::vtu_of_walls(environment_.soup()));
+      table_(place.table("contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
+                                          "cell", "body", "vertex", "feature", "number"})) {
+  if (every_ == 0 || place.is_continued()) return;
+  std::filesystem::create_directory(place.folder() / "frames");
+  if (!walls_change_) {
+    io::write_vtu(place.folder() / "walls.vtu", io::vtu_of_walls(environment_.soup()));
+    place.note("walls.vtu");
+  }
   write_frame(world);
   before_ = body_positions(world);
 }
@@ -65,7 +68,8 @@ void Run_files<D>::write_frame(const World<D>& world) {
   const double time = world.steps_done() * time_step_;
   const auto add = [&](const char* part, const io::Vtu_grid& grid) {
     const std::string file = fmt::format("frames/{}_{:05}.vtu", part, frames_);
-    io::write_vtu(folder_ / file, grid);
+    io::write_vtu(place_.folder() / file, grid);
+    place_.note(file);
     entries_.push_back({time, part, file});
   };
   const bool has_bodies = !world.bodies().empty();
@@ -83,7 +87,7 @@ void Run_files<D>::write_frame(const World<D>& world) {
 template <int D>
 void Run_files<D>::finish() {
   table_.commit();
-  if (every_ != 0) io::write_file(folder_ / "run.pvd", io::pvd_text(entries_));
+  if (every_ != 0) io::write_file(place_.folder() / "run.pvd", io::pvd_text(entries_));
 }
 
 template class Run_files<2>;

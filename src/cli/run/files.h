@@ -5,13 +5,15 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/io/frame_series.h>
 #include <cellwalk/simulation/world.h>
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
+
+#include "result_files.h"
 
 namespace cellwalk::cli {
 
@@ -22,9 +24,9 @@ using Body_contacts = std::array<std::array<std::uint64_t, 3>, 3>;
 template <int D>
 class Run_files {
  public:
-  /// Writes walls.vtu, unless walls change, and the frame of the start into `folder`, if there are to be
-  /// frames at all.
-  Run_files(std::filesystem::path folder, const Environment<D>& environment, const World<D>& world,
+  /// Writes walls.vtu, unless walls change, and the frame of the start, if there are to be frames at all.
+  /// If it is continued, archive() is to be called next.
+  Run_files(Result_files& place, const Environment<D>& environment, const World<D>& world,
             const Scene<D>& scene);
 
   /// To be called after each step.
@@ -39,10 +41,16 @@ class Run_files {
   /// Those of them that are contacts of bodies.
   const Body_contacts& body_contacts() const { return body_contacts_; }
 
+  /// All but what is in the files.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(entries_, since_frame_, before_, contacts_, body_contacts_, frames_);
+  }
+
  private:
   void write_frame(const World<D>& world);
 
-  std::filesystem::path folder_;
+  Result_files& place_;
   const Environment<D>& environment_;
   std::uint32_t every_;
   double time_step_;

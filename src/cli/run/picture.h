@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_PICTURE_H
 
 #include <cellwalk/internal/drawing/picture.h>
+#include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/records/cell_soup.h>
 #include <cellwalk/simulation/world.h>
 
@@ -24,6 +25,11 @@ class Run_picture {
 
   drawing::Drawing draw(const Cell_soup<D>& soup, const World<D>& world, const Scene<D>& scene,
                         const std::string& caption) const;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(trails_, catheter_contacts_, body_contacts_, free_contacts_);
+  }
 
  private:
   bool walls_move_;

@@ -24,6 +24,11 @@ class Numbered_loops {
   /// What changed since the last end().
   Loops_change end();
 
+  template <class Archive>
+  void archive(Archive& a) {
+    a(numbers_, is_there_, is_seen_, added_);
+  }
+
  private:
   std::map<Loop, std::uint32_t> numbers_;
   std::vector<char> is_there_, is_seen_;
@@ -44,6 +49,11 @@ class Recorded_walls {
 
   /// The points of the environment that the recording has, in its order.
   std::span<const std::uint32_t> points() const { return points_; }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(epoch_, is_first_, has_lines_, points_, number_, new_points_, walls_, floor_, lines_);
+  }
 
  private:
   void see_cell(Cell cell);

@@ -85,15 +85,26 @@ Decision decision(const Body_counts& before, const Body_counts& now) {
 }  // namespace
 
 template <int D>
-Run_recording<D>::Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot,
-                                const World<D>& world, const Motion_times& times, const Wall_motion& motion)
+Run_recording<D>::Run_recording(Result_files& place, const Snapshot<D>& snapshot, const World<D>& world,
+                                const Motion_times& times, const Wall_motion& motion)
     : snapshot_(snapshot),
       every_(times.every),
       motion_(motion),
       walls_(snapshot),
-      writer_(std::move(path), scene_of(snapshot, world, times, motion, walls_.follow())),
+      writer_(place.packed("motion.gz"), scene_of(snapshot, world, times, motion, walls_.follow())),
       before_(world.bodies().size()) {
   add(world);
+}
+
+template <int D>
+Run_recording<D>::Run_recording(Result_files& place, const Snapshot<D>& snapshot, const Wall_motion& motion,
+                                detail::Byte_reader& saved)
+    : snapshot_(snapshot),
+      every_(1),
+      motion_(motion),
+      walls_(snapshot),
+      writer_(place.packed("motion.gz"), {}, true) {
+  saved(every_, walls_, writer_, before_);
 }
 
 template <int D>

@@ -4,13 +4,14 @@
 #define CELLWALK_CLI_RUN_RECORDING_H
 
 #include <cellwalk/internal/io/recording_file.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/simulation/world.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "recorded_walls.h"
+#include "result_files.h"
 
 namespace cellwalk::cli {
 
@@ -36,8 +37,12 @@ class Run_recording {
  public:
   /// Writes the walls and the start. Refers to the snapshot, which must outlive it.
   /// \pre times.every > 0
-  Run_recording(std::filesystem::path path, const Snapshot<D>& snapshot, const World<D>& world,
+  Run_recording(Result_files& place, const Snapshot<D>& snapshot, const World<D>& world,
                 const Motion_times& times, const Wall_motion& motion);
+  /// The one that was saved.
+  Run_recording(Result_files& place, const Snapshot<D>& snapshot, const Wall_motion& motion,
+                detail::Byte_reader& saved);
+  void save(detail::Byte_writer& out) const { out(every_, walls_, writer_, before_); }
 
   /// To be called after each step.
   void record(const World<D>& world, bool is_last);

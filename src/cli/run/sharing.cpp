@@ -4,10 +4,11 @@
 namespace cellwalk::cli {
 
 template <int D>
-std::string hindrance(const Scene<D>& scene, bool is_recorded) {
+std::string hindrance(const Scene<D>& scene, bool is_recorded, bool is_kept) {
   if (scene.walls) return "walls move";
   if (!scene.changes.list.empty()) return "facets or cells change";
-  return is_recorded ? "a trace is recorded" : "";
+  if (is_recorded) return "a trace is recorded";
+  return is_kept ? "checkpoints are kept" : "";
 }
 
 template <int D>
@@ -47,8 +48,8 @@ void Run_sharing<D>::finish() {
   if (part_) exchange({false, true});
 }
 
-template std::string hindrance(const Scene<2>&, bool);
-template std::string hindrance(const Scene<3>&, bool);
+template std::string hindrance(const Scene<2>&, bool, bool);
+template std::string hindrance(const Scene<3>&, bool, bool);
 template class Run_sharing<2>;
 template class Run_sharing<3>;
 

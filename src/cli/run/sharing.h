@@ -32,7 +32,7 @@ class Attentive_wait {
 
 /// Why ranks cannot share a run; empty if they can.
 template <int D>
-std::string hindrance(const Scene<D>& scene, bool is_recorded);
+std::string hindrance(const Scene<D>& scene, bool is_recorded, bool is_kept);
 
 /// When the first rank has to know where everything is: at the end, and as follows.
 struct State_times {
@@ -65,8 +65,8 @@ class Run_sharing {
   std::optional<World_part<D>> part_;
 };
 
-extern template std::string hindrance(const Scene<2>&, bool);
-extern template std::string hindrance(const Scene<3>&, bool);
+extern template std::string hindrance(const Scene<2>&, bool, bool);
+extern template std::string hindrance(const Scene<3>&, bool, bool);
 extern template class Run_sharing<2>;
 extern template class Run_sharing<3>;
 

@@ -17,32 +17,57 @@
 namespace cellwalk::cli {
 
 template <int D>
-Run_walls<D>::Run_walls(const std::filesystem::path& folder, Environment<D>& environment,
-                        const Scene<D>& scene, const std::string& name)
+Run_walls<D>::Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
+                        const std::string& name, Still)
     : environment_(environment),
       time_step_(scene.time_step),
-      table_(folder / "walls.csv", {"step", "vertex", "time", "x", "y", "z", "kind", "nx", "ny", "nz", "cell",
-                                    "body", "particle", "feature", "number"}) {
+      table_(place.table("walls.csv", {"step", "vertex", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
+                                       "cell", "body", "particle", "feature", "number"})) {
   options_.at_contact = scene.walls->push ? At_contact::push : At_contact::stop;
   const Scene_walls<D>& walls = *scene.walls;
-  if (walls.pulsation) pulsation_.emplace(environment.snapshot(), *walls.pulsation, walls.fixed);
-  if (walls.soft) {
-    foundation_.emplace(environment.snapshot(), *walls.soft, walls.fixed);
-    forces_.emplace(folder / "forces.csv",
-                    std::vector<std::string>{"step", "vertices", "largest_yield", "force"});
-  }
+  if (walls.soft) forces_.emplace(place.table("forces.csv", {"step", "vertices", "largest_yield", "force"}));
   name_ = name;
   material_ = walls.tissue;
   fixed_ = walls.fixed;
-  if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
   relaxation_ = walls.relax;
   if (!relaxation_) return;
   relax_options_.good_enough = relaxation_->good_enough;
   relax_options_.most_rounds = static_cast<int>(relaxation_->rounds);
   relax_options_.most_operations = relaxation_->operations;
+}
+
+template <int D>
+Run_walls<D>::Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
+                        const std::string& name)
+    : Run_walls(place, environment, scene, name, Still{}) {
+  const Scene_walls<D>& walls = *scene.walls;
+  if (walls.pulsation) pulsation_.emplace(environment.snapshot(), *walls.pulsation, walls.fixed);
+  if (walls.soft) foundation_.emplace(environment.snapshot(), *walls.soft, walls.fixed);
+  if (!walls.motion.empty()) motion_ = read_timed_moves(walls.motion, environment);
+  if (!relaxation_) return;
   std::set<std::uint32_t> named;
   for (const Timed_move<D>& timed : motion_) named.insert(timed.move.point);
   relax_options_.keep.assign(named.begin(), named.end());
+}
+
+template <int D>
+Run_walls<D>::Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
+                        const std::string& name, detail::Byte_reader& saved)
+    : Run_walls(place, environment, scene, name, Still{}) {
+  const detail::Saved_simulation<D> parts(environment.snapshot(), scene);
+  if (scene.walls->pulsation) pulsation_ = parts.read_pulsation(saved);
+  if (scene.walls->soft) foundation_ = parts.read_foundation(saved);
+  if (saved.next<bool>()) tissue_ = parts.read_tissue(saved);
+  saved(*this);
+}
+
+template <int D>
+void Run_walls<D>::save(detail::Byte_writer& out) const {
+  if (pulsation_) detail::save(out, *pulsation_);
+  if (foundation_) detail::save(out, *foundation_);
+  out(tissue_.has_value());
+  if (tissue_) detail::save(out, *tissue_);
+  out(*this);
 }
 
 /// Where points are to be after a step, as far as they are not there for sure.

@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_WALLS_H
 
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/simulation/saved_state.h>
 #include <cellwalk/simulation/elastic_foundation.h>
 #include <cellwalk/simulation/tissue.h>
 #include <cellwalk/simulation/wall_pulsation.h>
@@ -13,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -22,6 +22,7 @@
 
 #include "cli/common/move_end_names.h"
 #include "cli/common/moves_file.h"
+#include "result_files.h"
 
 namespace cellwalk::cli {
 
@@ -30,12 +31,15 @@ namespace cellwalk::cli {
 template <int D>
 class Run_walls {
  public:
-  /// \param folder for the tables
+  /// \param place of the tables
   /// \param name of the scene, for errors
   /// \throw Error(input) for a table that is none, or an environment with cells at points that move that are
   ///        no simplices
-  Run_walls(const std::filesystem::path& folder, Environment<D>& environment, const Scene<D>& scene,
-            const std::string& name);
+  Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene, const std::string& name);
+  /// Those that were saved, in an environment that is as it was then.
+  Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene, const std::string& name,
+            detail::Byte_reader& saved);
+  void save(detail::Byte_writer& out) const;
 
   /// Moves the walls to where they are to be after the step that is next. What a wall cannot do now it tries
   /// again in the step after.
@@ -51,6 +55,19 @@ class Run_walls {
   std::string describe() const;
 
  private:
+  /// How they move is left.
+  struct Still {};
+  Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene, const std::string& name,
+            Still);
+  template <class Archive>
+  void archive(Archive& a) {
+    a(largest_stretch_, largest_yield_, largest_force_, motion_, next_, pending_, relax_options_.keep,
+      relaxed_.smoothed, relaxed_.flipped, relaxed_.edges_removed, relaxed_.split, relaxed_.collapsed, moves_,
+      ends_, hits_, counts_);
+  }
+  friend detail::Byte_reader;
+  friend detail::Byte_writer;
+
   std::vector<Vertex_move<D>> targets(const World<D>& world, std::uint32_t step);
   void move(World<D>& world, std::uint32_t step, const std::vector<Vertex_move<D>>& moves);
   bool relax(World<D>& world, std::span<const Vertex_result<D>> short_of_target);

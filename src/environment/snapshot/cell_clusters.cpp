@@ -48,6 +48,7 @@ template <int D>
 struct Cell_clusters<D>::Table {
   explicit Table(const Snapshot<D>& snapshot)
       : size(cluster_size(snapshot)), made(number_of(snapshot) + number_of(snapshot) / share_of_room + 1) {}
+  Table(std::uint32_t of_size, std::size_t places) : size(of_size), made(places) {}
   ~Table() {
     for (const auto& cluster : made) delete cluster.load();
   }
@@ -66,6 +67,22 @@ struct Cell_clusters<D>::Table {
 template <int D>
 void Cell_clusters<D>::clear() {
   delete table_.exchange(nullptr);
+}
+
+template <int D>
+void Cell_clusters<D>::tell(std::uint32_t& size, std::uint64_t& places) const {
+  const Table* table = table_.load();
+  size = table ? table->size : 0;
+  places = table ? table->made.size() : 0;
+}
+
+template <int D>
+bool Cell_clusters<D>::lay_out(const Snapshot<D>& snapshot, std::uint32_t size, std::uint64_t places) {
+  const std::uint64_t needed = snapshot.half_facet_slots() / 4 / std::max<std::uint32_t>(1, size) + 1;
+  if (size < least_size || size > most_size || places < needed || places > 2 * needed + 1) return false;
+  clear();
+  table_.store(std::make_unique<Table>(size, static_cast<std::size_t>(places)).release());
+  return true;
 }
 
 template <int D>

@@ -111,6 +111,7 @@ void Atomic_file::flush() {
 
 void Atomic_file::prepare() {
   flush();
+  if (is_durable_ && !is_direct_ && fsync(descriptor_) != 0) fail("writing failed");
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (close(descriptor) != 0) fail("writing failed");
@@ -122,6 +123,15 @@ void Atomic_file::put() {
   const bool is_directory = stat(target_.c_str(), &now) == 0 && S_ISDIR(now.st_mode);
   if (is_directory) errno = EISDIR;  // an exchange of names would replace a directory by the file
   if (is_directory || !replacement_.put(temporary_, target_)) fail("cannot be put in place");
+  if (is_durable_) sync_name();
+}
+
+void Atomic_file::sync_name() {
+  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder that may not be read: its name follows in time
+  fsync(descriptor);
+  close(descriptor);
 }
 
 void Atomic_file::take_back() noexcept {

@@ -136,8 +136,12 @@ std::optional<std::string> Csv_table::row_problem(std::size_t row) const {
 }
 
 Csv_writer::Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns)
-    : own_(std::make_unique<Atomic_file>(std::move(path))), file_(own_.get()), column_count_(columns.size()) {
-  header(columns);
+    : Csv_writer(std::make_unique<Atomic_file>(std::move(path)), columns, false) {}
+
+Csv_writer::Csv_writer(std::unique_ptr<Byte_sink> file, const std::vector<std::string>& columns,
+                       bool is_continued)
+    : own_(std::move(file)), file_(own_.get()), column_count_(columns.size()) {
+  if (!is_continued) header(columns);
 }
 
 Csv_writer::Csv_writer(Atomic_file& file, const std::vector<std::string>& columns)

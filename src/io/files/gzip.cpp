@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fstream>
 #include <limits>
 #include <utility>
+
+#include "text.h"
 
 namespace cellwalk::io {
 namespace {
@@ -67,6 +70,19 @@ void Gzip_file::write(std::string_view bytes) {
 void Gzip_file::commit() {
   stream_->put({}, true, [&](std::string_view packed) { file_.write(packed); });
   file_.commit();
+}
+
+void gzip_file(const std::filesystem::path& file, const std::filesystem::path& packed) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file.string(), "cannot be opened: check that it exists and may be read");
+  Gzip_file out(packed);
+  std::string piece(chunk_size, '\0');
+  do {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    out.write(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
+  } while (in);
+  if (in.bad()) fail(file.string(), "reading failed");
+  out.commit();
 }
 
 std::string gzip(std::string_view bytes) {

@@ -59,7 +59,7 @@ ordered_json head_of(const Recording_scene& scene) {
           {"bodies", bodies}};
 }
 
-void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>& loops) {
+void write_loops(Byte_sink& file, const std::vector<std::vector<std::uint32_t>>& loops) {
   std::vector<std::uint32_t> sizes, corners;
   for (const auto& loop : loops) {
     sizes.push_back(static_cast<std::uint32_t>(loop.size()));
@@ -69,7 +69,7 @@ void write_loops(Gzip_file& file, const std::vector<std::vector<std::uint32_t>>&
   file.write(bytes_of(corners));
 }
 
-void write_changed_loops(Gzip_file& file, const Loops_change& change) {
+void write_changed_loops(Byte_sink& file, const Loops_change& change) {
   const std::vector<std::uint32_t> sizes{static_cast<std::uint32_t>(change.toggled.size()),
                                          static_cast<std::uint32_t>(change.added.size()),
                                          static_cast<std::uint32_t>(corner_count(change.added))};
@@ -78,7 +78,7 @@ void write_changed_loops(Gzip_file& file, const Loops_change& change) {
   write_loops(file, change.added);
 }
 
-void write_change(Gzip_file& file, const Walls_change& change) {
+void write_change(Byte_sink& file, const Walls_change& change) {
   const std::vector<std::uint32_t> points{static_cast<std::uint32_t>(change.points.size())};
   file.write(bytes_of(points));
   file.write(bytes_of(change.points));
@@ -103,26 +103,33 @@ void append_planes(std::string& out, const std::vector<Unsigned>& values) {
 }  // namespace
 
 Recording_writer::Recording_writer(std::filesystem::path path, Recording_scene scene)
-    : file_(std::move(path)),
+    : Recording_writer(std::make_unique<Gzip_file>(std::move(path)), std::move(scene)) {}
+
+Recording_writer::Recording_writer(std::unique_ptr<Byte_sink> file, Recording_scene scene, bool is_continued)
+    : file_(std::move(file)),
       scene_(std::move(scene)),
       wall_points_(scene_.points.size()),
       last_cells_(scene_.moving_count()) {
   for (int axis = 0; axis < scene_.dimension; ++axis)
     last_.emplace_back(scene_.moving_count() + (scene_.walls_move ? wall_points_ : 0));
   before_last_ = last_;
+  if (!is_continued) write_head();
+}
+
+void Recording_writer::write_head() {
   std::string head = head_of(scene_).dump();
   const std::size_t before = recording_magic.size() + sizeof(std::uint32_t);
   while ((before + head.size()) % head_alignment != 0) head.push_back(' ');
   const auto size = static_cast<std::uint32_t>(head.size());
-  file_.write(recording_magic);
-  file_.write({reinterpret_cast<const char*>(&size), sizeof size});
-  file_.write(head);
-  file_.write(bytes_of(scene_.points));
-  write_loops(file_, scene_.walls);
-  write_loops(file_, scene_.floor);
-  file_.write(bytes_of(scene_.lines));
-  file_.write(bytes_of(scene_.edges));
-  file_.write(bytes_of(scene_.faces));
+  file_->write(recording_magic);
+  file_->write({reinterpret_cast<const char*>(&size), sizeof size});
+  file_->write(head);
+  file_->write(bytes_of(scene_.points));
+  write_loops(*file_, scene_.walls);
+  write_loops(*file_, scene_.floor);
+  file_->write(bytes_of(scene_.lines));
+  file_->write(bytes_of(scene_.edges));
+  file_->write(bytes_of(scene_.faces));
 }
 
 std::uint16_t Recording_writer::rounded(double x, std::size_t axis) const {
@@ -147,7 +154,7 @@ void Recording_writer::add(const Recording_frame& record) {
   if (record.positions.size() != count + (scene_.walls_move ? points : 0) || count != scene_.moving_count() ||
       record.decisions.size() != scene_.bodies.size() || (record.change != nullptr && !scene_.walls_change))
     throw Error(Error_code::usage, "a record of motion has other numbers of points than its scene");
-  if (scene_.walls_change) write_change(file_, change);
+  if (scene_.walls_change) write_change(*file_, change);
   add_points(change.points);
   std::vector<std::uint16_t> left;
   for (std::size_t axis = 0; axis < last_.size(); ++axis) {
@@ -167,7 +174,7 @@ void Recording_writer::add(const Recording_frame& record) {
   append_planes(bytes, left);
   append_planes(bytes, changes);
   for (const Decision decision : record.decisions) bytes.push_back(static_cast<char>(decision));
-  file_.write(bytes);
+  file_->write(bytes);
   last_cells_.assign(record.cells.begin(), record.cells.end());
   ++records_;
 }
@@ -176,7 +183,7 @@ void Recording_writer::commit() {
   if (records_ != scene_.frame_count())
     throw Error(Error_code::usage, fmt::format("a motion of {} records was announced, and {} were written",
                                                scene_.frame_count(), records_));
-  file_.commit();
+  file_->commit();
 }
 
 }  // namespace cellwalk::io

@@ -39,6 +39,12 @@ class Cell_clusters {
   /// The number of a cell's cluster, of the snapshot that has these clusters.
   std::uint32_t cluster_of(const Snapshot<D>& snapshot, Cell cell) const;
   const Cell_cluster<D>& cluster(const Snapshot<D>& snapshot, std::uint32_t number) const;
+  /// Into how many names of cells each the snapshot was divided, and for how many clusters there is room; 0
+  /// if none was asked for yet.
+  void tell(std::uint32_t& size, std::uint64_t& places) const;
+  /// Divides it so. False if that is not for this snapshot.
+  /// \pre none was asked for yet
+  bool lay_out(const Snapshot<D>& snapshot, std::uint32_t size, std::uint64_t places);
   /// A cell changes: its walls, its neighbours, or the positions of its vertices; or it goes or comes.
   void forget(Cell cell);
   /// Names may have been given out beyond those that there were.

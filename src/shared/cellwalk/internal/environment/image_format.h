@@ -6,6 +6,7 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/kernel/checksum.h>
 
 #include <array>
 #include <cstddef>
@@ -60,9 +61,7 @@ struct Image_state {
 };
 static_assert(std::is_trivially_copyable_v<Image_state<3>> && sizeof(Image_state<3>) == 8 * 21);
 
-/// The 64-bit checksum XXH3 of bytes.
-std::uint64_t checksum(std::span<const std::byte> bytes);
-/// That of a header and a table, whatever the header has as its own.
+/// The checksum of a header and a table, whatever the header has as its own.
 std::uint64_t checksum(Image_header header, std::span<const Image_section> table);
 
 }  // namespace cellwalk::detail

@@ -27,6 +27,15 @@ class Star_index {
  public:
   /// Cost: about 1 us a point.
   explicit Star_index(const Snapshot<D>& snapshot);
+  /// One that begins each search with the cell with which another did, see tell().
+  /// \pre they are cells at these points
+  Star_index(std::vector<Cell> first, std::vector<std::pair<std::uint32_t, Cell>> other_parts)
+      : first_(std::move(first)), other_parts_(std::move(other_parts)) {}
+  /// The cell at each point, and those of further parts.
+  void tell(std::vector<Cell>& first, std::vector<std::pair<std::uint32_t, Cell>>& other_parts) const {
+    first = first_;
+    other_parts = other_parts_;
+  }
 
   /// Sets `cells` to all cells that have a point, part after part; solid ones too. The order depends on the
   /// numbering of cells. They are kept for the next time.

@@ -64,6 +64,8 @@ class Csv_writer {
  public:
   /// \throw Error(other) if the file cannot be written
   Csv_writer(std::filesystem::path path, const std::vector<std::string>& columns);
+  /// \param is_continued the file has the header already
+  Csv_writer(std::unique_ptr<Byte_sink> file, const std::vector<std::string>& columns, bool is_continued);
   /// Writes into a file that the caller commits, and that outlives the writer.
   Csv_writer(Atomic_file& file, const std::vector<std::string>& columns);
   /// Appends rows to a text that outlives the writer, without a header.
@@ -97,8 +99,8 @@ class Csv_writer {
   }
   void add_bare(std::string_view text);
 
-  std::unique_ptr<Atomic_file> own_;
-  Atomic_file* file_ = nullptr;
+  std::unique_ptr<Byte_sink> own_;
+  Byte_sink* file_ = nullptr;
   std::string* text_ = nullptr;  ///< instead of a file
   std::size_t column_count_;
   std::string row_;

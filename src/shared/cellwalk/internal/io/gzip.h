@@ -16,24 +16,26 @@ namespace cellwalk::io {
 
 /// A compressed file that is written in pieces and appears on commit(), or not at all. Its bytes depend on
 /// the content and on the version of zlib, not on the pieces; they contain no date.
-class Gzip_file {
+class Gzip_file final : public Byte_sink {
  public:
   /// \throw Error(other) if the file cannot be written
   explicit Gzip_file(std::filesystem::path path);
-  ~Gzip_file();
-  Gzip_file(const Gzip_file&) = delete;
-  Gzip_file& operator=(const Gzip_file&) = delete;
+  ~Gzip_file() override;
 
   /// \throw Error(other) if the device is full
-  void write(std::string_view bytes);
+  void write(std::string_view bytes) override;
   /// \throw Error(other) if the rest cannot be written, or the file cannot be renamed
-  void commit();
+  void commit() override;
 
  private:
   struct Stream;
   Atomic_file file_;
   std::unique_ptr<Stream> stream_;
 };
+
+/// Compresses a file into another, which appears when it is complete. Its bytes are those of a Gzip_file.
+/// \throw Error(input) if the file cannot be read, Error(other) if the other cannot be written
+void gzip_file(const std::filesystem::path& file, const std::filesystem::path& packed);
 
 /// Compresses bytes in memory.
 std::string gzip(std::string_view bytes);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace cellwalk::io {
 
@@ -31,6 +32,22 @@ class Output {
   virtual void settle() noexcept = 0;
   /// False for devices and pipes, which are written by prepare().
   virtual bool can_be_taken_back() const = 0;
+};
+
+/// A file that is written from its beginning to its end.
+class Byte_sink {
+ public:
+  Byte_sink() = default;
+  virtual ~Byte_sink() = default;
+  Byte_sink(const Byte_sink&) = delete;
+  Byte_sink& operator=(const Byte_sink&) = delete;
+
+  /// Appends.
+  /// \throw Error(other) if the device is full
+  virtual void write(std::string_view bytes) = 0;
+  /// Completes it.
+  /// \throw Error(other) if that fails
+  virtual void commit() = 0;
 };
 
 /// Moves all outputs to their destinations, or none. They are prepared, devices last, then put, then `finish`

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ class Recording_writer {
   ///      taken to its side
   /// \throw Error(other) if the file cannot be written
   Recording_writer(std::filesystem::path path, Recording_scene scene);
+  /// \param file that gets the content, not compressed unless it does that
+  /// \param is_continued the file has what comes before the first frame already, and archive() is called next
+  Recording_writer(std::unique_ptr<Byte_sink> file, Recording_scene scene, bool is_continued = false);
 
   /// Appends a frame.
   /// \pre it has as many positions, cells and decisions as the scene, and points of walls that were added
@@ -35,11 +39,26 @@ class Recording_writer {
 
   std::uint32_t frame_count() const { return records_; }
 
+  /// All that later frames depend on.
+  template <class Archive>
+  void archive(Archive& a) {
+    std::vector<std::uint32_t> vertices;
+    for (const Recording_body& body : scene_.bodies) vertices.push_back(body.vertices);
+    a(scene_.dimension, scene_.steps, scene_.every, scene_.particles, scene_.lower, scene_.upper,
+      scene_.walls_move, scene_.walls_change, vertices);
+    a(wall_points_, records_, last_, before_last_, last_cells_);
+    if constexpr (Archive::is_reading) {
+      scene_.bodies.resize(vertices.size());
+      for (std::size_t i = 0; i < vertices.size(); ++i) scene_.bodies[i].vertices = vertices[i];
+    }
+  }
+
  private:
+  void write_head();
   std::uint16_t rounded(double x, std::size_t axis) const;
   void add_points(const std::vector<Point<3>>& points);
 
-  Gzip_file file_;
+  std::unique_ptr<Byte_sink> file_;
   Recording_scene scene_;
   std::size_t wall_points_;  ///< so far
   std::uint32_t records_ = 0;

@@ -20,6 +20,10 @@ class Body_trace_recorder {
   /// Starts with where the bodies stand now.
   /// \throw Error(input) naming the body of which a vertex has more than 64 edges
   explicit Body_trace_recorder(const World<3>& world);
+  /// Goes on with the trace of a world that was saved where this one stands.
+  /// \pre the trace has the steps, positions, targets and answers of a recorder of that world; its bodies are
+  ///        found
+  Body_trace_recorder(const World<3>& world, Body_trace trace);
 
   /// Records the step that the world has just made: to be called after each.
   /// \throw Error(usage) if the environment was edited since the world was made
@@ -30,6 +34,7 @@ class Body_trace_recorder {
   const Body_trace& trace() const { return trace_; }
 
  private:
+  void take_bodies();
   void note_positions();
 
   const World<3>& world_;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A folder of results that is written beside its destination, as OUT.part, and stays there if the program
+// ends before: another one goes on with it.
+#ifndef CELLWALK_CLI_COMMON_WORKING_FOLDER_H
+#define CELLWALK_CLI_COMMON_WORKING_FOLDER_H
+
+#include <cellwalk/internal/io/output.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace cellwalk::cli {
+
+/// OUT.part, with the folders `results`, which becomes OUT, and `checkpoints`. One process uses it at a time.
+class Working_folder final : public io::Output {
+ public:
+  /// Makes it. Without a checkpoint, the destructor removes it.
+  /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(other)
+  ///        if it cannot be made
+  static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
+  /// Takes up what an earlier process left: unfinished files in it are removed.
+  /// \throw Error(usage) if there is none, or another process uses it
+  static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
+
+  /// True if there is none, but results of a run.
+  static bool has_ended(const std::filesystem::path& destination);
+
+  ~Working_folder() override;
+
+  std::filesystem::path results() const { return path_ / "results"; }
+  std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  /// True if the results were put in place before, and only what is here could not be removed.
+  bool is_done() const { return is_done_; }
+
+  void prepare() override;
+  void put() override;
+  void take_back() noexcept override;
+  void settle() noexcept override;
+  bool can_be_taken_back() const override { return true; }
+
+ private:
+  explicit Working_folder(const std::filesystem::path& destination);
+  void lock();
+
+  std::filesystem::path name_, destination_, path_;  ///< the given name, its target, that with .part
+  io::Replacement replacement_;
+  int lock_ = -1;
+  bool is_done_ = false;
+};
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_COMMON_WORKING_FOLDER_H

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a run says when it has ended: run.json, the summary, and the caption of its picture.
+#ifndef CELLWALK_CLI_RUN_REPORT_H
+#define CELLWALK_CLI_RUN_REPORT_H
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+#include "parts.h"
+
+namespace cellwalk::cli {
+
+template <int D>
+nlohmann::ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts);
+/// For people.
+template <int D>
+std::string summary(const Run_input<D>& input, const Run_parts<D>& parts);
+template <int D>
+std::string caption(const Run_input<D>& input, const Run_parts<D>& parts);
+
+extern template nlohmann::ordered_json report(const Run_input<2>&, const Run_parts<2>&);
+extern template nlohmann::ordered_json report(const Run_input<3>&, const Run_parts<3>&);
+extern template std::string summary(const Run_input<2>&, const Run_parts<2>&);
+extern template std::string summary(const Run_input<3>&, const Run_parts<3>&);
+extern template std::string caption(const Run_input<2>&, const Run_parts<2>&);
+extern template std::string caption(const Run_input<3>&, const Run_parts<3>&);
+
+}  // namespace cellwalk::cli
+
+#endif  // CELLWALK_CLI_RUN_REPORT_H

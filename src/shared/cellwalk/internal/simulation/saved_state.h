@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The state of a simulation as bytes: a world, its walls and the changes to come, which go on from there as
+// if they had never stopped. What a scene says is not in it, and where the environment is kept is not its
+// concern.
+#ifndef CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
+#define CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
+
+#include <cellwalk/internal/kernel/byte_archive.h>
+#include <cellwalk/simulation/elastic_foundation.h>
+#include <cellwalk/simulation/tissue.h>
+#include <cellwalk/simulation/wall_pulsation.h>
+#include <cellwalk/simulation/world.h>
+
+namespace cellwalk::detail {
+
+/// Writes where everything is, how it moves, and all counts.
+/// \pre no edit of the environment since the world was made but those of its own
+/// \throw Error(usage) if there was one
+template <int D>
+void save(Byte_writer& out, const World<D>& world);
+/// What remains to be changed.
+template <int D>
+void save(Byte_writer& out, const Change_schedule<D>& schedule);
+template <int D>
+void save(Byte_writer& out, const Wall_pulsation<D>& pulsation);
+template <int D>
+void save(Byte_writer& out, const Elastic_foundation<D>& foundation);
+template <int D>
+void save(Byte_writer& out, const Tissue<D>& tissue);
+
+/// Makes again what was saved. The snapshot is that of the environment as it was then, or of a compiled copy;
+/// the scene is the same.
+/// \throw Error(input) for bytes that are damaged or do not fit these
+template <int D>
+class Saved_simulation {
+ public:
+  Saved_simulation(const Snapshot<D>& snapshot, const Scene<D>& scene) : snapshot_(snapshot), scene_(scene) {}
+
+  World<D> read_world(Byte_reader& in, const Body_options& options) const;
+  Change_schedule<D> read_schedule(Byte_reader& in) const;
+  Wall_pulsation<D> read_pulsation(Byte_reader& in) const;
+  Elastic_foundation<D> read_foundation(Byte_reader& in) const;
+  Tissue<D> read_tissue(Byte_reader& in) const;
+
+  static void write(Byte_writer& out, const World<D>& world);
+
+ private:
+  Moving_body<D> read_body(Byte_reader& in, const std::optional<std::size_t>& entry) const;
+
+  const Snapshot<D>& snapshot_;
+  const Scene<D>& scene_;
+};
+
+extern template class Saved_simulation<2>;
+extern template class Saved_simulation<3>;
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
