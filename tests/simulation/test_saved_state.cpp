@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <optional>
 #include <vector>
 
@@ -88,6 +90,16 @@ void go_on(const Snapshot<D>& snapshot) {
     for (std::size_t i = 0; i < world.contacts().size(); ++i)
       EXPECT_TRUE(world.contacts()[i].contact.time == twin->contacts()[i].contact.time);
     ASSERT_TRUE(bytes_of(*twin) == bytes_of(world)) << "step " << step;
+    // What is not saved at all would not be seen by that.
+    EXPECT_EQ(twin->steps_done(), world.steps_done());
+    EXPECT_TRUE(std::ranges::equal(twin->velocities(), world.velocities()));
+    EXPECT_EQ(std::bit_cast<Count_array<Walk_counts>>(twin->counts()),
+              std::bit_cast<Count_array<Walk_counts>>(world.counts()));
+    EXPECT_EQ(std::bit_cast<Count_array<Body_counts>>(twin->body_counts()),
+              std::bit_cast<Count_array<Body_counts>>(world.body_counts()));
+    for (std::size_t b = 0; b < world.bodies().size(); ++b)
+      EXPECT_TRUE(
+          std::ranges::equal(twin->bodies()[b].body().positions(), world.bodies()[b].body().positions()));
   }
   twin->validate();
   EXPECT_GT(contacts, 20u);

@@ -46,9 +46,11 @@ inline std::vector<std::string> names_below(const std::filesystem::path& folder)
 inline void expect_same_files(const std::filesystem::path& folder, const std::filesystem::path& expected) {
   const std::vector<std::string> names = names_below(expected);
   EXPECT_EQ(names_below(folder), names);
-  for (const std::string& name : names)
-    if (std::filesystem::is_regular_file(expected / name) && std::filesystem::exists(folder / name))
-      EXPECT_TRUE(read_text(folder / name) == read_text(expected / name)) << name << " is another file";
+  for (const std::string& name : names) {
+    if (!std::filesystem::is_regular_file(expected / name) || !std::filesystem::exists(folder / name))
+      continue;
+    EXPECT_TRUE(read_text(folder / name) == read_text(expected / name)) << name << " is another file";
+  }
 }
 
 /// Two folders: `whole`, with a run that is not stopped, and `parts`, with the same run to be stopped.

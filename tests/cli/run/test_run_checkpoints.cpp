@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 /// Bodies and particles among walls that beat.
 constexpr const char* scene = R"({
-  "environment": {"generate": "tets", "cells": [4, 4, 4], "solid": 0.1},
-  "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 12, "seed": 3, "speed": 4}],
+  "environment": {"generate": "tets", "cells": [3, 3, 3]},
+  "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 6, "seed": 3, "speed": 4}],
   "particles": [{"count": 20, "seed": 4, "speed": 3}],
   "walls": {"pulsation": {"amplitude": 0.02, "period": 0.4}},
-  "time_step": 0.02, "steps": 300, "output": {"frame_every": 10, "picture": {"width": 160, "height": 120}}
+  "time_step": 0.02, "steps": 160, "output": {"frame_every": 10, "picture": {"width": 160, "height": 120}}
 })";
 
 class Checkpoints : public Stopped_run {
@@ -66,12 +66,13 @@ class Checkpoints : public Stopped_run {
 TEST_F(Checkpoints, AreGoneWhenTheRunHasEnded) {
   expect_same(run_program(begin(20), parts()));
   expect_same(
-      run_program({"run", "../scene.json", "-o", "out", "--force", "--checkpoint-every", "300"}, parts()));
+      run_program({"run", "../scene.json", "-o", "out", "--force", "--checkpoint-every", "160"}, parts()));
 }
 
 TEST_F(Checkpoints, TheLastTwoAreKept) {
   stop_at(60);
-  EXPECT_EQ(kept().size(), 2u);
+  EXPECT_GE(kept().size(), 2u);
+  EXPECT_LE(kept().size(), 3u);  // it may have been killed before it removed the oldest
   expect_same(go_on());
 }
 
@@ -91,8 +92,8 @@ TEST_F(Checkpoints, ADamagedOneIsPassedOver) {
   bytes[bytes.size() / 2] ^= 1;
   write_text(newest, bytes);
   Outcome last = go_on();
-  EXPECT_EQ(last.err, "cellwalk: " + fs::relative(newest, parts()).string() +
-                          ": its checksum differs; going on from the checkpoint before\n");
+  EXPECT_EQ(last.err,
+            "cellwalk: " + newest.string() + ": its checksum differs; going on from the checkpoint before\n");
   last.err.clear();
   expect_same(last);
 }
@@ -106,9 +107,8 @@ TEST_F(Checkpoints, WhatALossOfPowerLeavesIsNoMatter) {
   for (const char* name : {"results/contacts.csv", "results/walls.csv", "checkpoints/motion.gz.content"})
     write_text(part() / name, read_text(part() / name) + std::string(1000, '\0'));
   Outcome last = go_on();
-  EXPECT_EQ(last.err,
-            "cellwalk: out.part/checkpoints/step-0000000299.checkpoint: it is cut short; going on from the "
-            "checkpoint before\n");
+  EXPECT_EQ(last.err, "cellwalk: " + (part() / "checkpoints" / "step-0000000299.checkpoint").string() +
+                          ": it is cut short; going on from the checkpoint before\n");
   last.err.clear();
   expect_same(last);
 }
@@ -116,11 +116,11 @@ TEST_F(Checkpoints, WhatALossOfPowerLeavesIsNoMatter) {
 TEST_F(Checkpoints, SayThatNoneIsLeft) {
   stop_at(60);
   for (const fs::path& file : kept()) write_text(file, "");
-  expect_refusal(3, {},
-                 fs::relative(kept().back(), parts()).string() +
-                     ": it is cut short, and there is no other checkpoint: begin the run again");
+  expect_refusal(
+      3, {},
+      kept().back().string() + ": it is cut short, and there is no other checkpoint: begin the run again");
   for (const fs::path& file : kept()) fs::remove(file);
-  expect_refusal(3, {}, "out.part/checkpoints: holds no checkpoint: begin the run again");
+  expect_refusal(3, {}, (part() / "checkpoints").string() + ": holds no checkpoint: begin the run again");
   // What holds none is of no use, and not in the way.
   expect_same(run_program(begin(50), parts()));
 }
@@ -141,19 +141,19 @@ TEST_F(Checkpoints, AnotherRunDoesNotGoOn) {
   const auto message = [](const char* what) {
     return std::string("out: this run began with ") + what + ": leave that out, or begin another run";
   };
-  write("other.json", "{\"environment\": {\"generate\": \"hexes\"}}");
+  write("other.json", R"({"environment": {"generate": "hexes"}, "particles": [{"count": 1}], "steps": 9})");
   expect_refusal(2, {"../other.json"}, message("another scene"));
   expect_refusal(2, {"../scene.json", "--set", "time_step=0.01"}, message("another scene"));
-  expect_refusal(2, {"--steps", "299"}, message("another number of --steps"));
+  expect_refusal(2, {"--steps", "159"}, message("another number of --steps"));
   expect_refusal(2, {"--sweep", "faces"}, message("another --sweep"));
   expect_refusal(2, {"--record", "trace"}, message("another --record"));
   expect_refusal(2, {"--json", "report.json"}, message("another --json"));
-  expect_refusal(2, {"-o", "out"}, "--resume excludes --output; see cellwalk --help");
-  expect_refusal(2, {"--force"}, "--resume excludes --force; see cellwalk --help");
+  expect_refusal(2, {"-o", "out"}, "--output excludes --resume; see cellwalk --help");
+  expect_refusal(2, {"--force"}, "--force excludes --resume; see cellwalk --help");
   // The scene may be gone, or another one now: the run goes on with that with which it began.
   write("same.json", scene);
   write("scene.json", "{}");
-  expect_same(go_on({"../same.json", "--steps", "300", "--sweep", "triangle", "--threads", "1"}));
+  expect_same(go_on({"../same.json", "--steps", "160", "--sweep", "triangle", "--threads", "1"}));
 }
 
 TEST_F(Checkpoints, ANewRunDoesNotReplaceThemUnasked) {
@@ -194,10 +194,10 @@ TEST_F(Checkpoints, AFullDeviceLeavesTheLastOne) {
 
 TEST_F(Checkpoints, ARunThatHadEndedSaysSo) {
   stop_at(40);
-  fs::copy(part(), parts() / "copy", fs::copy_options::recursive);
+  fs::copy(part(), path("copy"), fs::copy_options::recursive);
   expect_same(go_on());
   // As if it had been killed before its checkpoints were removed.
-  fs::rename(parts() / "copy", part());
+  fs::rename(path("copy"), part());
   fs::remove_all(part() / "results");
   struct stat status;
   ASSERT_EQ(stat((parts() / "out").c_str(), &status), 0);
@@ -212,7 +212,7 @@ TEST_F(Checkpoints, ARunThatHadEndedSaysSo) {
 
 TEST_F(Checkpoints, ARunThatDoesNotBeginLeavesNothing) {
   write("bad.json",
-        "{\"environment\": {\"generate\": \"hexes\"}, \"particles\": [{\"position\": [99, 0, 0]}]}");
+        R"({"environment": {"generate": "hexes"}, "particles": [{"position": [99, 0, 0]}], "steps": 9})");
   expect_failure(5, {"run", "bad.json", "-o", "bad", "--checkpoint-every", "5"}, {"particles[0].position"});
   expect_failure(2, {"run", "--resume", "nothing"}, {"nothing.part: is no folder of a run that did not end"});
   expect_failure(2, {"run", "scene.json"}, {"--output is required"});

@@ -101,7 +101,7 @@ TEST(Durable, RemovesWhatKilledProcessesLeft) {
   const std::string dead = std::to_string(child), alive = std::to_string(getpid());
   for (const std::string& name :
        {".out.json." + dead + ".0.tmp", ".out.json." + dead + ".12.tmp", ".out.json." + alive + ".0.tmp",
-        ".other.json." + dead + ".0.tmp", ".out.json.x.0.tmp", std::string("out.json")})
+        ".other.json." + dead + ".0.tmp", std::string(".out.json.x.0.tmp"), std::string("out.json")})
     folder.write(name, "");
   remove_abandoned(folder / "out.json");
   EXPECT_EQ(folder.file_count(), 4u);

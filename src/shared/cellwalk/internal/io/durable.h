@@ -26,7 +26,8 @@ void sync_all(const std::filesystem::path& folder);
 void write_durably(const std::filesystem::path& destination,
                    std::span<const std::span<const std::byte>> pieces);
 
-/// Removes the unfinished files that processes which were killed left beside the destination of an Atomic_file.
+/// Removes the unfinished files that processes which were killed left beside the destination of an
+/// Atomic_file.
 void remove_abandoned(const std::filesystem::path& destination);
 
 /// A file that grows where it is, and may be taken up again: what follows the length that was kept is cut
