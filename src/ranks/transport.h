@@ -30,7 +30,8 @@ class Transport {
   virtual std::size_t rank() const = 0;
   virtual std::size_t size() const = 0;
 
-  /// Sends a message, in the order of calls. Returns at once, unless many earlier ones are still on their way.
+  /// Sends a message, in the order of calls. Returns at once, unless many earlier ones are still on their
+  /// way.
   virtual void send(std::size_t to, Message message) = 0;
   /// Gives up what was sent, and nobody will receive.
   virtual void drop_sent() = 0;
