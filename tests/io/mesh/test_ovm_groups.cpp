@@ -163,6 +163,10 @@ void expect_written(const char* text) {
   }
   EXPECT_EQ(again.groups.at("valve"), file.groups.at("valve"));
   EXPECT_EQ(again.groups.at("one side").facets.size(), 2u);
+  // One of facets only is written once, and not for cells as well.
+  const std::string text_written = content_of(folder / "a.ovm"), title = "\"group one side\"";
+  EXPECT_NE(text_written.find(title), std::string::npos);
+  EXPECT_EQ(text_written.find(title), text_written.rfind(title));
   write_ovm(folder / "b.ovm", std::get<Cell_soup<D>>(again.mesh), again.groups);
   EXPECT_EQ(content_of(folder / "a.ovm"), content_of(folder / "b.ovm"));
   write_ovm(folder / "c.ovm", soup);
