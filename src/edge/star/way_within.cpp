@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/way_within.h>
 #include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
 
@@ -53,19 +54,35 @@ void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, 
 template <int D>
 bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
                                     const Point<D>& q) const {
-  const Line<Exact, D> line{p, q, counts_};
+  Float_point<D> a{}, b{};
+  const bool is_framed = snapshot_.frame().map(p, a) && snapshot_.frame().map(q, b);
+  // An empty chain ends in the cell of p.
+  bool is_start_known = chain.empty();
   for (std::size_t steps = 0; from != to; ++steps) {
     if (steps == cells_.size()) return false;
-    const Cell_view<D> cell = snapshot_.view(from);
     Half_facet exit = Half_facet::none;
-    for (std::size_t i = 0; i < cell.facet_count() && exit == Half_facet::none; ++i)
-      if (side<Exact>(cell, i, q, counts_) > 0 && exit_through(cell, i, line).kind == Exit::facet)
-        exit = Snapshot<D>::half_facet(from, i);
+    if (is_framed && is_start_known && snapshot_.block_count(from) == 1) {
+      const Certified_exit certain = certified_exit<D>(*snapshot_.blocks(from), {a, b}, steps > 0);
+      if (certain.verdict == Certified_exit::leaves) exit = Snapshot<D>::half_facet(from, certain.facet);
+    }
+    if (exit == Half_facet::none) exit = exit_by_signs(from, p, q);
     if (exit == Half_facet::none || !may_pass(exit)) return false;
     append_reduced(snapshot_, chain, exit);
     from = snapshot_.neighbour(exit);
+    is_start_known = true;
   }
   return true;
+}
+
+/// The facet of a cell through whose interior the edge leaves it, if there is one.
+template <int D>
+Half_facet Way_within<D>::exit_by_signs(Cell from, const Point<D>& p, const Point<D>& q) const {
+  const Line<Exact, D> line{p, q, counts_};
+  const Cell_view<D> cell = snapshot_.view(from);
+  for (std::size_t i = 0; i < cell.facet_count(); ++i)
+    if (side<Exact>(cell, i, q, counts_) > 0 && exit_through(cell, i, line).kind == Exit::facet)
+      return Snapshot<D>::half_facet(from, i);
+  return Half_facet::none;
 }
 
 /// The same in every position: each cell is reached as early along the edge as possible.

@@ -7,24 +7,27 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "environment/snapshot/cell_exchange.h"
+
 namespace cellwalk {
 
-/// First the darts of the new cells are made, beside the others; then apply() puts them in, which cannot
-/// fail. Without it nothing is changed.
+/// First the darts are made that the new cells need besides those of the old ones; then apply() puts the
+/// cells in, which cannot fail. Without it nothing is changed.
 template <int D>
 class Map_patch {
  public:
-  /// \param removed all half-facets of the cells that go
-  /// \param soup the new cells, of points of the snapshot, see Snapshot::replace_cells()
-  /// \param added a point of `soup` that is new, or none
+  /// \param snapshot still with the old cells
+  /// \param exchange the new cells have points of the snapshot, see Snapshot::replace_cells()
+  /// \param added a point of the new cells that is new, or no_point
   /// \pre the removed cells at a point are linked through facets that have it, walls included
-  Map_patch(Map_storage<D>& storage, std::span<const Half_facet> removed, const Cell_soup<D>& soup,
-            const Gluing& gluing, std::uint32_t added);
+  Map_patch(Map_storage<D>& storage, const Snapshot<D>& snapshot, const Cell_exchange<D>& exchange,
+            std::uint32_t added);
   Map_patch(const Map_patch&) = delete;
   Map_patch& operator=(const Map_patch&) = delete;
   ~Map_patch();
@@ -36,33 +39,35 @@ class Map_patch {
   static constexpr std::uint32_t no_point = 0xffffffffu;
 
  private:
-  using Key = boost::container::small_vector<std::uint32_t, 8>;
-  /// A facet that joins a removed cell and one that stays: its points, sorted, and its first dart there.
-  struct Open_facet {
-    Key key;
-    Dart<D> outside;
-  };
-
-  static Key key_of(std::span<const std::uint32_t> loop);
-  void find_outside(std::span<const Half_facet> removed);
-  void make_darts();
-  void link_cells();
-  void link_to_stay();
-  void link_across(std::size_t facet, Dart<D> other);
+  void find_old(const Snapshot<D>& snapshot);
+  void add_vertex(std::uint32_t point, Map_vertex<D> vertex);
+  Map_vertex<D> vertex_of(std::uint32_t point) const;
+  Dart<D> dart_outside(std::size_t facet) const;
   void set_vertices(const Snapshot<D>& snapshot);
-  void forget_vertices();
+  void link_cells();
+  void link_across(std::size_t facet, Dart<D> other);
+  void link_facets();
+  void forget_old();
+  void mark(const Snapshot<D>& snapshot, std::span<const Half_facet> slots);
+  /// The first dart of a facet of the soup.
+  Dart<D> first(std::size_t facet) const { return darts_[D == 2 ? facet : soup_.facet_begin[facet]]; }
 
   Map_storage<D>& storage_;
+  const Cell_exchange<D>& exchange_;
   const Cell_soup<D>& soup_;
-  const Gluing& gluing_;
   std::uint32_t added_;
   Map_vertex<D> added_vertex_{};
-  std::vector<Half_facet> removed_;
-  std::vector<Dart<D>> old_darts_, new_darts_;
-  std::vector<Dart<D>> first_;  ///< of each facet of the soup
-  std::vector<Open_facet> open_;
-  std::vector<std::pair<std::uint32_t, Map_vertex<D>>> vertices_;  ///< of the removed cells, by point
-  std::vector<std::size_t> old_darts_at_;                          ///< of each of them
+  boost::container::small_vector<Half_facet, 64> removed_;
+  /// Those of the soup; in front of them those of the removed cells, as many as there are or can be used.
+  boost::container::small_vector<Dart<D>, 192> darts_;
+  std::size_t old_darts_ = 0;  ///< in `darts_`
+  boost::container::small_vector<Dart<D>, 16> surplus_;
+  /// Of the removed cells, by point.
+  boost::container::small_vector<std::pair<std::uint32_t, Map_vertex<D>>, 16> vertices_;
+  /// Where the last of them is, plus one, by the last bits of their points.
+  std::array<std::uint8_t, 64> place_{};
+  /// From which the darts start.
+  boost::container::small_vector<Map_vertex<D>, 192> origins_;
   bool is_applied_ = false;
 };
 

@@ -177,6 +177,16 @@ void canonicalize(const Cell_soup<D>& soup, std::span<const Point<D>> points, st
   }
 }
 
+template <int D>
+void check_size(const Cell_soup<D>& soup, std::size_t c) {
+  // Hardly any cell needs a closer look.
+  if (soup.facet_begin[soup.cell_begin[c + 1]] - soup.facet_begin[soup.cell_begin[c]] < unseen / 4) return;
+  Scratch s;
+  number_by_appearance(soup, c, s);
+}
+
+template void check_size(const Cell_soup<2>&, std::size_t);
+template void check_size(const Cell_soup<3>&, std::size_t);
 template void canonicalize<2>(const Cell_soup<2>&, std::span<const Point<2>>, std::size_t, Canonical_cell&);
 template void canonicalize<3>(const Cell_soup<3>&, std::span<const Point<3>>, std::size_t, Canonical_cell&);
 

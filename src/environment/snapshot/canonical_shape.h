@@ -24,9 +24,14 @@ struct Canonical_cell {
 /// Renumbers cell c by a breadth-first traversal of its facets from the first vertex of its first facet, then
 /// rotates each loop until its first three vertices (3D) are not collinear. Facets that the traversal does
 /// not reach (then the cell is not closed, and certification refuses it) follow in input order.
+/// \throw Error(input) if the cell has too many vertices
 template <int D>
 void canonicalize(const Cell_soup<D>& soup, std::span<const Point<D>> points, std::size_t c,
                   Canonical_cell& out);
+
+/// \throw Error(input) if canonicalize() would
+template <int D>
+void check_size(const Cell_soup<D>& soup, std::size_t c);
 
 /// Rotates a loop until its first three vertices are not collinear, if it has three such consecutive
 /// vertices. `vertices` are the points of the cell's local vertices.
@@ -37,6 +42,9 @@ extern template void canonicalize<2>(const Cell_soup<2>&, std::span<const Point<
                                      Canonical_cell&);
 extern template void canonicalize<3>(const Cell_soup<3>&, std::span<const Point<3>>, std::size_t,
                                      Canonical_cell&);
+
+extern template void check_size(const Cell_soup<2>&, std::size_t);
+extern template void check_size(const Cell_soup<3>&, std::size_t);
 
 }  // namespace cellwalk
 

@@ -180,24 +180,24 @@ std::size_t Snapshot_compiler<D>::write_planes(Cell c) {
 }
 
 template <int D>
-int Snapshot_compiler<D>::is_convex_by_planes(Cell a, std::size_t facet, Cell b) const requires(D == 3) {
-  const std::uint32_t* links = s_.links(a);
-  if (s_.is_impassable(Snapshot<D>::half_facet(a, facet))) return 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    if (i != facet && (links[i] & Snapshot<D>::link_mask) == to_index(b)) return -1;
+bool Snapshot_compiler<D>::is_convex(Cell a, std::size_t facet, Cell b) const requires(D == 3) {
+  if (s_.is_impassable(Snapshot<D>::half_facet(a, facet))) return false;
   // The vertex of b that is not one of a: all others occur twice, but that of a that is not one of b.
   const Cell_view<D> va = s_.view(a);
   std::uint32_t apex =
       va.vertices[static_cast<std::size_t>(6 - va.loop(facet)[0] - va.loop(facet)[1] - va.loop(facet)[2])];
   for (const std::uint32_t v : va.vertices) apex ^= v;
   for (const std::uint32_t v : s_.view(b).vertices) apex ^= v;
-  Float_point<D> y;
-  if (!s_.frame_.map(s_.points_[apex], y)) return -1;
-  Float4 outside = evaluate<D>(s_.planes_[to_index(a)], y);
+  // It may lie in the plane of another facet of a: no slit can be there, as that is not the plane of `facet`.
+  Float_point<D> y{};
+  Float4 outside{};  // unknown
+  if (s_.frame_.map(s_.points_[apex], y)) outside = evaluate<D>(s_.planes_[to_index(a)], y);
   outside[facet] = -1;
-  float highest = outside[0];
-  for (int i = 1; i < 4; ++i) highest = std::max(highest, outside[i]);
-  return highest > plane_error ? 0 : highest < -plane_error ? 1 : -1;
+  for (int i = 0; i < 4; ++i)
+    if (outside[i] > plane_error) return false;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!(outside[i] < -plane_error) && side(va, i, s_.points_[apex]) > 0) return false;
+  return true;
 }
 
 template <int D>

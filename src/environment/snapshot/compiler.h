@@ -5,12 +5,14 @@
 
 #include <cellwalk/environment/snapshot.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <span>
 #include <vector>
 
 #include "canonical_shape.h"
+#include "cell_exchange.h"
 
 namespace cellwalk {
 
@@ -19,6 +21,10 @@ class Snapshot_compiler {
  public:
   explicit Snapshot_compiler(Snapshot<D>& snapshot) : s_(snapshot) {}
 
+  /// Replaces cells, see Snapshot::replace_cells().
+  /// \param slots receives the half-facet of each facet of the soup
+  /// \throw Error(input) as compile(), with nothing changed
+  std::vector<Cell> exchange(const Cell_exchange<D>& x, std::vector<Half_facet>& slots);
   /// Writes a canonical cell into the blocks from `block` on and the vertices from `vertex` on.
   void write_cell(const Canonical_cell& cell, std::uint32_t block, std::uint32_t vertex, std::uint32_t index,
                   bool solid);
@@ -61,7 +67,7 @@ class Snapshot_compiler {
   void write_convex_pair(Half_facet f);
   /// True if all facets of a cell are triangles, and there are four.
   bool is_tetrahedron(Cell c) const;
-  /// Recomputes the convex-pair bits of the facets of a tetrahedron on both sides, by planes where they tell.
+  /// Recomputes the convex-pair bits of the facets of a tetrahedron on both sides.
   /// \param is_done is_done(c): the facets to cell c are left out
   /// \pre its planes are up to date
   template <class Done>
@@ -73,8 +79,9 @@ class Snapshot_compiler {
   static constexpr std::size_t blocks_for(std::size_t facets) { return (facets + 3) / 4; }
 
  private:
-  /// Whether two tetrahedra that share one facet are a convex pair: 1 or 0, or -1 if planes do not tell.
-  int is_convex_by_planes(Cell a, std::size_t facet, Cell b) const requires(D == 3);
+  /// Whether two tetrahedra are a convex pair, by planes where they tell.
+  /// \pre they share this facet only
+  bool is_convex(Cell a, std::size_t facet, Cell b) const requires(D == 3);
   /// The number of a shape, added if new. Thread-safe.
   std::uint32_t shape_number(const Cell_shape& shape);
   /// Removes all facets and neighbours.
@@ -98,15 +105,18 @@ void Snapshot_compiler<D>::write_convex_pairs(Cell c, const Done& is_done) requi
     const Half_facet f = Snapshot<D>::half_facet(c, i);
     const Cell other = s_.neighbour(f);
     if (other == Cell::none || is_done(other)) continue;
-    const int is_convex = is_tetrahedron(other) ? is_convex_by_planes(c, i, other) : -1;
-    if (is_convex < 0) {
+    const std::uint32_t* own = s_.links(c);
+    const auto leads_there = [&](std::uint32_t link) {
+      return (link & Snapshot<D>::link_mask) == to_index(other);
+    };
+    if (!is_tetrahedron(other) || std::count_if(own, own + 4, leads_there) > 1) {
       write_convex_pair(f);
       continue;
     }
     std::uint32_t* links = s_.links_.data() + 4 * std::size_t{to_index(other)};
     while ((*links & Snapshot<D>::link_mask) != to_index(c)) ++links;
-    for (std::uint32_t* word : {&s_.links_[to_index(f)], links})
-      *word = is_convex == 1 ? *word | bit : *word & ~bit;
+    const bool is_pair = is_convex(c, i, other);
+    for (std::uint32_t* word : {&s_.links_[to_index(f)], links}) *word = is_pair ? *word | bit : *word & ~bit;
   }
 }
 

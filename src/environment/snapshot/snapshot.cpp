@@ -2,13 +2,12 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "canonical_shape.h"
+#include "cell_exchange.h"
 #include "compiler.h"
 #include "plane_compiler.h"
 
@@ -18,7 +17,10 @@ namespace {
 /// Takes the lowest free run of a length, or the end of its array if there is none; true in the latter case.
 std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::uint32_t>>& runs,
                                         std::size_t length, std::size_t end) {
-  const auto run = runs.lower_bound({static_cast<std::uint32_t>(length), 0});
+  // In most environments all runs have one length.
+  auto run = runs.begin();
+  if (run != runs.end() && run->first != length)
+    run = runs.lower_bound({static_cast<std::uint32_t>(length), 0});
   if (run == runs.end() || run->first != length) return {static_cast<std::uint32_t>(end), true};
   const std::uint32_t first = run->second;
   runs.erase(run);
@@ -30,7 +32,7 @@ class Cell_set {
  public:
   Cell_set(std::span<const Cell> cells, std::size_t slots) : cells_(cells.begin(), cells.end()) {
     if (!std::is_sorted(cells_.begin(), cells_.end())) std::sort(cells_.begin(), cells_.end());
-    if (cells_.size() < slots / blocks_a_cell) return;
+    if (cells_.size() < std::max(few, slots / blocks_a_cell)) return;
     is_in_.resize(slots);
     for (const Cell c : cells_) is_in_[to_index(c)] = true;
   }
@@ -41,7 +43,7 @@ class Cell_set {
 
  private:
   /// If there are fewer cells than one for so many blocks, they are searched; else all blocks are marked.
-  static constexpr std::size_t blocks_a_cell = 4096;
+  static constexpr std::size_t blocks_a_cell = 4096, few = 64;
   std::vector<Cell> cells_;
   std::vector<bool> is_in_;
 };
@@ -178,89 +180,9 @@ std::uint32_t Snapshot<D>::add_point(const Point<D>& position) {
 template <int D>
 std::vector<Cell> Snapshot<D>::replace_cells(std::span<const Cell> removed, const Cell_soup<D>& soup,
                                              const Gluing& gluing, std::vector<Half_facet>* slots) {
-  // All checks of the input come first.
-  std::vector<Canonical_cell> cells(soup.cell_count());
-  for (std::size_t c = 0; c < cells.size(); ++c) canonicalize(soup, points(), c, cells[c]);
-
-  // The outer facets that the removed cells leave open; the neighbours keep them.
-  std::vector<Half_facet> open;
-  for (const Cell c : removed) {
-    for (std::size_t i = 0; i < facet_count(c); ++i) {
-      const Half_facet f = half_facet(c, i);
-      const Cell other = neighbour(f);
-      if (other != Cell::none && std::find(removed.begin(), removed.end(), other) == removed.end())
-        open.push_back(opposite(f));
-    }
-  }
-  std::vector<bool> open_is_wall;
-  using Points = boost::container::small_vector<std::uint32_t, 8>;
-  std::vector<Points> open_points;  // ascending
-  open_is_wall.reserve(open.size());
-  open_points.reserve(open.size());
-  for (const Half_facet g : open) {
-    open_is_wall.push_back(is_impassable(g));
-    const Cell_view<D> cell = view(cell_of(g));
-    Points& points = open_points.emplace_back();
-    for (const std::uint16_t v : cell.loop(facet_of(g))) points.push_back(cell.point_index(v));
-    std::sort(points.begin(), points.end());
-    forget(cell_of(g));
-  }
-
-  // The indices of the removed cells in their order, then the lowest free ones, then new ones.
-  std::vector<std::uint32_t> indices;
-  indices.reserve(cells.size());
-  for (std::size_t i = 0; i < removed.size(); ++i) {
-    if (i < cells.size())
-      indices.push_back(index(removed[i]));
-    else
-      free_indices_.insert(index(removed[i]));
-  }
-  while (indices.size() < cells.size() && !free_indices_.empty())
-    indices.push_back(free_indices_.extract(free_indices_.begin()).value());
-  for (auto next = static_cast<std::uint32_t>(cell_of_index_.size()); indices.size() < cells.size(); ++next)
-    indices.push_back(next);
-
-  for (const Cell c : removed) forget(c);
-  Snapshot_compiler<D> compiler(*this);
-  Free_runs left_blocks, left_vertices;
-  for (const Cell c : removed) {
-    left_blocks.emplace(block_count(c), to_index(c));
-    left_vertices.emplace(view(c).vertex_count(), vertex_begin_[to_index(c)]);
-    uncertified_planes_ -= compiler.count_uncertified(c);
-    cell_of_index_[index(c)] = to_index(Cell::none);
-    compiler.remove_cell(c);
-  }
-
-  std::vector<Cell> added;
-  std::vector<Half_facet> slot(soup.facet_count());
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    added.push_back(add_cell(cells[c], indices[c], soup.solid[c]));
-    for (std::size_t k = 0; k < cells[c].facets.size(); ++k)
-      slot[cells[c].facets[k]] = half_facet(added.back(), k);
-  }
-  clusters_.follow_slots(*this);
-  // Not before: a name removed by this call must not be reused by it.
-  free_blocks_.merge(left_blocks);
-  free_vertices_.merge(left_vertices);
-
-  for (const Half_facet g : open) compiler.link_boundary(g);  // until a new cell is linked there
-  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
-    const std::uint32_t g = gluing.opposite[f];
-    if (g != no_facet) {
-      if (f < g) compiler.link(slot[f], slot[g], soup.impassable[f] || soup.impassable[g]);
-      continue;
-    }
-    compiler.link_boundary(slot[f]);
-    Points own(soup.facet(f).begin(), soup.facet(f).end());
-    std::sort(own.begin(), own.end());
-    const auto at = std::find(open_points.begin(), open_points.end(), own);
-    if (at == open_points.end()) continue;
-    const auto i = static_cast<std::size_t>(at - open_points.begin());
-    compiler.link(slot[f], open[i], open_is_wall[i] || soup.impassable[f]);
-  }
-  update_geometry(added);
-  if (slots) *slots = std::move(slot);
-  return added;
+  std::vector<Half_facet> own_slots;
+  return Snapshot_compiler<D>(*this).exchange(Cell_exchange<D>(*this, removed, soup, gluing),
+                                              slots ? *slots : own_slots);
 }
 
 template <int D>

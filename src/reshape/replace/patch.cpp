@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "patch.h"
 
+#include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/internal/environment/facet_table.h>
 #include <cellwalk/kernel/policies.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
-#include <compare>
 #include <span>
-#include <utility>
 
 namespace cellwalk::detail {
 namespace {
@@ -32,48 +34,65 @@ void add_simplex(Cell_soup<3>& soup, const Patch<3>::Simplex& x, bool is_solid) 
   soup.end_cell(is_solid);
 }
 
-/// A facet of a simplex with its sense.
-template <int D>
-struct Oriented_facet {
-  std::array<std::uint32_t, static_cast<std::size_t>(D)> points;  ///< ascending
-  bool is_odd = false;                                            ///< an odd permutation of them is the loop
+using Loop = std::span<const std::uint32_t>;
 
-  explicit Oriented_facet(std::span<const std::uint32_t> loop) {
-    std::copy_n(loop.begin(), points.size(), points.begin());
-    const auto order = [&](std::size_t i, std::size_t j) {
-      if (points[i] <= points[j]) return;
-      std::swap(points[i], points[j]);
-      is_odd = !is_odd;
-    };
-    order(0, 1);
-    if constexpr (D == 3) {
-      order(1, 2);
-      order(0, 1);
+/// True if two facets with the same points turn the same way.
+bool are_alike(Loop a, Loop b) {
+  if (a.size() == 2) return a[0] == b[0];
+  const auto at = static_cast<std::size_t>(std::ranges::find(b, a[0]) - b.begin());
+  return a[1] == b[at == 2 ? 0 : at + 1];
+}
+
+/// The facets between simplices and all others.
+template <int D>
+class Border {
+ public:
+  /// False if a wall lies between two of the cells.
+  bool add(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
+    for (const Cell c : cells)
+      for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
+        const Half_facet f = Snapshot<D>::half_facet(c, i);
+        if (std::ranges::find(cells, snapshot.neighbour(f)) == cells.end())
+          add(snapshot.view(c), i);
+        else if (snapshot.is_impassable(f))
+          return false;
+      }
+    return true;
+  }
+
+  /// True if other simplices have the same facets to all others, with the same sense, and each facet between
+  /// two of them turns one way in the one and the other way in the other.
+  bool is_that_of(const Cell_soup<D>& soup, const Gluing& gluing) const {
+    Facet_table table(count());
+    for (std::uint32_t n = 0; n < count(); ++n) table.enter(n, loops());
+    boost::container::small_vector<bool, 64> is_left(count(), true);
+    std::size_t left = count();
+    for (std::uint32_t f = 0; f < soup.facet_count(); ++f) {
+      const std::uint32_t g = gluing.opposite[f];
+      if (g != no_facet) {
+        // Of more than two facets with the same points, some is not that opposite to its opposite.
+        if (gluing.opposite[g] != f || are_alike(soup.facet(f), soup.facet(g))) return false;
+        continue;
+      }
+      const std::uint32_t n = table.find(soup.facet(f), loops());
+      if (n == no_facet || !is_left[n] || !are_alike(soup.facet(f), loops()(n))) return false;
+      is_left[n] = false;
+      --left;
     }
+    return left == 0;
   }
-  auto operator<=>(const Oriented_facet&) const = default;
+
+ private:
+  void add(const Cell_view<D>& cell, std::size_t facet) {
+    for (const std::uint16_t v : cell.loop(facet)) points_.push_back(cell.point_index(v));
+  }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(points_.size() / D); }
+  auto loops() const {
+    return [this](std::uint32_t n) { return Loop(points_.data() + D * n, D); };
+  }
+
+  boost::container::small_vector<std::uint32_t, 128> points_;
 };
-
-template <int D>
-Oriented_facet<D> facet_of(const Cell_view<D>& cell, std::size_t facet) {
-  std::array<std::uint32_t, static_cast<std::size_t>(D)> loop;
-  for (std::size_t k = 0; k < loop.size(); ++k) loop[k] = cell.point_index(cell.loop(facet)[k]);
-  return Oriented_facet<D>(loop);
-}
-
-/// Takes pairs of facets out that have the same points and run against each other.
-template <int D>
-void remove_pairs(std::vector<Oriented_facet<D>>& sorted) {
-  auto kept = sorted.begin();
-  for (auto f = sorted.begin(); f != sorted.end(); ++f) {
-    const auto next = f + 1;
-    if (next != sorted.end() && next->points == f->points && next->is_odd != f->is_odd)
-      f = next;
-    else
-      *kept++ = *f;
-  }
-  sorted.erase(kept, sorted.end());
-}
 
 }  // namespace
 
@@ -99,40 +118,30 @@ typename Patch<D>::Simplex corners_of(const Snapshot<D>& snapshot, Cell cell) {
 }
 
 template <int D>
-std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup) {
+std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup,
+                        Gluing& gluing) {
   const bool is_solid = snapshot.is_solid(patch.removed.front());
-  // Facets that only one cell has, or the other side of none.
-  std::vector<Oriented_facet<D>> old_open, new_open;
-  for (const Cell c : patch.removed)
-    for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (std::ranges::find(patch.removed, snapshot.neighbour(f)) == patch.removed.end())
-        old_open.push_back(facet_of(snapshot.view(c), i));
-      else if (snapshot.is_impassable(f))
-        return "a wall lies between the cells";
-    }
+  Border<D> border;
+  if (!patch.covers && !border.add(snapshot, patch.removed)) return "a wall lies between the cells";
   Predicate_counts counts;
   constexpr std::size_t facets = D + 1;
   soup.cell_begin.reserve(patch.cells.size() + 1);
   soup.facet_begin.reserve(facets * patch.cells.size() + 1);
   soup.vertices.reserve(facets * D * patch.cells.size());
   soup.impassable.reserve(facets * patch.cells.size());
+  soup.solid.reserve(patch.cells.size());
   for (const auto& cell : patch.cells) {
     if (volume_sign(counts, patch.corners(snapshot, cell)) <= 0) return "a cell would be flat or inverted";
     add_simplex(soup, cell, is_solid);
   }
-  new_open.reserve(soup.facet_count());
-  for (std::size_t f = 0; f < soup.facet_count(); ++f) new_open.emplace_back(soup.facet(f));
-  std::sort(new_open.begin(), new_open.end());
-  remove_pairs(new_open);
-  std::sort(old_open.begin(), old_open.end());
-  return old_open == new_open ? "" : "the cells would not cover the same region";
+  gluing = glue_patch(soup);
+  return patch.covers || border.is_that_of(soup, gluing) ? "" : "the cells would not cover the same region";
 }
 
 #define CELLWALK_INSTANTIATE(D)                                             \
   template struct Patch<D>;                                                 \
   template typename Patch<D>::Simplex corners_of(const Snapshot<D>&, Cell); \
-  template std::string check_patch(const Snapshot<D>&, const Patch<D>&, Cell_soup<D>&);
+  template std::string check_patch(const Snapshot<D>&, const Patch<D>&, Cell_soup<D>&, Gluing&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)
 #undef CELLWALK_INSTANTIATE

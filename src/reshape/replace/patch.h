@@ -3,6 +3,7 @@
 #ifndef CELLWALK_RESHAPE_REPLACE_PATCH_H
 #define CELLWALK_RESHAPE_REPLACE_PATCH_H
 
+#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
 
 #include <array>
@@ -22,6 +23,7 @@ struct Patch {
   std::vector<Cell> removed;
   std::vector<Simplex> cells;     ///< their points, in an order of positive orientation
   std::optional<Point<D>> added;  ///< a new point, which cells name by Snapshot::next_point()
+  bool covers = false;  ///< known: facets between the removed cells are passable, and all others stay
 
   Corners_of_simplex<D> corners(const Snapshot<D>& snapshot, const Simplex& cell) const;
 };
@@ -35,8 +37,10 @@ typename Patch<D>::Simplex corners_of(const Snapshot<D>& snapshot, Cell cell);
 /// are passable, and both have the same facets to all other cells, with the same sense. Then they cover the
 /// same region.
 /// \param soup receives the new cells
+/// \param gluing receives their gluing
 template <int D>
-std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup);
+std::string check_patch(const Snapshot<D>& snapshot, const Patch<D>& patch, Cell_soup<D>& soup,
+                        Gluing& gluing);
 
 extern template struct Patch<2>;
 extern template struct Patch<3>;

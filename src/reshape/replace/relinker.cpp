@@ -2,6 +2,7 @@
 #include "relinker.h"
 
 #include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
 
@@ -10,13 +11,12 @@
 namespace cellwalk::detail {
 
 template <int D>
-typename Relinker<D>::Key Relinker<D>::key_of(Half_facet f) const {
+typename Relinker<D>::Points Relinker<D>::points_of(Half_facet f) const {
   const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
   const auto loop = cell.loop(snapshot_.facet_of(f));
-  Key key;
-  for (std::size_t k = 0; k < key.size(); ++k) key[k] = cell.point_index(loop[k]);
-  std::sort(key.begin(), key.end());
-  return key;
+  Points points;
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = cell.point_index(loop[k]);
+  return points;
 }
 
 template <int D>
@@ -45,7 +45,9 @@ void Relinker<D>::note(std::span<const Cell> removed) {
     for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i);
       const bool is_inner = std::ranges::binary_search(removed_, snapshot_.neighbour(f));
-      sides_.push_back({f, is_inner, is_inner ? Key{} : key_of(f)});
+      const Half_facet outside = is_inner ? Half_facet::none : snapshot_.opposite(f);
+      const bool is_boundary = !is_inner && outside == Half_facet::none;
+      sides_.push_back({f, is_inner, outside, is_boundary ? points_of(f) : Points{}});
     }
   if (D == 2) return;
   for (std::uint32_t g = 0; g < groups_.all().size(); ++g) {
@@ -57,23 +59,39 @@ void Relinker<D>::note(std::span<const Cell> removed) {
   }
 }
 
-/// Facets to cells that stay have new names.
+/// Facets to cells that stay, and those of the boundary, have new names.
 template <int D>
 void Relinker<D>::name_sides(std::span<const Cell> added) {
-  for (const Cell c : added)
-    for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(c, i);
-      if (std::ranges::find(added, snapshot_.neighbour(f)) != added.end()) continue;
-      const Key key = key_of(f);
-      for (Side& side : sides_)
-        if (!side.is_inner && side.key == key) side.now = f;
+  for (Side& side : sides_) {
+    if (side.is_inner) continue;
+    if (side.outside != Half_facet::none) {
+      side.now = snapshot_.opposite(side.outside);
+      continue;
     }
+    std::sort(side.points.begin(), side.points.end());
+    for (const Cell c : added)
+      for (std::size_t i = 0; i < snapshot_.facet_count(c); ++i) {
+        const Half_facet f = Snapshot<D>::half_facet(c, i);
+        if (snapshot_.neighbour(f) != Cell::none) continue;
+        Points points = points_of(f);
+        std::sort(points.begin(), points.end());
+        if (points == side.points) side.now = f;
+      }
+  }
 }
 
 template <int D>
 Particle<D> Relinker<D>::placed(const Particle<D>& p, std::span<const Cell> added) const {
-  for (const Cell c : added)
+  Float_point<D> y{};
+  const bool is_framed = snapshot_.frame().map(p.position, y);
+  for (const Cell c : added) {
+    if (is_framed) {
+      const Block_sides sides = classify<D>(*snapshot_.blocks(c), y);
+      if (sides.outside != 0) continue;
+      if (sides.inside == 0xf) return {p.position, c, D, c == p.cell ? p.aimed : std::uint16_t{0}};
+    }
     if (in_closure(snapshot_, c, p.position)) return particle_in(snapshot_, c, p, counts_);
+  }
   throw Error(Error_code::other,
               "what stands in the environment lies in none of the cells that replaced its own: the "
               "environment is not certified, or it was not listed");

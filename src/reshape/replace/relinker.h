@@ -33,19 +33,20 @@ class Relinker {
   std::size_t relink(std::span<const Cell> added);
 
  private:
-  using Key = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
+  using Points = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
   /// A side of a facet of a removed cell.
   struct Side {
     Half_facet old;
-    bool is_inner;  ///< between two of them
-    Key key;        ///< its points, ascending
+    bool is_inner;       ///< between two of them
+    Half_facet outside;  ///< the other side, in a cell that stays; Half_facet::none on the boundary
+    Points points;       ///< on the boundary
     Half_facet now = Half_facet::none;
   };
   struct Moved {
     Member member;
     Particle<D> now;
   };
-  Key key_of(Half_facet f) const;
+  Points points_of(Half_facet f) const;
   const Side* find(Half_facet old) const;
   const Moved* find(Member vertex) const;
   void name_sides(std::span<const Cell> added);

@@ -202,11 +202,13 @@ bool Replacer<D>::is_off_walls(std::uint32_t point) const {
 
 template <int D>
 Replacement Replacer<D>::make(const Patch<D>& patch) {
+  patcher_.prefetch(patch.removed);
   Cell_soup<D> soup;
-  if (std::string reason = check_patch(snapshot(), patch, soup); !reason.empty())
+  Gluing gluing;
+  if (std::string reason = check_patch(snapshot(), patch, soup, gluing); !reason.empty())
     return refused(std::move(reason));
   prepare(patch);
-  return replace(patch, soup);
+  return replace(patch, soup, gluing);
 }
 
 /// Before cells are replaced.
@@ -218,11 +220,11 @@ void Replacer<D>::prepare(const Patch<D>& patch) {
 }
 
 template <int D>
-Replacement Replacer<D>::replace(const Patch<D>& patch, const Cell_soup<D>& soup) {
+Replacement Replacer<D>::replace(const Patch<D>& patch, const Cell_soup<D>& soup, const Gluing& gluing) {
   Replacement result;
   if (patch.added) result.point = snapshot().next_point();
   is_broken_ = true;
-  result.cells = patcher_.replace(patch.removed, soup, glue_patch(soup), patch.added);
+  result.cells = patcher_.replace(patch.removed, soup, gluing, patch.added);
   counts_.relinked += relinker_.relink(result.cells);
   is_broken_ = false;
   result.is_made = true;
@@ -253,11 +255,15 @@ Patch<D> Replacer<D>::split(std::uint32_t u, std::uint32_t v, const Point<D>& po
   Patch<D> patch{cells_at_edge(u, v), {}, position};
   check_is_finite<D>(position);
   if (has_wall_at_edge(patch.removed, u, v)) reason = "a wall or the boundary has the edge";
-  for (const Cell c : patch.removed)
-    for (const std::uint32_t end : {u, v}) {
-      patch.cells.push_back(corners_of(snapshot(), c));
-      std::ranges::replace(patch.cells.back(), end, snapshot().next_point());
-    }
+  // Each facet at the edge lies between two of the cells, and both get its halves; all others stay.
+  patch.covers = reason.empty();
+  const std::uint32_t point = snapshot().next_point();
+  patch.cells.reserve(2 * patch.removed.size());
+  for (const Cell c : patch.removed) {
+    const auto corners = corners_of(snapshot(), c);
+    for (const std::uint32_t end : {u, v})
+      std::ranges::replace(patch.cells.emplace_back(corners), end, point);
+  }
   return patch;
 }
 
@@ -332,7 +338,7 @@ Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Poin
   if (!reason.empty()) return refused(std::move(reason));
   prepare(patch);
   if (relinker_.has_any()) return refused("a wall has the edge, and something lies in the cells around it");
-  return replace(patch, soup);
+  return replace(patch, soup, glue_patch(soup));
 }
 
 template <int D>

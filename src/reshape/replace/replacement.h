@@ -49,7 +49,7 @@ class Replacer {
 
  private:
   void prepare(const Patch<D>& patch);
-  Replacement replace(const Patch<D>& patch, const Cell_soup<D>& soup);
+  Replacement replace(const Patch<D>& patch, const Cell_soup<D>& soup, const Gluing& gluing);
   void check_edit() const;
   void check_simplices(const std::vector<Cell>& cells) const;
   void check_point(std::uint32_t point) const;

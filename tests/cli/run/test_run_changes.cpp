@@ -66,6 +66,25 @@ TEST_F(RunChanges, AreTheSameForAnyNumberOfThreads) {
   EXPECT_GT(changes["excavated"].get<int>(), 0);
 }
 
+/// For a cut, cells of the file are split: the parts of one that has a name have it, too.
+TEST_F(RunChanges, NameTheGroupsOfAFileWhoseCellsAreSplit) {
+  succeed({"generate", "squares", "--cells", "6", "3", "-o", "room.ovm"});
+  std::string plug;
+  for (int i = 0; i < 18; ++i) plug += i == 5 ? " 1" : " 0";  // the last of the lowest row
+  write("room.ovm", text("room.ovm") + "FProp bool \"group plug\"\n" + plug + "\n");
+  write("room.json", R"({"dimension": 2, "environment": "room.ovm", "particles": [{"position": [0.5, 2.5]}],
+    "changes": [{"step": 1, "fill": "plug"}, {"step": 2, "cut": {"blade": [[3.1, 2.1], [3.2, 2.9]]}}],
+    "steps": 2})");
+  succeed({"run", "room.json", "-o", "out"});
+  EXPECT_EQ(report("out")["changes"]["filled"], 2);
+  const auto rows = read_table(path("out/changes.csv"));
+  ASSERT_GE(rows.size(), 3u);
+  for (std::size_t i = 1; i < 3; ++i) {
+    EXPECT_GT(std::stod(rows[i][6]), 5);
+    EXPECT_LT(std::stod(rows[i][7]), 1);
+  }
+}
+
 TEST_F(RunChanges, AreRefused) {
   write("room.json", room_with_door(R"(, "output": {"frame_every": 0})"));
   expect_failure(3, {"run", "room.json", "-o", "out", "--set", "changes[0].close={\"ball\": [[9, 9], 1]}"},

@@ -48,6 +48,7 @@ class Way_within {
   bool has(Cell cell) const;
   bool may_pass(Half_facet f) const;
   bool append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
+  Half_facet exit_by_signs(Cell from, const Point<D>& p, const Point<D>& q) const;
   bool append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const;
 
   const Snapshot<D>& snapshot_;

@@ -27,6 +27,9 @@ class Cell_patcher {
 
   const Snapshot<D>& snapshot() const { return environment_.snapshot_; }
 
+  /// Fetches into the cache what replace() reads of the map, while the caller does something else.
+  void prefetch(std::span<const Cell> cells) const;
+
   /// Replaces cells by those of a soup, see Snapshot::replace_cells(), which gives them indices and names.
   /// Points that no cell has any more are removed: later new points reuse their indices. The boundary keeps
   /// its marks. Returns the new cells in order. An error changes nothing.
