@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "any_body.h"
 
+#include <cellwalk/body/saved_body.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/records/make_body.h>
 
@@ -10,13 +11,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "body_rows.h"
 #include "motions.h"
 #include "options.h"
+#include "pickling.h"
 
 namespace cellwalk::python {
 namespace {
@@ -173,6 +177,27 @@ void Any_body::validate() {
 
 void Any_body::register_again() {
   reading([](auto& body, const auto& world) { body.register_again(world.locator()); });
+}
+
+py::tuple Any_body::state() {
+  std::vector<std::byte> bytes;
+  reading([&](const auto& body, const auto&) { bytes = save(body); });
+  return py::make_tuple(std::const_pointer_cast<Shared_world>(environment_),
+                        py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+Any_body Any_body::of_state(const py::tuple& state) {
+  need_parts(state, 2);
+  const Held_world environment = state[0].cast<std::shared_ptr<Shared_world>>();
+  const auto held = state[1].cast<py::bytes>();
+  const std::string_view bytes = held;
+  return std::visit(
+      [&]<int D>(const World<D>& world) {
+        const typename World<D>::Looking looking(world);
+        return Any_body(environment,
+                        Bodies(restore_body<D>(looking.snapshot(), std::as_bytes(std::span(bytes)))));
+      },
+      *environment->world);
 }
 
 py::dict Any_body::counts() const {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "arrays.h"
@@ -34,6 +35,11 @@ class Any_body {
   py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options);
   void validate();
   void register_again();
+  /// For pickles: the environment, and the body as bytes.
+  /// \throw Error(usage) if it must be registered again
+  py::tuple state();
+  /// \throw py::value_error if it is none, Error(input) for bytes that are damaged or do not fit
+  static Any_body of_state(const py::tuple& state);
   py::dict counts() const;
 
   std::shared_ptr<const Any_world> world() const { return environment_->world; }
@@ -45,6 +51,9 @@ class Any_body {
 
  private:
   using Bodies = std::variant<Body<2>, Body<3>>;
+
+  Any_body(Held_world environment, Bodies body)
+      : environment_(std::move(environment)), body_(std::move(body)) {}
 
   template <class Make_soup>
   static Bodies place(const Any_world& any, const Make_soup& make);

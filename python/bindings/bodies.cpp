@@ -118,6 +118,7 @@ void bind_bodies(py::module_& module) {
            "listed: until then it raises UsageError. OutsideError where a wall came to lie in its way: then "
            "it "
            "is as it was.")
+      .def(py::pickle([](Any_body& self) { return self.state(); }, &Any_body::of_state))
       .def("validate", &Any_body::validate,
            "Checks by exact predicates that every vertex is in its cell and no wall crosses the body; raises "
            "Error if so.")

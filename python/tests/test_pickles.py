@@ -150,5 +150,56 @@ class Particles(unittest.TestCase):
                 cellwalk.Particles.__new__(cellwalk.Particles).__setstate__(state)
 
 
+class Bodies(unittest.TestCase):
+    def setUp(self):
+        self.environment = world(seed=5)
+        rng = numpy.random.default_rng(3)
+        points = numpy.array([[2.5, 2.5, 2.5]]) + 0.4 * rng.uniform(-1, 1, (4, 3))
+        self.body = cellwalk.Body(self.environment, points, faces=numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+        self.step(self.body, 1)
+
+    def step(self, body, seed):
+        """A throw far enough to meet walls; what came of it, as bytes."""
+        targets = body.positions + numpy.random.default_rng(seed).normal(0, 1.5, (4, 3))
+        contacts = body.step(targets, sweep="faces")
+        body.validate()
+        return [contacts.tobytes(), body.positions.tobytes()]
+
+    def test_they_go_on_as_they_would(self):
+        other = pickle.loads(pickle.dumps(self.body))
+        numpy.testing.assert_array_equal(other.positions, self.body.positions)
+        numpy.testing.assert_array_equal(other.edges, self.body.edges)
+        numpy.testing.assert_array_equal(other.faces, self.body.faces)
+        met = 0
+        for seed in range(2, 12):
+            expected = self.step(self.body, seed)
+            self.assertEqual(self.step(other, seed), expected)
+            met += len(expected[0]) > 0
+        self.assertGreater(met, 3, "walls are met")
+
+    def test_they_share_their_environment(self):
+        environment, body, more = pickle.loads(pickle.dumps((self.environment, self.body, self.body)))
+        self.assertIs(body, more)
+        self.assertIs(body.__getstate__()[0], environment)
+
+    def test_those_that_must_be_registered_again_are_not_pickled(self):
+        with self.environment.editing() as edits:
+            self.assertTrue(edits.excavate(self.environment.select(box=((0, 0, 0), (3, 3, 3))).cells).made.any())
+        with self.assertRaisesRegex(cellwalk.UsageError, "register_again"):
+            pickle.dumps(self.body)
+        self.body.register_again()
+        self.assertEqual(self.step(pickle.loads(pickle.dumps(self.body)), 4), self.step(self.body, 4))
+
+    def test_damage_is_refused(self):
+        environment, bytes_of = self.body.__getstate__()
+        broken = bytearray(bytes_of)
+        broken[len(broken) // 2] ^= 1
+        for damaged in (bytes(broken), bytes_of[:-1], b"nothing"):
+            with self.assertRaises(cellwalk.InputError):
+                cellwalk.Body.__new__(cellwalk.Body).__setstate__((environment, damaged))
+        with self.assertRaises(cellwalk.InputError):
+            cellwalk.Body.__new__(cellwalk.Body).__setstate__((cellwalk.Environment.generate("tets", cells=[6, 6, 6]), bytes_of))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   std::optional<Work_log> work_log;
   const auto logged = [&](Ranks& all) {
     // What all do is said by the first.
-    if (!log.file.empty() && !is_later_rank())
+    if (!log.file.empty() && !cellwalk::is_later_rank())
       work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
     action(all);
   };
