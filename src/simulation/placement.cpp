@@ -112,6 +112,8 @@ template World<2>::World(const Snapshot<2>&, const Scene<2>&, const Body_options
 template World<3>::World(const Snapshot<3>&, const Scene<3>&, const Body_options&, Empty);
 template World<2>::World(const Snapshot<2>&, const Scene<2>&, std::vector<Body_soup<2>>, const Body_options&);
 template World<3>::World(const Snapshot<3>&, const Scene<3>&, std::vector<Body_soup<3>>, const Body_options&);
+template void World<2>::own_all();
+template void World<3>::own_all();
 template void World<2>::place_cloud(const Particle_cloud&, const std::string&);
 template void World<3>::place_cloud(const Particle_cloud&, const std::string&);
 template void World<2>::place_catheter(const Catheter<2>&, const Locator<2>&);

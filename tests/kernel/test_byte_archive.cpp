@@ -20,12 +20,12 @@ namespace {
 
 enum class Colour : std::uint16_t { red, green };
 
-/// Outer parts by a function, inner ones by a member that is private.
-class Inner {
+/// Whole parts by a function, inner ones by a member that is private.
+class Inside {
  public:
-  Inner() = default;
-  explicit Inner(int value) : value_(value) {}
-  bool operator==(const Inner&) const = default;
+  Inside() = default;
+  explicit Inside(int value) : value_(value) {}
+  bool operator==(const Inside&) const = default;
 
  private:
   template <class Archive>
@@ -37,50 +37,50 @@ class Inner {
   int value_ = 0;
 };
 
-struct Outer {
+struct Whole {
   bool is_there = false;
   Colour colour = Colour::red;
   double number = 0;
   std::string text;
-  std::vector<Inner> list;
+  std::vector<Inside> list;
   std::array<std::vector<int>, 2> lists;
   std::map<std::vector<std::uint32_t>, std::string> names;
   std::set<std::array<int, 2>> pairs;
-  std::optional<Inner> some, none;
+  std::optional<Inside> some, none;
   std::variant<int, std::string> either;
   boost::container::small_vector<std::uint16_t, 2> small;
-  bool operator==(const Outer&) const = default;
+  bool operator==(const Whole&) const = default;
 };
 
 template <class Archive>
-void visit_parts(Archive& a, Outer& outer) {
+void visit_parts(Archive& a, Whole& outer) {
   a(outer.is_there, outer.colour, outer.number, outer.text, outer.list, outer.lists, outer.names, outer.pairs,
     outer.some, outer.none, outer.either, outer.small);
 }
 
-Outer full() {
-  Outer outer;
+Whole full() {
+  Whole outer;
   outer.is_there = true;
   outer.colour = Colour::green;
   outer.number = -0.1;
   outer.text = "text";
-  outer.list = {Inner(1), Inner(-2)};
+  outer.list = {Inside(1), Inside(-2)};
   outer.lists[1] = {3, 4, 5};
   outer.names = {{{1, 2}, "a"}, {{}, "b"}};
   outer.pairs = {{1, 2}, {0, 7}};
-  outer.some = Inner(9);
+  outer.some = Inside(9);
   outer.either = std::string("either");
   outer.small = {1, 2, 3};
   return outer;
 }
 
 TEST(ByteArchive, GivesBackWhatWasWritten) {
-  for (const Outer& outer : {full(), Outer()}) {
+  for (const Whole& outer : {full(), Whole()}) {
     detail::Byte_writer out;
     out(outer, std::uint8_t{7});
     detail::Byte_reader in(out.bytes());
-    Outer read = full();
-    read.none = Inner(3);
+    Whole read = full();
+    read.none = Inside(3);
     in(read);
     EXPECT_TRUE(read == outer);
     EXPECT_FALSE(in.is_at_end());
@@ -96,7 +96,7 @@ TEST(ByteArchive, BytesThatEndBeforeAreRefused) {
   out(full());
   for (std::size_t size = 0; size < out.bytes().size(); ++size) {
     detail::Byte_reader in(std::span(out.bytes()).first(size));
-    EXPECT_THROW(in.next<Outer>(), Error) << size;
+    EXPECT_THROW(in.next<Whole>(), Error) << size;
   }
 }
 

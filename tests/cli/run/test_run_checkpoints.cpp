@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Bodies and particles among walls that beat.
-constexpr const char* scene = R"({
+constexpr const char* kept_scene = R"({
   "environment": {"generate": "tets", "cells": [3, 3, 3]},
   "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 6, "seed": 3, "speed": 4}],
   "particles": [{"count": 20, "seed": 4, "speed": 3}],
@@ -30,7 +30,7 @@ class Checkpoints : public Stopped_run {
   void SetUp() override {
     fs::create_directory(path("whole"));
     fs::create_directory(path("parts"));
-    write("scene.json", scene);
+    write("scene.json", kept_scene);
     run_whole({"../scene.json"});
   }
   /// Begins the run and stops it once it has come to a step.
@@ -151,7 +151,7 @@ TEST_F(Checkpoints, AnotherRunDoesNotGoOn) {
   expect_refusal(2, {"-o", "out"}, "--output excludes --resume; see cellwalk --help");
   expect_refusal(2, {"--force"}, "--force excludes --resume; see cellwalk --help");
   // The scene may be gone, or another one now: the run goes on with that with which it began.
-  write("same.json", scene);
+  write("same.json", kept_scene);
   write("scene.json", "{}");
   expect_same(go_on({"../same.json", "--steps", "160", "--sweep", "triangle", "--threads", "1"}));
 }
@@ -181,9 +181,9 @@ TEST_F(Checkpoints, OneProcessUsesThem) {
 TEST_F(Checkpoints, AFullDeviceLeavesTheLastOne) {
   stop_at(40);
   // The recording of the motion, which grows, does not fit any more.
-  const std::size_t room = fs::file_size(part() / "checkpoints" / "motion.gz.content") + 20000;
+  const std::size_t most = fs::file_size(part() / "checkpoints" / "motion.gz.content") + 20000;
   const Outcome full = stop_program(
-      resume(), parts(), SIGKILL, [] { return false; }, room);
+      resume(), parts(), SIGKILL, [] { return false; }, most);
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_EQ(full.out, "");
   EXPECT_TRUE(full.err.ends_with(": writing failed (File too large)\n")) << full.err;
