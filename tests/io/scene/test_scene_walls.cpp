@@ -88,10 +88,10 @@ TEST(SceneWalls, AreRelaxed) {
 }
 
 TEST(SceneWalls, AreRefusedWithTheKeyThatIsWrong) {
-  struct Refusal {
+  struct Refused_walls {
     const char *walls, *message;
   };
-  for (const Refusal& r : std::initializer_list<Refusal>{
+  for (const Refused_walls& r : std::initializer_list<Refused_walls>{
            {"3", "s.json: walls: expected an object {...}"},
            {"{}",
             "s.json: walls: nothing moves the walls: give \"pulsation\", \"soft\", "
