@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Every public member of the classes and every function that headers declare `extern template`, so that a
 // program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
+#include <cellwalk/body/saved_body.h>
 #include <cellwalk/cellwalk.h>
+#include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/groups.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/changes_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/vtu.h>
+#include <cellwalk/loading/environment_file.h>
 #include <cellwalk/records/make_body.h>
 #include <cellwalk/simulation/change_schedule.h>
 #include <cellwalk/simulation/elastic_foundation.h>
@@ -61,6 +64,7 @@ void keep_environments() {
       &Group_places<D>::find,
       +[](const Snapshot<D>& s, const Groups<D>& g) { return Lasting_groups<D>(s, g); },
       &Lasting_groups<D>::names, &Lasting_groups<D>::now, &soup_groups<D>);
+  keep(&write_compiled<D>, &compile_to_bytes<D>, &check_compiled<D>, &write_environment<D>);
 
   keep(
       +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
@@ -89,7 +93,7 @@ void keep_bodies() {
       &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::refresh,
       &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of, &Body<D>::validate);
 
-  keep(&transformed<D>, &make_body<D>,
+  keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
        static_cast<Body_soup<D> (*)(const Polyline_shape<D>&)>(&generate_body));
 }
@@ -141,7 +145,8 @@ void keep_simulation() {
       &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
       static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
       static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate,
-      &World<D>::move_walls, &World<D>::relax, &World<D>::change);
+      &World<D>::move_walls, &World<D>::relax, &World<D>::change, &World<D>::positions, &World<D>::cell_of,
+      &World<D>::has_arrived);
   keep(
       +[](const Snapshot<D>& s, const Pulsation<D>& p) { return Wall_pulsation<D>(s, p, {}); },
       &Wall_pulsation<D>::targets,
