@@ -34,7 +34,8 @@ void need_log(const std::string& path) {
 Stage_state state_of(const Stage& stage) {
   Stage_state state;
   state.seconds = std::chrono::duration<double>(Stage::Clock::now() - stage.start).count();
-  const auto done = static_cast<double>(stage.done), total = static_cast<double>(stage.total);
+  state.done = stage.done;
+  const auto done = static_cast<double>(state.done), total = static_cast<double>(stage.total);
   if (done > 0 && state.seconds > 0) {
     state.per_second = done / state.seconds;
     state.seconds_left = std::max(0.0, total - done) / state.per_second;
@@ -88,7 +89,7 @@ void Work_log::write(const Stage& stage, bool is_end) {
   nlohmann::ordered_json line{{"at", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
                               {"stage", stage.label}};
   if (stage.total > 0) {
-    line["done"] = stage.done.load();
+    line["done"] = state.done;
     line["total"] = stage.total;
     line["per_second"] = state.per_second;
     if (!is_end && state.per_second > 0) line["seconds_left"] = state.seconds_left;

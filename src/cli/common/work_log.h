@@ -28,6 +28,7 @@ struct Stage {
 /// What a stage says of itself.
 struct Stage_state {
   double seconds = 0;       ///< since it began
+  std::uint64_t done = 0;   ///< at that time
   double per_second = 0;    ///< units done
   double seconds_left = 0;  ///< if it goes on like that; 0 as long as nothing is done
 };
