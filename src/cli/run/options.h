@@ -43,8 +43,8 @@ struct Run_outputs {
       : all({options.scene}),
         folder(options.checkpoint_every == 0 ? &all.folder(options.folder, options.force) : nullptr),
         working(folder == nullptr ? &all.working_folder(options.folder, options.force, false) : nullptr),
-        record(all.file(options.record)),
-        json(all.file(options.json)) {
+        record(all.file(cleared(options, options.record))),
+        json(all.file(cleared(options, options.json))) {
     make_durable();
   }
   /// Of a run to go on with; its files are opened later.
@@ -65,6 +65,11 @@ struct Run_outputs {
   io::Atomic_file *record = nullptr, *json = nullptr;
 
  private:
+  /// Without what is left of a run with checkpoints that was killed before the first of them.
+  static const std::string& cleared(const Run_options& options, const std::string& name) {
+    if (options.checkpoint_every > 0 && !name.empty()) io::remove_abandoned(name);
+    return name;
+  }
   /// Checkpoints are not to be gone before all that came of them is there.
   void make_durable() {
     if (working == nullptr) return;
