@@ -9,7 +9,7 @@ from ranks_case import RanksCase, main
 
 
 class Experiments(RanksCase):
-    def expect_same_tables(self, program, *options, ranks=(2, 3)):
+    def expect_same_tables(self, program, *options, ranks=(2, 3), says_same=True):
         words = [self.build / "experiments" / program, *options]
         alone = self.run_ranks(1, [*words, "--out", "alone"])
         self.assertEqual(alone.returncode, 0, alone.stderr)
@@ -18,7 +18,8 @@ class Experiments(RanksCase):
             with self.subTest(ranks=number):
                 shared = self.run_ranks(number, [*words, "--out", str(number)])
                 self.assertEqual(shared.returncode, 0, shared.stderr)
-                self.assertEqual(shared.stdout, alone.stdout)
+                if says_same:
+                    self.assertEqual(shared.stdout, alone.stdout)
                 self.assertEqual(self.files(self.folder / str(number)), expected)
         return expected
 
@@ -38,7 +39,8 @@ class Experiments(RanksCase):
         self.expect_same_tables("04_contact_search/contact_search", "--quick", ranks=[2])
 
     def test_moving_walls(self):
-        self.expect_same_tables("07_moving_walls/moving_walls", "--quick", "--counts", "--scenes", "coarse", ranks=[2])
+        self.expect_same_tables("07_moving_walls/moving_walls", "--quick", "--counts", "--scenes", "coarse", ranks=[2],
+                                says_same=False)  # it says times
 
     def test_a_failure_is_printed_once(self):
         (self.folder / "file").write_text("")
