@@ -3,7 +3,7 @@
 
 usage: dask_moves.py [--moves N] [--chunk N] [--workers N] [--scheduler ADDRESS]
 
-A million motions and two workers on this machine, unless told otherwise: --moves 100000000 takes minutes, not memory. The answers
+A million motions and two workers on this machine, unless told otherwise: --moves 100000000 takes longer, but no more memory. The answers
 depend neither on the workers nor on their number.
 """
 
