@@ -83,17 +83,119 @@ def sweep_plot(folder, rows, dimension):
     return plots.draw(folder, f"sweeps_{dimension}d", script)
 
 
-def distance(point, walls):
-    """From a point to the nearest wall: exact but for the last step, as it may be less than an ulp."""
-    best = math.inf
+def nearest_wall(point, walls):
+    """The distance from a point to the nearest wall, and the wall: exact but for the last step, as it may be less than an ulp."""
+    best, nearest = math.inf, None
     for wall in walls:
         a, b = ((Fraction(wall[f"{end}x"]), Fraction(wall[f"{end}y"])) for end in "ab")
         p = Fraction(point[0]), Fraction(point[1])
         along = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
         t = min(1, max(0, ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / along))
         off = (p[0] - a[0] - t * (b[0] - a[0])) ** 2 + (p[1] - a[1] - t * (b[1] - a[1])) ** 2
-        best = min(best, math.sqrt(off))
-    return best
+        if math.sqrt(off) < best:
+            best, nearest = math.sqrt(off), (a, b)
+    return best, nearest
+
+
+def half_plane(half, foot, normal):
+    """The part of the square of corners (+-half, +-half) to which the normal points from the line through the foot."""
+    square = [(-half, -half), (half, -half), (half, half), (-half, half)]
+    height = [sum((x - f) * n for x, f, n in zip(p, foot, normal)) for p in square]
+    part = []
+    for i in range(4):
+        p, q, h, k = square[i - 1], square[i], height[i - 1], height[i]
+        if h * k < 0:
+            part.append([x + (y - x) * h / (h - k) for x, y in zip(p, q)])
+        if k >= 0:
+            part.append(q)
+    return part
+
+
+def zoom(way, wall):
+    """Blocks of gnuplot about the end of the last move: exact differences over a power of ten. The wall's line, what is behind it, the
+    points with double coordinates, the way of the move. Then the exponent of the unit, half the window's width in units, and
+    whether the end is behind.
+    """
+    start, end = ([Fraction(x) for x in p] for p in way[-2:])
+    corners = [[x - e for x, e in zip(corner, end)] for corner in wall]
+    along = [b - a for a, b in zip(*corners)]
+    share = sum(a * d for a, d in zip(corners[0], along)) / sum(d * d for d in along)
+    foot = [a - d * share for a, d in zip(corners[0], along)]  # of the perpendicular from the end
+    off = math.hypot(*map(float, foot))
+    spacing = [math.ulp(x) for x in way[-1]]
+    reach = max(6 * off, 6.5 * min(spacing))
+    exponent = math.floor(math.log10(reach))
+    unit = Fraction(10) ** exponent
+    half = float(reach / unit)
+    came = [(s - e) / unit for s, e in zip(start, end)]
+    foot = [float(f / unit) for f in foot]
+    normal = [-float(along[1]), float(along[0])]
+    if sum(n * (float(c) - f) for n, c, f in zip(normal, came, foot)) > 0:
+        normal = [-n for n in normal]  # away from the start
+    is_behind = sum(n * f for n, f in zip(normal, foot)) < 0
+    far = 2 * half / math.hypot(*normal)
+    shrink = 3 * half / max(math.hypot(*map(float, came)), 3 * half)
+    counts = [int(reach / s) for s in spacing]
+    blocks = {
+        "near_wall": [[foot[0] + t * normal[1], foot[1] - t * normal[0]] for t in (-far, far)],
+        "behind": half_plane(half, foot, normal),
+        "grid": [[float(i * Fraction(spacing[0]) / unit), float(j * Fraction(spacing[1]) / unit)]
+                 for i in range(-counts[0], counts[0] + 1) for j in range(-counts[1], counts[1] + 1)] if max(counts) < 100 else [],
+        "arrival": [[shrink * float(c) for c in came], [0, 0]],
+        "end": [[0, 0]],
+    }
+    text = "".join(f"${name} << END\n" + "".join(f"{x!r} {y!r}\n" for x, y in points) + "END\n" for name, points in blocks.items())
+    return text, exponent, half, is_behind
+
+
+WALL, WAY, LAST, BEHIND = "#1e293b", "#7a8699", "#d02746", "#f3dcd6"
+
+
+def escape_script(kernel, wall_rows, way):
+    """The world on the left; on the right, enlarged, where the last move ends."""
+    off, wall = nearest_wall(way[-1], wall_rows)
+    near, exponent, half, is_behind = zoom(way, wall)
+    walls = "".join(f"{r['ax']!r} {r['ay']!r}\n{r['bx']!r} {r['by']!r}\n\n" for r in wall_rows)
+    block = "".join(f"{x!r} {y!r}\n" for x, y in way)
+    last = "".join(f"{x!r} {y!r}\n" for x, y in way[-2:])
+    title = f"the first escape under {kernel}: the move ends {off:.2g} cells {'behind' if is_behind else 'before'} the wall"
+    return f"""$walls << END
+{walls}END
+$path << END
+{block}END
+$last << END
+{last}END
+{near}set multiplot title {plots.quoted(title)} font ",13"
+set size ratio -1
+set lmargin at screen 0.05
+set rmargin at screen 0.48
+set tmargin at screen 0.93
+set bmargin at screen 0.24
+set xlabel "x (cells)"
+set ylabel "y (cells)"
+set key at screen 0.05, screen 0.13 left top Left reverse samplen 3 font ",12"
+set label 1 "enlarged" at {way[-1][0]!r}, {way[-1][1]!r} offset 2,-1.2 textcolor rgb "{LAST}"
+set object 1 circle at {way[-1][0]!r}, {way[-1][1]!r} size 0.16 fs empty border lc rgb "{LAST}" lw 1.5 front
+plot $walls with lines lw 3 dt 1 lc rgb "{WALL}" title "walls", \
+  $path with linespoints dt 2 pt 6 lw 1.5 lc rgb "{WAY}" title "way of the particle", \
+  $last with linespoints dt 1 pt 7 ps 0.8 lw 2 lc rgb "{LAST}" title "the move that escapes"
+unset label 1
+unset object 1
+set clip two
+set key at screen 0.56, screen 0.13 left top
+set lmargin at screen 0.56
+set rmargin at screen 0.99
+set xrange [{-half!r}:{half!r}]
+set yrange [{-half!r}:{half!r}]
+set xlabel "x, from the end of the move (10^{{{exponent}}} cells)"
+set ylabel "y, from the end of the move (10^{{{exponent}}} cells)"
+plot $behind with filledcurves closed fc rgb "{BEHIND}" title "behind the wall", \
+  $near_wall with lines lw 3 lc rgb "{WALL}" title "the wall, exactly", \
+  $grid with points pt 7 ps 0.8 lc rgb "{WAY}" title "points that doubles can name", \
+  $arrival with lines lw 2 lc rgb "{LAST}" notitle, \
+  $end with points pt 7 ps 1.8 lc rgb "{LAST}" title "where the move ends"
+unset multiplot
+"""
 
 
 def escape_plots(folder):
@@ -102,19 +204,8 @@ def escape_plots(folder):
     for path in sorted(folder.glob("escape_2d_*_path.csv")):
         name = path.stem.removesuffix("_path")
         wall_rows = [{k: float(v) for k, v in r.items()} for r in read_rows(folder / f"{name}_walls.csv")]
-        walls = "".join(f"{r['ax']!r} {r['ay']!r}\n{r['bx']!r} {r['by']!r}\n\n" for r in wall_rows)
         way = [(float(r["x"]), float(r["y"])) for r in read_rows(path)]
-        block = "".join(f"{x!r} {y!r}\n" for x, y in way)
-        kernel = name.removeprefix("escape_2d_")
-        title = f"the first escape under {kernel}: ends {distance(way[-1], wall_rows):.2g} cells from the nearest wall"
-        script = (f"$walls << END\n{walls}END\n$path << END\n{block}END\n"
-                  f"$last << END\n{way[-2][0]!r} {way[-2][1]!r}\n{way[-1][0]!r} {way[-1][1]!r}\nEND\n"
-                  f"set title {plots.quoted(title)}\n"
-                  'set xlabel "x (cells)"\nset ylabel "y (cells)"\nset size ratio -1\nset key outside right top Left reverse\n'
-                  'plot $walls with lines lw 3 dt 1 lc rgb "#000000" title "walls", '
-                  '$path with linespoints dt 2 pt 6 lw 1.5 lc rgb "#777777" title "way of the particle", '
-                  '$last with linespoints dt 1 pt 7 lw 2 lc rgb "#555555" title "the move that escapes"\n')
-        drawn = plots.draw(folder, name, script) and drawn
+        drawn = plots.draw(folder, name, escape_script(name.removeprefix("escape_2d_"), wall_rows, way)) and drawn
     return drawn
 
 
