@@ -15,25 +15,21 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
 from tables import read_rows, table, unique  # noqa: E402
 
-# Method: label in the plot, and style: dash type, point type, line width. None: in the tables only, as it lies beside another
-# line. The styles differ without colours.
+# Method: label in the plot, colour of its library, dash type, point type, line width. The others are in the tables only. Lines of one
+# library differ by dashes and marks, so that the plot can be read without colours as well.
+CELLWALK, BULLET, CGAL, EMBREE, GIMPACT, DOUBLE = "#0060a8", "#c8501e", "#8a3fa0", "#00805c", "#a87800", "#59636f"
 PLOTTED = {
-    "cellwalk_triangle": ("cellwalk, complete sweep", 1, 7, 4),
-    "cellwalk_three_segments": ("cellwalk, three segments", 1, 6, 2),
-    "bullet_swept_box": ("Bullet, a box an edge (paper)", 2, 5, 1.5),
-    "bullet_ray": ("Bullet, rays", 3, 4, 1.5),
-    "bullet_body_box": ("Bullet, a box a body", 2, 9, 1.5),
-    "bullet_kept_box": ("Bullet, box kept", 2, 11, 1.5),
-    "gimpact_tau": ("GIMPACT, triangles (paper)", 4, 13, 1.5),
-    "embree_ray_robust": ("Embree robust, rays", 5, 8, 1.5),
-    "embree_packet_robust": ("Embree robust, packets", 5, 10, 1.5),
-    "cgal_segment": ("CGAL, segments", 4, 1, 1.5),
-    "cgal_kept_box": ("CGAL, box kept", 4, 2, 1.5),
-    "fcl_boxes": ("FCL, segments", 3, 12, 1.5),
-    "double_walk": ("walk in doubles", 6, 3, 1.5),
-    "unit_cubes": ("bound: unit cubes", 6, 14, 1.5),
-    "read_and_write": ("bound: read and write", 6, 15, 1.5),
+    "cellwalk_triangle": ("Cellwalk, complete sweep*", CELLWALK, 1, 7, 4),
+    "cellwalk_three_segments": ("Cellwalk, three segments*", CELLWALK, 3, 6, 2.5),
+    "bullet_kept_box": ("Bullet, a box kept", BULLET, 2, 10, 2),
+    "cgal_kept_box": ("CGAL, a box kept*", CGAL, 2, 8, 2),
+    "double_walk": ("plain walk in doubles", DOUBLE, 4, 3, 2),
+    "embree_packet_robust": ("Embree, robust packets", EMBREE, 1, 9, 2),
+    "gimpact_tau": ("GIMPACT (paper)", GIMPACT, 1, 13, 2),
+    "bullet_swept_box": ("Bullet (paper)", BULLET, 1, 5, 2),
+    "cgal_segment": ("CGAL, segments*", CGAL, 1, 11, 2),
 }
+LOWEST = ["cellwalk_triangle", "cellwalk_three_segments", "bullet_kept_box", "cgal_kept_box", "double_walk"]  # enlarged, on a linear scale
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "fallbacks", "certified_edges", "clear_moves"]
 
 
@@ -94,6 +90,35 @@ def apart(heights, distance):
     return result
 
 
+def panel(lines, names, title, place, label_room, low, high, is_log):
+    """One plot of lines, with labels to the right of their last points, between the shares `place` of the picture's width."""
+    sizes = [n for n, _ in lines[names[0]]]
+    scale, value = (math.log10, lambda h: 10 ** h) if is_log else (float, float)
+    labels = apart([scale(lines[m][-1][1]) for m in names], (scale(high) - scale(low)) / 27)
+    room = (sizes[-1] / sizes[0]) ** label_room
+    tics = ", ".join(f'"10^{{{round(math.log10(n))}}}" {n}' for n in sizes)
+    script = f"""set lmargin at screen {place[0]}
+set rmargin at screen {place[1]}
+set title {plots.quoted(title)}
+set xrange [{sizes[0] / 1.3}:{sizes[-1] * room}]
+set yrange [{low}:{high}]
+set xtics ({tics})
+unset label
+unset arrow
+"""
+    for name, height in zip(names, labels):
+        label, colour = PLOTTED[name][:2]
+        at = f"first {sizes[-1] * room ** 0.14:.6g}, first {value(height):.6g}"
+        label = f"{{/:Bold {label}}}" if name.startswith("cellwalk") else label
+        script += f'set label "{label}" at {at} offset 0.3,0 font ",10.5" textcolor rgb "{colour}" front\n'
+        script += (f"set arrow from first {sizes[-1] * room ** 0.03:.6g}, first {lines[name][-1][1]} to {at} "
+                   f'nohead lw 0.7 lc rgb "{colour}"\n')
+    styles = {m: PLOTTED[m][1:] for m in names}
+    return script + "plot " + ", ".join(
+        f'${m} with linespoints dt {dash} pt {mark} lw {width} ps 1.1 lc rgb "{colour}"'
+        for m, (colour, dash, mark, width) in styles.items()) + "\n"
+
+
 def plot_script(rows):
     """The script of gnuplot for the traces named n_*, or None where there are not two of them with times."""
     rows = [r for r in rows if r["trace"].startswith("n_") and r["ns_per_vertex_move"] and r["method"] in PLOTTED]
@@ -105,40 +130,27 @@ def plot_script(rows):
     values = [ns for line in lines.values() for _, ns in line]
     low, high = min(values) / 1.5, max(values) * 1.5
     moves_a_step = int(rows[0]["moves"]) // int(rows[0]["steps"])
-    labels = apart([math.log10(line[-1][1]) for line in lines.values()], math.log10(high / low) / 27)
-    # The labels stand in the plot, to the right of the last points.
-    room = (sizes[-1] / sizes[0]) ** 0.55
-    tics = ", ".join(f'"10^{{{round(math.log10(n))}}}" {n}' for n in sizes)
-    script = ""
-    for name, line in lines.items():
-        script += f"${name} << END\n" + "".join(f"{n} {ns}\n" for n, ns in line) + "END\n"
-    script += f"""set logscale xyy2
-set xrange [{sizes[0] / 1.3}:{sizes[-1] * room}]
-set yrange [{low}:{high}]
-set y2range [{low * moves_a_step / 1e3}:{high * moves_a_step / 1e3}]
-set xtics ({tics})
+    lowest = [m for m in LOWEST if m in lines]
+    script = "".join(f"${name} << END\n" + "".join(f"{n} {ns}\n" for n, ns in line) + "END\n" for name, line in lines.items())
+    script += f"""set multiplot
+unset key
+set tmargin at screen 0.94
+set bmargin at screen 0.1
+set grid ytics lc rgb "#dddddd" lt 1
 set xlabel "cells of the environment, n"
 set ylabel "time of a vertex move with its three edges (ns)"
-set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)"
+set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)" offset -0.5
+set y2range [{low * moves_a_step / 1e3}:{high * moves_a_step / 1e3}]
+set logscale xyy2
 set ytics nomirror
 set y2tics
-set grid ytics lc rgb "#dddddd" lt 1
-unset key
 """
-    for (name, line), height in zip(lines.items(), labels):
-        label = PLOTTED[name][0]
-        at = f"first {sizes[-1] * room ** 0.2:.6g}, first {10 ** height:.6g}"
-        script += f'set label "{label}" at {at} offset 0.3,0 font ",10" textcolor rgb "{shade(name)}" front\n'
-        script += (f"set arrow from first {sizes[-1] * room ** 0.03:.6g}, first {line[-1][1]} to {at} "
-                   'nohead lw 0.4 lc rgb "#999999"\n')
-    script += "plot " + ", ".join(
-        f'${name} with linespoints dt {PLOTTED[name][1]} pt {PLOTTED[name][2]} lw {PLOTTED[name][3]} ps 0.9 '
-        f'lc rgb "{shade(name)}"' for name in lines) + "\n"
-    return script
-
-
-def shade(name):
-    return "#000000" if name.startswith("cellwalk") else "#555555"
+    script += panel(lines, list(lines), "all, on a logarithmic scale (*: exact)", (0.07, 0.55), 0.85, low, high, True)
+    if lowest:
+        script += "unset y2tics\nunset y2label\nunset ylabel\nset ytics mirror\nunset logscale y\nunset logscale y2\n"
+        top = 1.2 * max(ns for m in lowest for _, ns in lines[m])
+        script += panel(lines, lowest, "the lowest lines, on a linear scale (ns)", (0.65, 0.99), 1.3, 0, top, False)
+    return script + "unset multiplot\n"
 
 
 def main():
