@@ -115,7 +115,7 @@ unset arrow
                    f'nohead lw 0.7 lc rgb "{colour}"\n')
     styles = {m: PLOTTED[m][1:] for m in names}
     return script + "plot " + ", ".join(
-        f'${m} with linespoints dt {dash} pt {mark} lw {width} ps 1.1 lc rgb "{colour}"'
+        f'${m} with linespoints dt {dash} pt {mark} lw {width} ps 0.9 lc rgb "{colour}"'
         for m, (colour, dash, mark, width) in styles.items()) + "\n"
 
 
@@ -129,7 +129,6 @@ def plot_script(rows):
              for m in PLOTTED if any(r["method"] == m for r in rows)}
     values = [ns for line in lines.values() for _, ns in line]
     low, high = min(values) / 1.5, max(values) * 1.5
-    moves_a_step = int(rows[0]["moves"]) // int(rows[0]["steps"])
     lowest = [m for m in LOWEST if m in lines]
     script = "".join(f"${name} << END\n" + "".join(f"{n} {ns}\n" for n, ns in line) + "END\n" for name, line in lines.items())
     script += f"""set multiplot
@@ -139,17 +138,13 @@ set bmargin at screen 0.1
 set grid ytics lc rgb "#dddddd" lt 1
 set xlabel "cells of the environment, n"
 set ylabel "time of a vertex move with its three edges (ns)"
-set y2label "time of a step, {moves_a_step} vertices ({{/Symbol m}}s)" offset -0.5
-set y2range [{low * moves_a_step / 1e3}:{high * moves_a_step / 1e3}]
-set logscale xyy2
-set ytics nomirror
-set y2tics
+set logscale xy
 """
-    script += panel(lines, list(lines), "all, on a logarithmic scale (*: exact)", (0.07, 0.55), 0.85, low, high, True)
+    script += panel(lines, list(lines), "all, on a logarithmic scale (*: exact)", (0.09, 0.57), 0.95, low, high, True)
     if lowest:
-        script += "unset y2tics\nunset y2label\nunset ylabel\nset ytics mirror\nunset logscale y\nunset logscale y2\n"
+        script += "unset ylabel\nunset logscale y\n"
         top = 1.2 * max(ns for m in lowest for _, ns in lines[m])
-        script += panel(lines, lowest, "the lowest lines, on a linear scale (ns)", (0.65, 0.99), 1.3, 0, top, False)
+        script += panel(lines, lowest, "the lowest lines, on a linear scale (ns)", (0.63, 0.985), 1.6, 0, top, False)
     return script + "unset multiplot\n"
 
 
