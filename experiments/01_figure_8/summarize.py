@@ -144,7 +144,7 @@ set logscale xy
     if lowest:
         script += "unset ylabel\nunset logscale y\n"
         top = 1.2 * max(ns for m in lowest for _, ns in lines[m])
-        script += panel(lines, lowest, "the lowest lines, on a linear scale (ns)", (0.63, 0.985), 1.6, 0, top, False)
+        script += panel(lines, lowest, "the lowest lines, on a linear scale (ns)", (0.63, 0.985), 1.75, 0, top, False)
     return script + "unset multiplot\n"
 
 
