@@ -4,12 +4,27 @@
 # walks.csv, sweeps.csv, flights.csv, failures/, manifest.json, tables.md and plots; times.csv too, unless --counts is given.
 #
 #   experiments/02_exact_versus_float/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--threads N] [--no-build]
+#                                               [--long] [--resume]
 #
-# What the options do is said in experiments/common/run_options.sh. --quick takes half a minute, the full run about 40.
+# What the options do is said in experiments/common/run_options.sh. --quick takes half a minute, the full run about 40. --long: 10^8 walks
+# and 10^7 sweeps, of the default kernel alone. --resume: goes on where a run with the same options was stopped.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
+long=false
+resume=()
+others=()
+for argument in "$@"; do
+  case "$argument" in
+    --long) long=true ;;
+    --resume) resume=(--resume) ;;
+    *) others+=("$argument") ;;
+  esac
+done
+set -- "${others[@]}"
+
 name=exact_versus_float
+if $long; then name+=_long; fi
 # shellcheck disable=SC2034
 targets=exact_versus_float
 # shellcheck source=experiments/common/run_options.sh
@@ -19,10 +34,14 @@ parts=(--part walks --part sweeps --part flights --part failures)
 if ! $counts; then parts+=(--part times); fi
 if $quick; then
   sizes=(--motions 300 --sweeps 200 --moves 3000 --timed 5000)
+elif $long; then
+  parts=(--part walks --part sweeps)
+  sizes=(--kernel exact --motions 1000000 --sweeps 420000)
 else
   sizes=(--motions 100000 --sweeps 42000 --moves 100000 --timed 5000)
 fi
-"$build/experiments/02_exact_versus_float/exact_versus_float" "${parts[@]}" "${sizes[@]}" --out "$out" --threads "$threads" \
-  --commit "$commit"
+"$build/experiments/02_exact_versus_float/exact_versus_float" "${parts[@]}" "${sizes[@]}" "${resume[@]}" --out "$out" \
+  --threads "$threads" --commit "$commit"
+if $long; then exit; fi # the tables compare kernels
 python3 experiments/02_exact_versus_float/summarize.py "$out" || [ $? -eq 3 ]
 echo "exact versus float: $out/tables.md"

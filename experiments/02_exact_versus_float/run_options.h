@@ -3,15 +3,21 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_RUN_OPTIONS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_RUN_OPTIONS_H
 
+#include <bitset>
 #include <cstdint>
 #include <filesystem>
+
+#include "common/kept_counts.h"
+#include "kernels.h"
 
 namespace cellwalk::exact_float {
 
 struct Run_options {
   std::filesystem::path folder;  ///< must exist
   std::uint64_t seed = 1;
-  std::uint64_t count = 0;  ///< motions or sweeps at each point of the grid
+  std::uint64_t count = 0;                   ///< motions or sweeps at each point of the grid
+  std::bitset<kernel_count> kernels{~0ull};  ///< those that walk; of failures and times all do
+  experiments::Kept_counts* kept = nullptr;  ///< of points of the grid; must outlive the run
 };
 
 /// What the exact kernels did.

@@ -78,8 +78,12 @@ Verdict of_fault(test::Sweep_fault fault) {
 template <int D>
 class Sweep_trial {
  public:
-  Sweep_trial(const Setting& setting, std::uint64_t seed)
-      : setting_(setting), random_(seed), scene_(make_world<D>(setting, seed)), chains_(scene_.world.soup) {}
+  Sweep_trial(const Setting& setting, std::uint64_t seed, const std::bitset<kernel_count>& walking)
+      : setting_(setting),
+        walking_(walking),
+        random_(seed),
+        scene_(make_world<D>(setting, seed)),
+        chains_(scene_.world.soup) {}
 
   Counts run(std::uint64_t sweeps) {
     while (counts_.sweeps < sweeps) sweep_once();
@@ -129,6 +133,7 @@ class Sweep_trial {
         !check_third_segment<D>(scene_.snapshot, move.path(), move.q, move.before, counts).contact;
     note(1, of_answer(is_third_free, may_be_free, may_be_blocked));
     for (std::size_t k = 0; k < kernel_count; ++k) {
+      if (!walking_[k]) continue;
       const Walk_status status = walk_both(kernels_[k], move);
       note(2 + k, status == Walk_status::lost
                       ? Verdict::stuck
@@ -154,6 +159,7 @@ class Sweep_trial {
   }
 
   const Setting setting_;
+  const std::bitset<kernel_count> walking_;
   Random random_;
   const Scene<D> scene_;
   const oracle::Chain_oracle<D> chains_;
@@ -167,7 +173,7 @@ Counts sweep_at(const Grid_point& point, const Run_options& options) {
   const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
     const std::uint64_t seed = experiments::part_seed(
         options.seed, fmt::format("sweeps {} {} {}", D, point.variable, point.value), w);
-    return Sweep_trial<D>(point.setting, seed)
+    return Sweep_trial<D>(point.setting, seed, options.kernels)
         .run(std::min(sweeps_per_world, options.count - w * sweeps_per_world));
   });
   Counts sum;
@@ -179,9 +185,12 @@ template <int D>
 void sweep_dimension(const Run_options& options, io::Csv_writer& table, Exact_summary& summary) {
   const auto tested = kernels<D>();
   for (const Grid_point& point : degeneracy_points()) {
-    const Counts counts = sweep_at<D>(point, options);
+    const Counts counts =
+        options.kept->of<Counts>(fmt::format("sweeps {}D {} {}", D, point.variable, point.value),
+                                 [&] { return sweep_at<D>(point, options); });
     summary.motions += counts.sweeps;
     for (std::size_t m = 0; m < method_count; ++m) {
+      if (m > 1 && !options.kernels[m - 2]) continue;
       const Verdicts& v = counts.verdicts[m];
       const std::uint64_t wrong = counts.sweeps - v[0];
       const auto interval = experiments::confidence_interval(wrong, counts.sweeps);
@@ -194,9 +203,9 @@ void sweep_dimension(const Run_options& options, io::Csv_writer& table, Exact_su
       summary.by_exact += counts.sweeps;
       summary.wrong += wrong;
     }
-    fmt::print("sweeps {}D {} {}: {} of {} blocked; missed by triangle {}, three segments {}, double {}\n", D,
+    fmt::print("sweeps {}D {} {}: {} of {} blocked; missed by triangle {}, three segments {}\n", D,
                point.variable, point.value, counts.blocked, counts.sweeps, counts.verdicts[0][1],
-               counts.verdicts[1][1], counts.verdicts[6][1]);
+               counts.verdicts[1][1]);
     std::fflush(stdout);
   }
 }

@@ -9,8 +9,10 @@ The expected tables were written once; every compiler, build type and number of 
 """
 
 import json
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -33,6 +35,34 @@ class ExactVersusFloat(quick_case.QuickCase):
         for name in ["sweeps.csv", "flights.csv"]:
             self.assertEqual((other / "1" / name).read_bytes(), (other / "2" / name).read_bytes())
             self.assertNotEqual((other / "1" / name).read_bytes(), (self.out / name).read_bytes())
+
+    def test_a_run_that_was_killed_goes_on(self):
+        program = self.build / "experiments/02_exact_versus_float/exact_versus_float"
+        few = ["--part", "walks", "--part", "sweeps", "--kernel", "exact", "--kernel", "float", "--motions", "300", "--sweeps", "50"]
+        runs = {}
+        for name in ["whole", "killed"]:
+            runs[name] = [program, *few, "--out", self.out / "kills" / name, "--threads", "2"]
+        subprocess.run(runs["whole"], check=True, stdout=subprocess.DEVNULL)
+        lines = (self.out / "kills/whole/kept.jsonl").read_text().splitlines()
+        killed = self.out / "kills/killed"
+        kept = killed / "kept.jsonl"
+        kills = 0
+        for share in [0.1, 0.5, 0.9]:
+            process = subprocess.Popen([*runs["killed"], "--resume"], stdout=subprocess.DEVNULL)
+            while process.poll() is None and (not kept.exists() or kept.read_text().count("\n") < share * len(lines)):
+                time.sleep(0.002)
+            process.kill()
+            kills += process.wait() == -signal.SIGKILL
+        self.assertGreaterEqual(kills, 2)
+        before = kept.read_text().count("\n")
+        done = subprocess.run([*runs["killed"], "--seed", "3", "--resume"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, "other settings" in done.stderr), (1, True), done.stderr)
+        self.assertGreaterEqual(kept.read_text().count("\n"), before)
+        subprocess.run([*runs["killed"], "--resume"], check=True, stdout=subprocess.DEVNULL)
+        for name in ["walks.csv", "sweeps.csv", "kept.jsonl"]:
+            self.assertEqual((self.out / "kills/whole" / name).read_bytes(), (killed / name).read_bytes(), name)
+        kernels = {row["kernel"] for row in read_rows(killed / "walks.csv")}
+        self.assertEqual(kernels, {"exact", "float"})
 
     def test_exact_kernels_are_never_wrong(self):
         walks = [r for r in read_rows(self.out / "walks.csv") if r["kernel"] in EXACT]

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "common/confidence.h"
 #include "common/seeds.h"
@@ -46,7 +47,8 @@ bool is_degenerate(const oracle::Trace& trace) {
 }
 
 template <int D>
-Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t motions) {
+Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t motions,
+                     const std::bitset<kernel_count>& walking) {
   Random random(seed);
   const Scene<D> scene(make_world<D>(setting, seed));
   const auto tested = kernels<D>();
@@ -60,6 +62,7 @@ Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t m
     counts.degenerate += is_degenerate<D>(motion.trace);
     counts.blocked += motion.truth.arrivals.empty();
     for (std::size_t k = 0; k < kernel_count; ++k) {
+      if (!walking[k]) continue;
       std::vector<Cell> visited;
       Walk_counts ignored;
       const Walk_result<D> result =
@@ -78,7 +81,8 @@ Counts walk_at(const Grid_point& point, const Run_options& options) {
     const std::uint64_t seed = experiments::part_seed(
         options.seed, fmt::format("walks {} {} {}", D, point.variable, point.value), w);
     return walk_in_world<D>(point.setting, seed,
-                            std::min(motions_per_world, options.count - w * motions_per_world));
+                            std::min(motions_per_world, options.count - w * motions_per_world),
+                            options.kernels);
   });
   Counts sum;
   for (const Counts& c : counts) sum += c;
@@ -89,9 +93,12 @@ template <int D>
 void walk_dimension(const Run_options& options, io::Csv_writer& table, Exact_summary& summary) {
   const auto tested = kernels<D>();
   for (const Grid_point& point : all_points()) {
-    const Counts counts = walk_at<D>(point, options);
+    const Counts counts =
+        options.kept->of<Counts>(fmt::format("walks {}D {} {}", D, point.variable, point.value),
+                                 [&] { return walk_at<D>(point, options); });
     summary.motions += counts.motions;
     for (std::size_t k = 0; k < kernel_count; ++k) {
+      if (!options.kernels[k]) continue;
       const Tally& t = counts.tallies[k];
       const auto interval = experiments::confidence_interval(wrong(t), total(t));
       table.row(D, point.variable, point.value, tested[k].name, counts.motions, counts.degenerate,
@@ -101,8 +108,11 @@ void walk_dimension(const Run_options& options, io::Csv_writer& table, Exact_sum
       summary.by_exact += total(t);
       summary.wrong += wrong(t);
     }
-    fmt::print("walks {}D {} {}: exact {} wrong, double {}, float {} of {}\n", D, point.variable, point.value,
-               wrong(counts.tallies[0]), wrong(counts.tallies[4]), wrong(counts.tallies[7]), counts.motions);
+    fmt::print("walks {}D {} {}: {} motions", D, point.variable, point.value, counts.motions);
+    for (std::size_t k = 0; k < kernel_count; ++k)
+      if (options.kernels[k]) fmt::print(", {} {} wrong", tested[k].name, wrong(counts.tallies[k]));
+    fmt::print("\n");
+    std::fflush(stdout);
   }
 }
 

@@ -88,7 +88,7 @@ void check_trace(const Body_trace& trace) {
 
 void csv(std::string_view bytes) {
   reads([&] {
-    const io::Csv_table table = io::Csv_table::parse("in", bytes);
+    const io::Csv_table table = io::Csv_table::parse("in", std::string(bytes));
     for (std::size_t row = 0; row < table.row_count(); ++row) {
       table.row_problem(row);
       for (std::size_t column = 0; column < table.columns().size(); ++column) {

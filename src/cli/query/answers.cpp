@@ -32,7 +32,7 @@ std::vector<std::string> answer_columns(bool of_edges) {
 
 template <int D, std::size_t N>
 void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& snapshot,
-                   const std::vector<Query_row<D, N>>& rows, const std::vector<Answer<D>>& answers) {
+                   std::span<const Query_row<D, N>> rows, const std::vector<Answer<D>>& answers) {
   constexpr bool has_body = N == 3;
   for (std::size_t row = 0; row < answers.size(); ++row) {
     const Answer<D>& answer = answers[row];
@@ -62,13 +62,13 @@ void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& 
 }
 
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
-                            const std::vector<Query_row<2, 2>>&, const std::vector<Answer<2>>&);
+                            std::span<const Query_row<2, 2>>, const std::vector<Answer<2>>&);
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
-                            const std::vector<Query_row<3, 2>>&, const std::vector<Answer<3>>&);
+                            std::span<const Query_row<3, 2>>, const std::vector<Answer<3>>&);
 
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
-                            const std::vector<Query_row<2, 3>>&, const std::vector<Answer<2>>&);
+                            std::span<const Query_row<2, 3>>, const std::vector<Answer<2>>&);
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
-                            const std::vector<Query_row<3, 3>>&, const std::vector<Answer<3>>&);
+                            std::span<const Query_row<3, 3>>, const std::vector<Answer<3>>&);
 
 }  // namespace cellwalk::cli

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,9 +31,11 @@ struct Answered {
   std::size_t line = 0;  ///< of the first invalid row; 0: none
   std::string error;     ///< of that row
 
+  /// Adds answers to the next rows.
   template <class Answers, class Rows>
-  Answered(const Answers& answers, const Rows& rows, const Edge_counts& work) : counts(work) {
+  void add(const Answers& answers, const Rows& rows) {
     for (const auto& a : answers) ++tally[static_cast<std::size_t>(a.status)];
+    if (line != 0) return;
     const auto invalid =
         std::find_if(rows.begin(), rows.end(), [](const auto& row) { return !row.error.empty(); });
     if (invalid == rows.end()) return;
@@ -149,16 +153,22 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
   const Snapshot<D>& snapshot = environment.snapshot();
   const std::size_t first = first_row(ranks, rows.size());
   const auto wanted = wanted_row(options, ranks, first, rows);
-  Edge_counts counts;
-  const std::vector<Answer<D>> answers =
-      answer_rows(rows, label, counts,
-                  [&](const Query_row<D, N>& row, Edge_counts& local) { return answer(row.points, local); });
-  Answered answered(answers, rows, counts);
   const std::vector<std::string> columns = answer_columns(N == 3);
+  std::string text;                  // of a later rank
+  constexpr std::size_t about = 96;  // bytes of a row
+  if (files == nullptr) text.reserve(about * rows.size());
+  io::Csv_writer table =
+      files != nullptr ? io::Csv_writer(*files->answers, columns) : io::Csv_writer(text, columns.size());
+  Answered answered;
+  answer_rows(
+      rows, label, answered.counts,
+      [&](const Query_row<D, N>& row, Edge_counts& local) { return answer(row.points, local); },
+      [&](std::size_t begin, const std::vector<Answer<D>>& answers) {
+        const std::span<const Query_row<D, N>> of_batch(rows.data() + begin, answers.size());
+        answered.add(answers, of_batch);
+        write_answers(table, first + begin, snapshot, of_batch, answers);
+      });
   if (files == nullptr) {
-    std::string text;
-    io::Csv_writer table(text, columns.size());
-    write_answers(table, first, snapshot, rows, answers);
     Byte_writer bytes;
     answered.write(bytes);
     ranks.gather(bytes.take());
@@ -171,14 +181,12 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
     if constexpr (N == 2) record_row(options, *files, environment, *wanted, once_more);
     draw_row(options, *files, snapshot, locator, *wanted, once_more);
   }
-  io::Csv_writer table(*files->answers, columns);
-  write_answers(table, first, snapshot, rows, answers);
   ranks.gather({}, [&](const std::string& of_rank) {
     if (of_rank.empty()) return;  // that of the first itself
     Byte_reader bytes(of_rank);
     answered.add(bytes);
   });
-  ranks.gather({}, [&](const std::string& text) { files->answers->write(text); });
+  ranks.gather({}, [&](const std::string& of_rank) { files->answers->write(of_rank); });
   report(options, *files, answered);
 }
 

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <unordered_set>
+#include <utility>
 
 #include "text.h"
 
@@ -20,34 +22,45 @@ std::string_view trimmed(std::string_view s) {
 }
 
 /// The fields of a line; "" within quotes stands for one quote.
-std::vector<std::string> split(const Line_reader& in) {
+/// \param unquoted keeps those fields that are not as they stand in the line
+template <class Add>
+void split(const Line_reader& in, std::deque<std::string>& unquoted, Add add) {
   std::string_view rest = in.rest();
-  std::vector<std::string> fields;
   for (bool more = true; more;) {
     const std::size_t first = rest.find_first_not_of(" \t");
     if (first == std::string_view::npos || rest[first] != '"') {
       const std::size_t end = std::min(rest.find(','), rest.size());
-      fields.emplace_back(trimmed(rest.substr(0, end)));
+      add(trimmed(rest.substr(0, end)));
       more = end < rest.size();
       rest.remove_prefix(more ? end + 1 : end);
       continue;
     }
-    std::string field;
     std::size_t i = first + 1;
+    std::size_t quotes = 0;
     for (; i < rest.size(); ++i) {
-      if (rest[i] == '"' && !rest.substr(i + 1).starts_with('"')) break;
-      if (rest[i] == '"') ++i;
-      field.push_back(rest[i]);
+      if (rest[i] != '"') continue;
+      if (!rest.substr(i + 1).starts_with('"')) break;
+      ++quotes;
+      ++i;
     }
     if (i >= rest.size()) in.fail("a quote is left open");
+    const std::string_view field = rest.substr(first + 1, i - first - 1);
+    if (quotes == 0) {
+      add(field);
+    } else {
+      std::string& kept = unquoted.emplace_back();
+      for (std::size_t k = 0; k < field.size(); ++k) {
+        kept.push_back(field[k]);
+        if (field[k] == '"') ++k;
+      }
+      add(std::string_view(kept));
+    }
     rest.remove_prefix(i + 1);
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     more = rest.starts_with(',');
     if (!more && !rest.empty()) in.fail("text follows a quoted field, where a comma should be");
     if (more) rest.remove_prefix(1);
-    fields.push_back(std::move(field));
   }
-  return fields;
 }
 
 /// Where the bytes of a part begin, of a table whose rows begin at `first`: after the end of a line.
@@ -61,9 +74,23 @@ std::size_t begin_of_part(std::string_view text, std::size_t first, std::size_t 
 
 }  // namespace
 
-Csv_table Csv_table::parse(const std::string& name, std::string_view text, const Table_part& part) {
+struct Csv_table::Source {
+  std::string text;
+  Mapped_file file;                  ///< where the text is one that is mapped
+  std::deque<std::string> unquoted;  ///< fields that are not as they stand in the text
+};
+
+Csv_table Csv_table::parse(const std::string& name, std::string text, const Table_part& part) {
+  const auto source = std::make_shared<Source>();
+  source->text = std::move(text);
+  return parse(name, source, source->text, part);
+}
+
+Csv_table Csv_table::parse(const std::string& name, std::shared_ptr<Source> source, std::string_view text,
+                           const Table_part& part) {
   Csv_table table;
   table.name_ = name;
+  table.source_ = std::move(source);
   Line_reader in(name, text, '\0');
   const auto next = [&] {
     while (in.next_line()) {
@@ -72,7 +99,7 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text, const
     return false;
   };
   if (!next()) io::fail(name, "holds no header: the names of the columns are to stand in its first line");
-  table.columns_ = split(in);
+  split(in, table.source_->unquoted, [&](std::string_view field) { table.columns_.emplace_back(field); });
   std::unordered_set<std::string_view> names;
   for (const std::string& column : table.columns_) {
     if (column.empty()) in.fail("a column without a name");
@@ -84,7 +111,7 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text, const
               begin_of_part(text, first, part.number + 1, part.count));
   }
   while (next()) {
-    for (std::string& field : split(in)) table.fields_.push_back(std::move(field));
+    split(in, table.source_->unquoted, [&](std::string_view field) { table.fields_.push_back(field); });
     table.field_begin_.push_back(table.fields_.size());
     table.lines_.push_back(in.line());
   }
@@ -94,10 +121,12 @@ Csv_table Csv_table::parse(const std::string& name, std::string_view text, const
 Csv_table Csv_table::read(const std::filesystem::path& path, const Table_part& part) {
   if (part.count == 1) return parse(path.string(), load(path));
   // Of a part, the other pages of the file are not copied.
-  const Mapped_file file = map_file(path);
-  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+  const auto source = std::make_shared<Source>();
+  source->file = map_file(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(source->file.bytes.data()),
+                               source->file.bytes.size());
   return is_gzip(bytes) ? parse(path.string(), unpack(path.string(), std::string(bytes)), part)
-                        : parse(path.string(), bytes, part);
+                        : parse(path.string(), source, bytes, part);
 }
 
 std::optional<std::size_t> Csv_table::find_column(std::string_view name) const {

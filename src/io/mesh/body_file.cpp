@@ -52,7 +52,7 @@ template <int D>
 Content from_table(const std::string& name, std::string_view text, Read_report& report) {
   report.format = "CSV";
   Content content;
-  for (const auto& row : query_rows<D, 1>(Csv_table::parse(name, text), {""})) {
+  for (const auto& row : query_rows<D, 1>(Csv_table::parse(name, std::string(text)), {""})) {
     if (!row.error.empty()) fail(name, row.line, row.error);
     Point<3> p{};
     std::copy(row.points[0].begin(), row.points[0].end(), p.begin());

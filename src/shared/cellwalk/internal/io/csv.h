@@ -31,7 +31,7 @@ class Csv_table {
  public:
   /// \throw Error(input) with file and line: no header, a column named twice or not at all, a quote left open
   static Csv_table read(const std::filesystem::path& path, const Table_part& part = {});
-  static Csv_table parse(const std::string& name, std::string_view text, const Table_part& part = {});
+  static Csv_table parse(const std::string& name, std::string text, const Table_part& part = {});
 
   std::size_t row_count() const { return lines_.size(); }
   const std::vector<std::string>& columns() const { return columns_; }
@@ -52,9 +52,15 @@ class Csv_table {
   const std::string& name() const { return name_; }
 
  private:
+  struct Source;  ///< the text that fields are part of
+
+  static Csv_table parse(const std::string& name, std::shared_ptr<Source> source, std::string_view text,
+                         const Table_part& part);
+
   std::string name_;
+  std::shared_ptr<Source> source_;
   std::vector<std::string> columns_;
-  std::vector<std::string> fields_;          ///< of all rows
+  std::vector<std::string_view> fields_;     ///< of all rows
   std::vector<std::size_t> field_begin_{0};  ///< fields of row r: [field_begin_[r], field_begin_[r+1])
   std::vector<std::size_t> lines_;
 };
