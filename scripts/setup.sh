@@ -5,9 +5,9 @@
 #   scripts/setup.sh [--for demo|test|ci|dev|package|peers|paper|docs] [--print]
 #
 #   demo  build and run the program            test   also Gmsh, VTK, MPI, Python, Node.js, Chromium, the test tools and clang-format (default)
-#   dev   as ci                                peers  demo, the libraries that experiments compare with, and gnuplot
+#   dev   as ci                                peers  demo, the libraries that experiments compare with, gnuplot, and what animate.py needs
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
-#   ci    test, clang, clang-tidy, ccache and valgrind   package  build the Debian packages, and a clean root to try them in
+#   ci    test, docs, clang, clang-tidy, ccache, valgrind   package  build the Debian packages, and a clean root to try them in
 #   --print  only name the packages
 set -euo pipefail
 
@@ -24,6 +24,7 @@ node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will d
 fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own
 documentation=(doxygen graphviz)
 peers=(libbullet-dev libembree-dev libfcl-dev gnuplot-nox python3)
+pictures=(python3-pil python3-numpy fonts-dejavu-core) # for scripts/animate.py
 latex=(texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern)
 
 purpose=test
@@ -42,9 +43,9 @@ packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
   test) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}") ;;
-  ci | dev) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" clang-tidy ccache valgrind) ;;
+  ci | dev) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" "${documentation[@]}" clang-tidy ccache valgrind) ;;
   package) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
-  peers) packages+=("${peers[@]}") ;;
+  peers) packages+=("${peers[@]}" "${pictures[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;
   docs) packages=("${documentation[@]}") ;;
   *) echo "setup.sh: --for takes demo, test, ci, dev, package, peers, paper or docs, not '$purpose'" >&2; exit 2 ;;
