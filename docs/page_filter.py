@@ -6,7 +6,8 @@
 - Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
   warning, so links are checked here too.
 - Pictures are named from the root, where Doxygen looks for them.
-- Code spans of the tables of errors.md become HTML, since Doxygen takes backslashes and quotes in them for its own.
+- Code spans of the tables of errors.md become HTML with numbered entities, since Doxygen takes backslashes, quotes and dashes in them for
+  its own. It does not know such entities either, and escapes them: docs.sh makes them entities again in the page that Doxygen writes.
 """
 
 import os
@@ -14,13 +15,14 @@ import re
 import sys
 from pathlib import Path
 
-SPECIAL = str.maketrans({c: f"&#{ord(c)};" for c in "&<>\\\"'@#%$*_~`"})
+SPECIAL = str.maketrans({c: f"&#{ord(c)};" for c in "&<>\\\"'@#%$*_~`-"})
 PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s:]+)\)")
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
 
 
 def html(match):
-    return f"<code>{match[2].replace(chr(92) + '|', '&#124;').translate(SPECIAL).replace('&#38;#124;', '&#124;')}</code>"
+    pieces = [piece.translate(SPECIAL) for piece in match[2].split("\\|")]
+    return f"<code>{'&#124;'.join(pieces)}</code>"
 
 
 def anchor(heading):
