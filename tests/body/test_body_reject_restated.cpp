@@ -72,9 +72,14 @@ class Restated_body {
       bit <<= 1;
     }
     if (answer.edges != 0) return answer;
-    for (const auto& [edge, chain] : moved)
-      chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
     particles_[vertex] = to;
+    for (const auto& [edge, chain] : moved)
+      if (sweep == Sweep::three_segments)  // any will do: that from the first end
+        chains_[edge] =
+            find_any_chain(snapshot_, particles_[edges_[edge][0]], particles_[edges_[edge][1]], counts_.walk)
+                .chain;
+      else
+        chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
     return answer;
   }
 

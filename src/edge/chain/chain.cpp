@@ -5,11 +5,27 @@
 #include <algorithm>
 #include <vector>
 
+#include "certain_crossing.h"
 #include "chain_of_walk.h"
 #include "link.h"
 
 namespace cellwalk {
 namespace {
+
+/// What doubles prove of a segment and a facet, if that is a triangle.
+detail::Crossing_proof prove_crossing(const Cell_view<3>& cell, std::size_t i, const Point<3>& p,
+                                      const Point<3>& q, Walk_counts& counts) {
+  const auto loop = cell.loop(i);
+  if (loop.size() != 3) return detail::Crossing_proof::none;
+  const detail::Crossing_proof proof =
+      detail::Certain_crossing(p, q)(cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]));
+  if (proof != detail::Crossing_proof::none) {
+    counts.side_tests += 2;
+    counts.along_tests += 3;
+    counts.predicates.orientations += 5;
+  }
+  return proof;
+}
 
 /// The contact of a segment that arrives at q on the wrong side, with a wall at q.
 template <int D>
@@ -88,6 +104,11 @@ bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, 
   for (const Half_facet f : chain) {
     const Cell_view<D> cell = snapshot.view(snapshot.cell_of(f));
     const std::size_t i = snapshot.facet_of(f);
+    if constexpr (D == 3) {
+      const detail::Crossing_proof proof = prove_crossing(cell, i, p, q, counts);
+      if (proof == detail::Crossing_proof::misses) return false;
+      if (proof == detail::Crossing_proof::crosses) continue;
+    }
     const int at_p = detail::side<Exact>(cell, i, p, counts);
     if (at_p > 0) return false;
     const int at_q = detail::side<Exact>(cell, i, q, counts);

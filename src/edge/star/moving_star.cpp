@@ -7,6 +7,8 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -36,8 +38,9 @@ Moving_star<D>::Moving_star(const Snapshot<D>& snapshot, std::uint32_t vertex, c
                             std::span<const Cell> cells, Walk_counts& counts)
     : snapshot_(snapshot), vertex_(vertex), from_(from), cells_(cells.begin(), cells.end()), counts_(counts) {
   std::sort(cells_.begin(), cells_.end());
+  slots_.resize(std::bit_ceil(4 * cells_.size() + 1));
   for (const Cell c : cells_) {
-    some_.set(to_index(c) % some_.size());
+    slot_of(c).cell = c;
     if (snapshot.is_solid(c)) continue;
     const Cell_view<D> view = snapshot.view(c);
     for (std::size_t i = 0; i < view.facet_count(); ++i) {
@@ -86,13 +89,31 @@ std::size_t Moving_star<D>::wall_of(Half_facet facet) const {
 
 template <int D>
 bool Moving_star<D>::has(Cell cell) const {
-  return some_[to_index(cell) % some_.size()] && std::binary_search(cells_.begin(), cells_.end(), cell);
+  return cell != Cell::none && slot_of(cell).cell == cell;
+}
+
+/// The slot of a cell, or the empty one where it would be.
+template <int D>
+typename Moving_star<D>::Slot& Moving_star<D>::slot_of(Cell cell) const {
+  const std::size_t last = slots_.size() - 1;
+  std::size_t at = (to_index(cell) * 0x9e3779b9u >> 7) & last;
+  while (slots_[at].cell != cell && slots_[at].cell != Cell::none) at = (at + 1) & last;
+  return slots_[at];
 }
 
 template <int D>
 bool Moving_star<D>::has(Half_facet facet) const {
   const Cell c = snapshot_.cell_of(facet);
-  return has(c) && has_point(snapshot_.view(c), snapshot_.facet_of(facet), vertex_);
+  Slot& slot = slot_of(c);
+  if (slot.cell != c) return false;
+  const std::size_t i = snapshot_.facet_of(facet);
+  if (i >= std::numeric_limits<std::uint32_t>::digits) return has_point(snapshot_.view(c), i, vertex_);
+  const std::uint32_t bit = 1u << i;
+  if ((slot.known & bit) == 0) {
+    slot.known |= bit;
+    if (has_point(snapshot_.view(c), i, vertex_)) slot.moving |= bit;
+  }
+  return (slot.moving & bit) != 0;
 }
 
 template <int D>

@@ -134,19 +134,26 @@ void Resident_groups<D>::find(std::span<const Cell> cells, std::vector<Member>& 
                               std::vector<Member>& edges) {
   vertices.clear();
   edges.clear();
-  ++searches_;
+  const std::uint64_t last_search = lists_;
   for (const Cell c : cells) {
     const auto first = first_.find(to_index(c));
     if (first == first_.end()) continue;
-    for (std::uint32_t e = first->second; e != none; e = entries_[e].next) {
-      const Entry& entry = entries_[e];
+    ++lists_;
+    std::uint32_t* link = &first->second;
+    for (std::uint32_t e = *link; e != none; e = *link) {
+      Entry& entry = entries_[e];
       if (entry.is_edge) {
-        if (std::exchange(seen_[first_edge_[entry.member.group] + entry.member.number], searches_) !=
-            searches_)
-          edges.push_back(entry.member);
+        const std::uint64_t seen =
+            std::exchange(seen_[first_edge_[entry.member.group] + entry.member.number], lists_);
+        if (seen == lists_) {  // entered into this cell more than once
+          *link = entry.next;
+          continue;
+        }
+        if (seen <= last_search) edges.push_back(entry.member);
       } else if (groups_[entry.member.group].particles[entry.member.number].cell == c) {
         vertices.push_back(entry.member);
       }
+      link = &entry.next;
     }
   }
   sort_unique(vertices);

@@ -101,8 +101,8 @@ class Resident_groups {
   std::vector<Entry> entries_;
   std::size_t most_entries_ = 0;         ///< before outdated ones are dropped
   std::vector<std::size_t> first_edge_;  ///< of each group, when all edges are numbered
-  std::vector<std::uint64_t> seen_;      ///< of each edge, the last search that found it
-  std::uint64_t searches_ = 0;
+  std::vector<std::uint64_t> seen_;      ///< of each edge, the last list of a cell that had it
+  std::uint64_t lists_ = 0;              ///< searched so far
 };
 
 extern template class Resident_groups<2>;

@@ -9,7 +9,6 @@
 #include <cellwalk/walk/walk.h>
 
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -95,7 +94,13 @@ class Moving_star {
   std::uint32_t vertex_;
   Point<D> from_;
   std::vector<Cell> cells_;  ///< ascending
-  std::bitset<256> some_;    ///< of the last bits of their names
+  /// A hash table of them. Which facets have the vertex is found out when it is asked for.
+  struct Slot {
+    Cell cell = Cell::none;
+    std::uint32_t known = 0, moving = 0;  ///< a bit for each of the first facets
+  };
+  Slot& slot_of(Cell cell) const;
+  mutable std::vector<Slot> slots_;
   std::vector<Moving_wall<D>> walls_;
   Box<D> box_;
   Walk_counts& counts_;
