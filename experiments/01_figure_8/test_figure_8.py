@@ -18,6 +18,9 @@ import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "common"))
+import summarize  # noqa: E402
+
 EXPECTED = HERE / "expected" / "quick.csv"
 ANSWERS = ["moves", "hits", "missed", "false"]
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "clear_moves"]
@@ -114,6 +117,18 @@ class Figure8(unittest.TestCase):
         text = (self.out / "tables.md").read_text(encoding="utf-8")
         for name in {r["method"] for r in self.rows}.union(TRACES):
             self.assertIn(f"| {name} |", text)
+
+    def test_the_plot_has_every_method_that_it_names(self):
+        plotted = summarize.PLOTTED
+        self.assertLessEqual(set(plotted), ALWAYS.union(*PEERS.values()))
+        self.assertEqual(len({style[2:4] for style in plotted.values()}), len(plotted), "lines differ without colours")
+        rows = [{"trace": f"n_{n}", "cells": n, "method": m, "ns_per_vertex_move": str(20 + i)}
+                for n in (1000, 1000000) for i, m in enumerate(plotted)]
+        script = summarize.plot_script(rows)
+        for name, style in plotted.items():
+            self.assertIn(f"${name} << END", script)
+            self.assertEqual(script.count(style[0]), 2 if name in summarize.LOWEST else 1, name)
+        self.assertIsNone(summarize.plot_script(rows[:len(plotted)]), "one size is no line")
 
 
 def update(build):

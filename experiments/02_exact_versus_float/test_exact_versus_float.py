@@ -13,11 +13,13 @@ import signal
 import subprocess
 import sys
 import time
+from fractions import Fraction
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import quick_case  # noqa: E402
+import summarize  # noqa: E402
 from tables import EXACT, ROUNDED, read_rows  # noqa: E402
 
 
@@ -88,6 +90,18 @@ class ExactVersusFloat(quick_case.QuickCase):
     def test_the_paper_s_sweep_misses_what_the_complete_one_finds(self):
         sweeps = [r for r in read_rows(self.out / "sweeps.csv") if r["method"] == "three_segments" and r["dimension"] == "3"]
         self.assertGreater(sum(int(r["missed"]) for r in sweeps), 5)
+
+    def test_escapes_are_enlarged_until_the_side_is_seen(self):
+        way = [(0.0, 0.0), (0.5, 0.125)]  # the coordinates of its end have ulps of 2^-53 and 2^-55
+        for off, behind in [(Fraction(-1, 2 ** 60), True), (Fraction(1, 2 ** 60), False)]:
+            wall = [(Fraction(1, 2) + off, Fraction(y)) for y in (-1, 1)]
+            text, exponent, half, is_behind = summarize.zoom(way, wall)
+            self.assertEqual(is_behind, behind)
+            self.assertAlmostEqual(half * 10.0 ** exponent, 6.5 * 2.0 ** -55)
+            near_wall = text.partition("$near_wall << END\n")[2].splitlines()[0].split()
+            self.assertAlmostEqual(float(near_wall[0]) * 10.0 ** exponent, float(off), delta=1e-30)
+        square = summarize.half_plane(1.0, [0.5, 0.0], [1.0, 0.0])
+        self.assertEqual(sorted(map(list, square)), [[0.5, -1.0], [0.5, 1.0], [1.0, -1.0], [1.0, 1.0]])
 
     def test_failures_can_be_replayed(self):
         records = sorted((self.out / "failures").glob("*.json"))
