@@ -83,6 +83,7 @@ void interrupt_program(const std::vector<std::string>& arguments, const fs::path
 Outcome stop_program(const std::vector<std::string>& arguments, const fs::path& folder, int signal,
                      const std::function<bool()>& is_time, std::size_t largest_file) {
   const fs::path out = beside(folder, ".out"), err = beside(folder, ".err");
+  for (const fs::path& file : {out, err}) write_text(file, "");  // it may be stopped before it opens them
   const pid_t child = start(arguments, folder, out, err, largest_file);
   Outcome outcome;
   int status = 0;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/run/block_scene.h"
 #include "cli/run/stopped_run.h"
 
 namespace cellwalk::test {
@@ -21,6 +22,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 const std::string data = CELLWALK_SHIPPED_DATA;
+
+/// Stands for a scene that the test writes.
+const std::string block = "../scene.json";
 
 struct Kind {
   const char* name;
@@ -47,6 +51,8 @@ const std::vector<Kind> kinds{
      7},
     {"cut", {data + "/cut.json", "--set", "changes[1].step=12"}, 36, 4},
     {"suture", {data + "/suture.json", "--set", "changes[1].step=8", "--set", "changes[2].step=20"}, 32, 4},
+    {"motion", {block}, block_steps, 4},
+    {"relax", {block, "--set", "walls.relax={}"}, block_steps, 4},
 };
 
 class Stops : public Stopped_run, public testing::WithParamInterface<Kind> {
@@ -100,6 +106,7 @@ TEST_P(Stops, LeaveTheSameBytes) {
   if (const char* const seed = std::getenv("CELLWALK_TEST_SEED")) random_ = Random(std::stoull(seed));
   std::vector<std::string> arguments = kind.arguments;
   arguments.insert(arguments.end(), {"--steps", std::to_string(kind.steps)});
+  if (arguments.front() == block) write_block_scene(path("."), 3);
   const auto began = Clock::now();
   run_whole(arguments);
   if (HasFatalFailure()) return;
