@@ -137,7 +137,7 @@ def without_comments(text):
 def reseeded(node, number):
     """A scene whose seeds are others."""
     if isinstance(node, dict):
-        return {k: v + 1000 * number if k == "seed" else reseeded(v, number) for k, v in node.items()}
+        return {k: (v + 1000 * number) % 2**32 if k == "seed" else reseeded(v, number) for k, v in node.items()}
     return [reseeded(v, number) for v in node] if isinstance(node, list) else node
 
 
