@@ -22,7 +22,7 @@ STEPS = {"soft_vessel": 100, "pulse": 100, "suture": 100, "cut": 100}
 LONG_SCENE, LONG_STEPS = "pulse", 1500
 GROWTH = 1.02, 2**20  # by which memory may grow in the second half of a long run: a factor, and bytes
 # What a test says where its worlds had too little of something. Its own worlds have enough; of others that is no finding.
-FEW = re.compile(r"Expected: (\(.+\) >=? \(.+\), actual: \d+ vs \d+)$")
+FEW = re.compile(r"Expected: (\(.+\) >=? \(.+\), actual: \d+ vs [\d.]+)$")
 SLOW = 5              # times as long as in the first round: noted, no finding
 
 
@@ -137,7 +137,7 @@ def without_comments(text):
 def reseeded(node, number):
     """A scene whose seeds are others."""
     if isinstance(node, dict):
-        return {k: v + 1000 * number if k == "seed" else reseeded(v, number) for k, v in node.items()}
+        return {k: (v + 1000 * number) % 2**32 if k == "seed" else reseeded(v, number) for k, v in node.items()}
     return [reseeded(v, number) for v in node] if isinstance(node, list) else node
 
 

@@ -62,6 +62,9 @@ Cell_soup<D> editable_world(std::uint64_t i) {
   if (D == 3 && i % 3 == 0) {
     auto options = mixed_lattice_world<D>(seed);
     options.cells.fill(2);
+    const Cell_soup<D> soup = lattice_world(options);
+    if (soup.cell_count() > 0) return soup;
+    options.removed_share = 0;  // all cells were left out
     return lattice_world(options);
   }
   auto flat = mixed_lattice_world<2>(seed);

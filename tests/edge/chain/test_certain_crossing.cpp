@@ -119,6 +119,19 @@ TEST(CertainCrossing, LeavesWhatMayUnderflowOrOverflowOpen) {
             Crossing_proof::none);
 }
 
+TEST(CertainCrossing, IsRightWhereProductsUnderflow) {
+  Random random(6);
+  Seen seen;
+  for (int i = 0; i < 20'000; ++i) {
+    Points x = near_degenerate(random, 1 + i % 3);
+    const int exponent = -300 - static_cast<int>(random.below(60));
+    for (Point<3>& point : x)
+      for (double& c : point) c = std::ldexp(c, exponent);
+    judge(x, seen);
+  }
+  EXPECT_EQ(seen.wrong, 0);
+}
+
 /// Differences of very different sizes: the bound is that of the greatest.
 TEST(CertainCrossing, IsRightFarFromTheOriginAndForFlatTriangles) {
   Random random(5);
