@@ -184,10 +184,22 @@ def boxes_apart(first, second):
     )
 
 
+def is_beside(points, triangle):
+    """True if all points lie strictly on one side of the plane of a triangle."""
+    n = cross(sub(triangle[1], triangle[0]), sub(triangle[2], triangle[0]))
+    sides = {sign(dot(n, sub(p, triangle[0]))) for p in points}
+    return sides == {1} or sides == {-1}
+
+
+def are_apart(points, simplex):
+    """True proves that the hull of points does not meet a simplex; False proves nothing."""
+    return boxes_apart(points, simplex) or (len(simplex) == 3 and is_beside(points, simplex))
+
+
 def common_points(first, second):
     """Points of the intersection, all its corners among them."""
     found = set()
-    if boxes_apart(first, second):
+    if are_apart(first, second):
         return found
     for f in FACES[len(first)]:
         o = first[f[0]]
@@ -286,13 +298,8 @@ def critical_times(moving, still):
 def touch_of(shape, vertex, target, wall, limit):
     """The infimum, before a limit, of the times at which the wall meets a point that was not in the object at the start."""
     rest = [p for i, p in enumerate(shape) if i != vertex]
-    if boxes_apart(shape + [target], wall):
+    if are_apart(shape + [target], wall):
         return None
-    if len(wall) == 3:
-        n = cross(sub(wall[1], wall[0]), sub(wall[2], wall[0]))
-        heights = {sign(dot(n, sub(p, wall[0]))) for p in shape + [target]}
-        if heights == {1} or heights == {-1}:
-            return None
 
     def new_points_at(t):
         moved = list(shape)
@@ -504,6 +511,78 @@ def pierced_at(a, b, q, wall):
     return min(times)
 
 
+def touching_times(world, shape, vertex, target):
+    """When an object meets walls: its times, ascending, each with whether it goes on to meet one of them."""
+    times = {}
+    rest = [p for i, p in enumerate(shape) if i != vertex]
+    for wall in world.walls:
+        if are_apart(shape + [target], wall):
+            continue
+
+        def meets_at(t):
+            moved = list(shape)
+            moved[vertex] = at(shape[vertex], target, t)
+            return meets(moved, wall)
+
+        critical = critical_times((shape[vertex], target), rest + list(wall))
+        for t, after in zip(critical, critical[1:] + [None]):
+            goes_on = after is not None and meets_at((t + after) / 2)
+            if goes_on or meets_at(t):
+                times[t] = times.get(t, False) or goes_on
+    return sorted(times.items())
+
+
+def sweep_truth(world, shapes, moves, side):
+    """Whether the walls alone determine if an edge is blocked, and where: None, or (move, time).
+
+    They do where the edge meets walls at single times only: there each point of it must leave on the side from which it came. If it goes
+    on to meet a wall, they do if a point of it can go on on no side.
+    """
+    come_from = {}  # the directions from which points of the edge came to where they are, off the walls
+    for m, move in enumerate(moves):
+        vertex, target = move["vertex"], vec(move["to"])
+        p, q = shapes[m][vertex], shapes[m][1 - vertex]
+        d = sub(target, p)
+        if d == (0, 0, 0):
+            continue
+        in_line = cross(d, sub(q, p)) == (0, 0, 0)
+        for t, goes_on in touching_times(world, shapes[m], vertex, target):
+            now = at(p, target, t)
+            edge = [now, q]
+            cuts = {x for wall in world.walls for x in common_points(edge, wall)}
+            cuts |= {at(x, y, Fraction(1, 2)) for x in cuts for y in cuts}
+            leaves, decided = {}, True
+            for y in cuts:
+                if y == q or (in_line and y != now):
+                    decided = False
+                    continue
+                k = max(range(3), key=lambda i: abs(now[i] - q[i]))
+                share = (y[k] - q[k]) / (now[k] - q[k])
+                onward = tuple(share * c for c in d)
+                came = tuple(-c for c in onward)
+                if t == 0:
+                    if m == 0:
+                        came = tuple(share * c for c in sub(side[vertex], p))
+                    else:
+                        came = come_from.get(y)
+                if came is None or came == (0, 0, 0):
+                    decided = False
+                    continue
+                leaves[y] = came
+                if t == 1:
+                    continue
+                sides = Sides(world, y)
+                before = sides.side_of(sides.with_direction(came)[0])
+                after = {sides.side_of(c) for c in sides.with_direction(onward)}
+                if before not in after:
+                    return True, (m, t)
+            if t == 1:
+                come_from = leaves
+            if goes_on or not decided:
+                return False, None
+    return True, None
+
+
 class Checker:
     def __init__(self, worlds):
         self.worlds = {name: World(record) for name, record in worlds.items()}
@@ -589,22 +668,24 @@ class Checker:
         self.determined["walk", True] += 1
 
     def sweep_faults(self, world, case, shapes):
-        """What the walls alone say of a crossing: none before something is touched, and one where a wall passes through the edge."""
+        """What the walls alone say of a crossing: all, or where a wall passes through the edge, and that something is touched before."""
         times = [(c["move"], Fraction(c["time"])) for c in case["crossings"]]
-        first = None
         for m, move in enumerate(case["moves"]):
             a, b, q = shapes[m][move["vertex"]], vec(move["to"]), shapes[m][1 - move["vertex"]]
             passed = [t for t in (pierced_at(a, b, q, wall) for wall in world.walls) if t is not None]
             if passed:
                 first = (m, min(passed))
+                if case["crossing"] != "yes" or times[-1] > first:
+                    yield f"a wall passes through the edge at {first}"
                 break
-        if first and (case["crossing"] != "yes" or times[-1] > first):
-            yield f"a wall passes through the edge at {first}"
         touch = (case["touch"]["move"], Fraction(case["touch"]["time"])) if case["touch"] else None
         if times and not case["at_start"] and (touch is None or times[0] < touch):
             yield "a crossing before a touch"
-        free = touch is None and not case["at_start"]
-        self.determined["sweep", free or (first is not None and times[:1] == [first] and not case["at_start"] and touch == first)] += 1
+        side = [vec(p) for p in case["side"]] if case["side"] else None
+        is_known, crossing = sweep_truth(world, shapes, case["moves"], side)
+        if is_known and times != ([] if crossing is None else [crossing]):
+            yield f"crossing is {crossing}"
+        self.determined["sweep", is_known] += 1
 
     def convention_faults(self, case):
         touch = (case["touch"]["move"], case["touch"]["time"]) if case["touch"] else None

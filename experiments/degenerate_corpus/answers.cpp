@@ -38,10 +38,13 @@ template <int D>
 class Answerer {
  public:
   explicit Answerer(const std::filesystem::path& file)
-      : environment_(Environment<D>::build(std::get<Cell_soup<D>>(io::read_ovm(file).mesh))),
+      : environment_(Environment<D>::build(std::get<Cell_soup<D>>(io::read_ovm(file).mesh),
+                                           {.duplicates = Duplicate_vertices::keep})),
         locator_(environment_.snapshot()) {}
 
-  Row answer(const Case<D>& c, Touch touch) const { return c.points.size() == 1 ? walk(c, touch) : body(c, touch); }
+  Row answer(const Case<D>& c, Touch touch) const {
+    return c.points.size() == 1 ? walk(c, touch) : body(c, touch);
+  }
 
  private:
   Row walk(const Case<D>& c, Touch touch) const {
@@ -73,7 +76,7 @@ class Answerer {
     Body_options options;
     options.sweep.sweep = soup.faces.empty() ? Sweep::triangle : Sweep::faces;
     Body_counts counts;
-    for (std::uint32_t v = 0; v < c.side.size(); ++v)
+    for (std::uint32_t v = static_cast<std::uint32_t>(c.side.size()); v-- > 0;)
       if (body.move_vertex(v, c.points[v], options, counts))
         throw std::runtime_error(c.id + ": the body does not come to its start");
     options.sweep.touch = touch;
@@ -88,8 +91,8 @@ class Answerer {
 };
 
 template <int D>
-Row answer_in(std::map<std::string, std::unique_ptr<Answerer<D>>>& worlds, const std::filesystem::path& folder,
-              const nlohmann::ordered_json& json, Touch touch) {
+Row answer_in(std::map<std::string, std::unique_ptr<Answerer<D>>>& worlds,
+              const std::filesystem::path& folder, const nlohmann::ordered_json& json, Touch touch) {
   const std::string name = json.at("world");
   auto& world = worlds[name];
   if (!world) world = std::make_unique<Answerer<D>>(folder / "worlds" / (name + ".ovm"));

@@ -7,8 +7,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Meeting& m) {
-  return {{"move", m.move},       {"time", text(m.time)},  {"rounded", rounded(m.time)},
-          {"feature", m.feature}, {"walls", m.walls}, {"wall_kinds", m.wall_kinds}};
+  return {{"move", m.move},       {"time", text(m.time)}, {"rounded", rounded(m.time)},
+          {"feature", m.feature}, {"walls", m.walls},     {"wall_kinds", m.wall_kinds}};
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ Case<D> question(const Json& json) {
   return c;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                            \
-  template std::vector<Vec> pose<D>(const Case<D>&, std::uint32_t, const Rational&);       \
-  template const char* convention<D>(const Case<D>&);                                      \
-  template Json to_json<D>(const Case<D>&, const char*, const World<D>&);                  \
-  template Json to_json<D>(const World<D>&);                                               \
+#define CELLWALK_INSTANTIATE(D)                                                      \
+  template std::vector<Vec> pose<D>(const Case<D>&, std::uint32_t, const Rational&); \
+  template const char* convention<D>(const Case<D>&);                                \
+  template Json to_json<D>(const Case<D>&, const char*, const World<D>&);            \
+  template Json to_json<D>(const World<D>&);                                         \
   template Case<D> question<D>(const Json&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

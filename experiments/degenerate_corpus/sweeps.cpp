@@ -49,8 +49,8 @@ class Sweep_maker final : public Maker<D> {
     }
     const bool moves_both = source_.random().below(3) == 0;
     for (std::uint32_t v = 0; v < (moves_both ? 2u : 1u); ++v) {
-      if (oracle::Motion_kind::in_wall_plane != kind && oracle::Motion_kind::along_edge != kind)
-        do kind = source_.kind(false);
+      if (kind != oracle::Motion_kind::in_wall_plane && kind != oracle::Motion_kind::along_edge) do
+          kind = source_.kind(false);
         while (kind == oracle::Motion_kind::in_wall_plane || kind == oracle::Motion_kind::along_edge);
       c.moves.push_back({v, source_.target(kind, c.points[v], c.points[v])});
     }
@@ -87,7 +87,8 @@ class Sweep_maker final : public Maker<D> {
       const std::vector<Point<D>> side{points[0] + away, points[1] + away};
       if (meets_walls<D>(world_, side)) continue;
       const std::vector<Point<D>> half{side[0], points[1]};
-      if (first_touch<D>(world_, points, {0, side[0]}) || first_touch<D>(world_, half, {1, side[1]})) continue;
+      if (first_touch<D>(world_, points, {0, side[0]}) || first_touch<D>(world_, half, {1, side[1]}))
+        continue;
       return side;
     }
     return {};
@@ -102,7 +103,7 @@ class Sweep_maker final : public Maker<D> {
     if (found.contact) return {};
     Edge<D> edge{*p, *q, found.chain};
     if (c.side.empty()) return edge;
-    for (const std::uint32_t v : {0u, 1u}) {
+    for (const std::uint32_t v : {1u, 0u}) {  // the way of find_side() back
       const auto judged = judge_move(edge, {v, c.points[v]});
       if (!judged || judged->crossing != Crossing::no) return {};
     }
@@ -143,9 +144,9 @@ class Sweep_maker final : public Maker<D> {
       judged.times.push_back(to_rational(trace.events[static_cast<std::size_t>(truth.stops[0].event)]));
     std::ranges::sort(judged.times);
     judged.times.erase(std::unique(judged.times.begin(), judged.times.end()), judged.times.end());
-    judged.crossing = judged.times.empty()                     ? Crossing::no
+    judged.crossing = judged.times.empty()                 ? Crossing::no
                       : !blocked && outcomes.may_be_free() ? Crossing::either
-                                                               : Crossing::yes;
+                                                           : Crossing::yes;
     if (judged.crossing == Crossing::no) edge = {p, edge.q, result.chain};
     // What has several ends goes on from one of them only.
     if (judged.crossing == Crossing::no && outcomes.choices > 0) return {};

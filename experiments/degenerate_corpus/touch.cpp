@@ -22,36 +22,27 @@ test::Rational_touch touch_of(const World<D>& world, const Wall<D>& wall, std::s
 }
 
 template <int D>
-std::vector<Vec> feature_points(const World<D>& world, std::initializer_list<std::uint32_t> vertices) {
-  std::vector<Vec> result;
-  for (const std::uint32_t v : vertices) result.push_back(exact<D>(world.soup.points[v]));
-  return result;
-}
-
-template <int D>
 std::string lowest_feature(const World<D>& world, std::span<const Vec> object) {
-  for (const std::uint32_t v : world.vertices)
-    if (meet(object, feature_points(world, {v}))) return "vertex";
-  for (const Wall_edge& e : world.edges)
-    if (meet(object, feature_points(world, {e.u, e.v}))) return "edge";
-  return "facet";
+  const auto is_met = [&](const std::vector<Vec>& feature) { return meet(object, feature); };
+  if (std::ranges::any_of(world.vertex_points, is_met)) return "vertex";
+  return std::ranges::any_of(world.edge_points, is_met) ? "edge" : "facet";
 }
 
 template <int D>
 std::vector<std::uint32_t> walls_met(const World<D>& world, std::span<const Vec> object) {
   std::vector<std::uint32_t> result;
   for (std::uint32_t i = 0; i < world.walls.size(); ++i)
-    if (meet(object, world.corners(world.walls[i]))) result.push_back(i);
+    if (meet(object, world.wall_points[i])) result.push_back(i);
   return result;
 }
 
 /// Walls that the object meets at both of two times and between them, in whose plane it moves.
 template <int D>
 bool slides(const World<D>& world, const Case<D>& c, std::uint32_t move, const Rational& until) {
-  const std::vector<Vec> early = pose(c, move, Rational(until / 3)), late = pose(c, move, Rational(until / 2));
-  return until > 0 && std::ranges::any_of(world.walls, [&](const Wall<D>& wall) {
-           const std::vector<Vec> corners = world.corners(wall);
-           return meet(early, corners) && meet(late, corners);
+  const std::vector<Vec> early = pose(c, move, Rational(until / 3)),
+                         late = pose(c, move, Rational(until / 2));
+  return until > 0 && std::ranges::any_of(world.wall_points, [&](const std::vector<Vec>& wall) {
+           return meet(early, wall) && meet(late, wall);
          });
 }
 
@@ -105,8 +96,8 @@ void find_touch(const World<D>& world, Case<D>& c) {
 
 template <int D>
 std::string degeneracy(const World<D>& world, const Case<D>& c) {
-  const bool moves = std::ranges::any_of(
-      c.moves, [&](const Move<D>& m) { return m.to != c.points[m.vertex]; });
+  const bool moves =
+      std::ranges::any_of(c.moves, [&](const Move<D>& m) { return m.to != c.points[m.vertex]; });
   if (!moves) return c.at_start ? "zero_length_on_wall" : "zero_length";
   const auto last = [&](std::uint32_t m) {
     return !c.crossings.empty() && c.crossings[0].move == m ? c.crossings[0].time : Rational(1);
@@ -125,11 +116,12 @@ std::string degeneracy(const World<D>& world, const Case<D>& c) {
   return (blocked_there ? "hits_" : "touches_") + c.touch->feature;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                              \
-  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                                  \
-  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>, const Move<D>&); \
-  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&);              \
-  template void find_touch<D>(const World<D>&, Case<D>&);                                                    \
+#define CELLWALK_INSTANTIATE(D)                                                                 \
+  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                     \
+  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>,   \
+                                                  const Move<D>&);                              \
+  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&); \
+  template void find_touch<D>(const World<D>&, Case<D>&);                                       \
   template std::string degeneracy<D>(const World<D>&, const Case<D>&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

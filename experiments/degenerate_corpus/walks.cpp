@@ -15,7 +15,10 @@ template <int D>
 class Walk_maker final : public Maker<D> {
  public:
   Walk_maker(const World<D>& world, std::uint64_t seed)
-      : world_(world), oracle_(world.soup), source_world_{"", world.soup, true}, source_(source_world_, seed) {}
+      : world_(world),
+        oracle_(world.soup),
+        source_world_{"", world.soup, true},
+        source_(source_world_, seed) {}
 
   std::optional<Case<D>> propose() override {
     const oracle::Motion_kind kind = source_.kind(source_.random().below(12) == 0);
@@ -47,8 +50,7 @@ class Walk_maker final : public Maker<D> {
     std::ranges::sort(events);
     events.erase(std::unique(events.begin(), events.end()), events.end());
     for (const int e : events)
-      c.crossings.push_back(
-          meeting(world_, c, 0, to_rational(trace.events[static_cast<std::size_t>(e)])));
+      c.crossings.push_back(meeting(world_, c, 0, to_rational(trace.events[static_cast<std::size_t>(e)])));
     return true;
   }
 

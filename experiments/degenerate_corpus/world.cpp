@@ -76,11 +76,16 @@ void add_features(World<D>& world) {
       ++uses[{wall.facet, std::min(u, v), std::max(u, v)}];
     }
   }
-  world.vertices.assign(vertices.begin(), vertices.end());
+  const auto point = [&](std::uint32_t v) { return exact<D>(world.soup.points[v]); };
+  for (const std::uint32_t v : vertices) world.vertex_points.push_back({point(v)});
   std::set<std::array<std::uint32_t, 2>> edges;
   for (const auto& [side, count] : uses)
     if (count == 1) edges.insert({side[1], side[2]});
-  for (const auto& [u, v] : edges) world.edges.push_back({u, v});
+  for (const auto& [u, v] : edges) world.edge_points.push_back({point(u), point(v)});
+  for (const Wall<D>& wall : world.walls) {
+    std::vector<Vec>& corners = world.wall_points.emplace_back();
+    for (const std::uint32_t v : wall.corners) corners.push_back(point(v));
+  }
 }
 
 template <int D>
@@ -94,13 +99,6 @@ World<D> make_world(const std::string& name, const Lattice_world_options<D>& opt
 }
 
 }  // namespace
-
-template <int D>
-std::vector<Vec> World<D>::corners(const Wall<D>& wall) const {
-  std::vector<Vec> result;
-  for (const std::uint32_t v : wall.corners) result.push_back(exact<D>(soup.points[v]));
-  return result;
-}
 
 template <int D>
 std::vector<World<D>> make_worlds() {
@@ -172,11 +170,7 @@ std::vector<World<D>> make_worlds() {
   return worlds;
 }
 
-#define CELLWALK_INSTANTIATE(D)   \
-  template struct World<D>;       \
-  template std::vector<World<D>> make_worlds<D>();
-CELLWALK_INSTANTIATE(2)
-CELLWALK_INSTANTIATE(3)
-#undef CELLWALK_INSTANTIATE
+template std::vector<World<2>> make_worlds<2>();
+template std::vector<World<3>> make_worlds<3>();
 
 }  // namespace cellwalk::corpus

@@ -30,20 +30,13 @@ struct Wall {
   Wall_kind kind = Wall_kind::solid;
 };
 
-/// A feature of the walls.
-struct Wall_edge {
-  std::uint32_t u, v;
-};
-
 template <int D>
 struct World {
   std::string name;
   Cell_soup<D> soup;
   std::vector<Wall<D>> walls;
-  std::vector<Wall_edge> edges;         ///< 3D: sides of walls, but for those within a facet
-  std::vector<std::uint32_t> vertices;  ///< of walls
-
-  std::vector<Vec> corners(const Wall<D>& wall) const;
+  /// Walls, their sides but for those within a facet (3D), and their vertices, as rational points.
+  std::vector<std::vector<Vec>> wall_points, edge_points, vertex_points;
 };
 
 /// All worlds, in order.
