@@ -318,11 +318,13 @@ def touch_of(shape, vertex, target, wall, limit):
 
 
 def first_touch(world, shape, vertex, target):
+    """The first touch of the object or of its moving vertex, each off its own start."""
     best = None
     for wall in world.walls:
-        t = touch_of(shape, vertex, target, wall, best)
-        if t is not None and (best is None or t < best):
-            best = t
+        for part, moving in [(shape, vertex)] + ([([shape[vertex]], 0)] if len(shape) > 1 else []):
+            t = touch_of(part, moving, target, wall, best)
+            if t is not None and (best is None or t < best):
+                best = t
     return best
 
 

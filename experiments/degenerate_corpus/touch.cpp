@@ -10,15 +10,17 @@
 namespace cellwalk::corpus {
 namespace {
 
-/// By the rational arithmetic of the tests.
+/// The first touch of a wall, by the rational arithmetic of the tests.
 template <int D>
-test::Rational_touch touch_of(const World<D>& world, const Wall<D>& wall, std::span<const Point<D>> points,
-                              const Move<D>& move) {
+std::optional<Rational> touch_of(const World<D>& world, const Wall<D>& wall, std::span<const Point<D>> points,
+                                 const Move<D>& move) {
   std::vector<Point<3>> obstacle;
   for (const std::uint32_t v : wall.corners) obstacle.push_back(embedded<D>(world.soup.points[v]));
   const Point<3> from = embedded<D>(points[move.vertex]), to = embedded<D>(move.to);
-  if (points.size() == 1) return test::touch_of_point(from, to, obstacle);
-  return test::touch_of_edge(from, to, embedded<D>(points[1 - move.vertex]), obstacle);
+  const auto of_point = test::touch_of_point(from, to, obstacle).later;
+  if (points.size() == 1) return of_point;
+  const auto of_edge = test::touch_of_edge(from, to, embedded<D>(points[1 - move.vertex]), obstacle).later;
+  return !of_edge || (of_point && *of_point < *of_edge) ? of_point : of_edge;
 }
 
 template <int D>
@@ -61,7 +63,7 @@ std::optional<Rational> first_touch(const World<D>& world, std::span<const Point
   if (points.size() > 2) throw std::invalid_argument("a point or an edge");
   std::optional<Rational> first;
   for (const Wall<D>& wall : world.walls) {
-    const auto later = touch_of<D>(world, wall, points, move).later;
+    const auto later = touch_of<D>(world, wall, points, move);
     if (later && (!first || *later < *first)) first = later;
   }
   return first;

@@ -14,7 +14,8 @@ namespace cellwalk::corpus {
 template <int D>
 bool meets_walls(const World<D>& world, std::span<const Point<D>> points);
 
-/// The infimum of the times at which a point that was not in the object at the start of a move meets a wall.
+/// The infimum of the times at which a wall meets a point of the object that was not in it at the start of a
+/// move, or the moving vertex elsewhere than at its start.
 /// \pre at most two points
 template <int D>
 std::optional<Rational> first_touch(const World<D>& world, std::span<const Point<D>> points,
