@@ -60,8 +60,10 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratc
   };
   if (walked.contact)
     keep(vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex);
-  else if (options.touch == Touch::stop)
-    if (const auto touch = first_touch(snapshot, from, target, counts.edges)) keep(*touch, vertex);
+  // A vertex may touch, before it is blocked, what no edge touches off its start: edges may lie in its line.
+  if (options.touch == Touch::stop && !(any && first))
+    if (const auto touch = first_touch(snapshot, from, target, counts.edges))
+      if (!first || meets_before(*touch, *first)) keep(*touch, vertex);
   if (any && first) return first;
 
   scratch.chains.resize(corners.size());

@@ -70,6 +70,24 @@ TEST(BodyStep, RejectsMovesThatMeetWalls) {
   EXPECT_NO_THROW(body.validate());
 }
 
+TEST(BodyStep, TouchesCountBeforeAVertexIsBlocked) {
+  const Snapshot<2> snapshot = rooms<2>({4, 4}, {});
+  const Locator<2> locator(snapshot);
+  Body_options options;
+  Body_counts counts;
+  // On the floor, along it, and through the wall at its end: by itself, and through an edge in its line.
+  for (const std::vector<std::array<std::uint32_t, 2>>& edges :
+       {std::vector<std::array<std::uint32_t, 2>>{}, {{0, 1}}}) {
+    Body<2> body(snapshot, locator, {{{1, 0}, {2, 0}}, edges, {}});
+    for (const auto& [touch, time] : {std::pair{Touch::pass, 0.6}, {Touch::stop, 0.0}}) {
+      options.sweep.touch = touch;
+      const auto contact = body.move_vertex(0, {6, 0}, options, counts);
+      ASSERT_TRUE(contact);
+      EXPECT_DOUBLE_EQ(contact->rounded_time(), time) << edges.size() << " edges";
+    }
+  }
+}
+
 TEST(BodyStep, SlidesAlongAnObliqueWall) {
   // A channel whose floor rises: by no angle at which anything is a double.
   Cell_soup<2> soup;

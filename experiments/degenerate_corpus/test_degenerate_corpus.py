@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The corpus in data/degenerate: made again it is the same, its checker verifies it and sees damage, and Cellwalk answers all of it.
+
+usage: test_degenerate_corpus.py PROGRAM
+"""
+
+import csv
+import filecmp
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+CORPUS = Path(__file__).resolve().parents[2] / "data" / "degenerate"
+CHECKER = CORPUS / "check.py"
+KINDS = ["walks", "sweeps"]
+BY_HAND = {"README.md", "check.py"}
+PROGRAM = None
+
+
+def cases_of(folder):
+    return [json.loads(line) for kind in KINDS for line in (folder / f"{kind}.jsonl").read_text().splitlines()]
+
+
+def check(*options):
+    done = subprocess.run([sys.executable, str(CHECKER), *map(str, options)], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Corpus(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def answers(self, touch):
+        table = self.folder / f"{touch}.csv"
+        subprocess.run([PROGRAM, "--in", CORPUS, "--answers", table, "--touch", touch], check=True)
+        return table
+
+    def test_is_reproduced(self):
+        subprocess.run([PROGRAM, "--out", self.folder], check=True, stdout=subprocess.DEVNULL)
+        made = sorted(p.relative_to(self.folder) for p in self.folder.rglob("*") if p.is_file())
+        kept = sorted(p.relative_to(CORPUS) for p in CORPUS.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
+        self.assertEqual(made, [p for p in kept if str(p) not in BY_HAND])
+        for name in made:
+            self.assertTrue(filecmp.cmp(self.folder / name, CORPUS / name, shallow=False), name)
+        self.assertLess(sum((CORPUS / name).stat().st_size for name in made), 1_000_000)
+
+    def test_has_both_answers_everywhere(self):
+        cases = cases_of(CORPUS)
+        for kind in ("walk", "sweep"):
+            for dimension in (2, 3):
+                some = [c for c in cases if c["kind"] == kind and len(c["points"][0]) == dimension]
+                crossings = Counter(c["crossing"] for c in some)
+                self.assertGreater(len(some), 150)
+                self.assertGreater(crossings["yes"], 40)
+                self.assertGreater(crossings["no"], 40)
+                self.assertGreater(sum(c["convention"] == "none" for c in some), 40)
+                self.assertGreater(sum(c["near"] is not None for c in some), 20)
+                self.assertGreater(len({c["degeneracy"] for c in some}), 8)
+        kinds = Counter(k for c in cases if c["touch"] for k in c["touch"]["wall_kinds"])
+        self.assertTrue(all(kinds[k] > 30 for k in ("solid", "membrane", "slit")), kinds)
+        self.assertTrue(all(len(c["moves"]) == 1 for c in cases if c["kind"] == "walk"))
+        self.assertGreater(sum(len(c["moves"]) == 2 for c in cases), 50)
+
+    def test_is_verified(self):
+        code, text = check()
+        self.assertEqual(0, code, text)
+        self.assertIn(" 0 wrong", text)
+
+    def test_cellwalk_answers_all(self):
+        for touch, definition in (("pass", "crossing"), ("stop", "touch")):
+            table = self.answers(touch)
+            code, text = check("--answers", table, "--definition", definition, "--tolerance", 0, "--strict")
+            self.assertEqual(0, code, text)
+            self.assertEqual(0, check("--answers", table)[0])
+            self.assertEqual(len(cases_of(CORPUS)), len(table.read_text().splitlines()) - 1)
+
+    def damaged(self, change):
+        """What the checker says of a corpus of one case, changed."""
+        case = next(c for c in cases_of(CORPUS) if c["convention"] == "none" and c["touch"] and Probe.has_room(c))
+        change(case)
+        for kind in KINDS:
+            (self.folder / f"{kind}.jsonl").write_text(json.dumps(case) + "\n" if kind == case["kind"] + "s" else "")
+        (self.folder / "worlds.jsonl").write_bytes((CORPUS / "worlds.jsonl").read_bytes())
+        return check("--in", self.folder)
+
+    def test_checker_sees_a_damaged_corpus(self):
+        self.assertEqual(0, self.damaged(lambda c: None)[0])
+
+        def flip(c):
+            c.update(crossing="no", crossings=[], convention="touch")
+
+        def forget(c):
+            c.update(crossing="no", crossings=[], touch=None)
+
+        def delay(c):
+            for m in (c["touch"], *c["crossings"]):
+                m.update(time="7/8", rounded=0.875)
+
+        def move_target(c):
+            c["moves"][0]["to"][0] += 0.25
+
+        def wrong_wall(c):
+            c["touch"]["walls"][0] += 1
+
+        for change in (flip, forget, delay, move_target, wrong_wall):
+            code, text = self.damaged(change)
+            self.assertEqual(1, code, f"{change.__name__}: {text}")
+
+    def test_checker_sees_damaged_answers(self):
+        table = self.answers("stop")
+        with open(table, newline="") as lines:
+            rows = list(csv.DictReader(lines))
+        contact = next(i for i, r in enumerate(rows) if r["answer"] == "contact" and 0 < Probe.value(r["time"]) < 1)
+        clear = {c["id"] for c in cases_of(CORPUS) if c["touch"] is None and not c["at_start"] and c["crossing"] == "no"}
+        free = next(i for i, r in enumerate(rows) if r["id"] in clear)
+
+        def says(change, definition="touch"):
+            changed = [dict(r) for r in rows]
+            change(changed)
+            out = self.folder / "changed.csv"
+            with open(out, "w", newline="") as file:
+                writer = csv.DictWriter(file, rows[0].keys())
+                writer.writeheader()
+                writer.writerows(changed)
+            code, text = check("--answers", out, "--definition", definition)
+            last = next(line for line in text.splitlines() if line.startswith("all "))
+            return code, dict(zip(["right", "missed", "late", "false", "early", "unanswered"], map(int, last.split()[2:])))
+
+        def miss(r):
+            r[contact].update(answer="free", move="", time="")
+
+        def late(r):
+            r[contact]["time"] = str(Probe.value(r[contact]["time"]) + 1e-6)
+
+        def early(r):
+            r[contact]["time"] = str(Probe.value(r[contact]["time"]) * 0.5)
+
+        def invent(r):
+            r[free].update(answer="contact", move="0", time="0.5")
+
+        def omit(r):
+            del r[free]
+
+        for change, verdict, code in ((miss, "missed", 1), (late, "late", 1), (early, "early", 0), (invent, "false", 0), (omit, "unanswered", 0)):
+            got, counts = says(change)
+            self.assertEqual((code, 1), (got, counts[verdict]), f"{verdict}: {counts}")
+            self.assertEqual(len(rows) - 1, counts["right"])
+
+
+class Probe:
+    @staticmethod
+    def value(text):
+        p, _, q = text.partition("/")
+        return int(p) / int(q or 1)
+
+    @staticmethod
+    def has_room(case):
+        return len(case["moves"]) == 1 and 0 < case["touch"]["rounded"] < 0.75 and case["kind"] == "walk"
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
