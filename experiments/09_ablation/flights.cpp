@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "flights.h"
+
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/kernel/random.h>
+#include <cellwalk/loading/generators.h>
+#include <cellwalk/walk/locate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "common/processor_time.h"
+
+namespace cellwalk::ablation {
+namespace {
+
+/// A way to walk.
+struct Way {
+  const char* name;
+  Walk_result<3> (*move)(const Snapshot<3>&, Particle<3>&, const Point<3>&, Walk_counts&,
+                         const Walk_options&);
+  Walk_strategy strategy;
+  bool forecasts = true;  ///< false: what a particle aimed at is forgotten, so that facets come in order
+  bool is_slow = false;
+};
+
+constexpr Way ways[] = {
+    {"planes", move<Exact, 3>, Walk_strategy::certified},
+    {"planes, no test of the own cell first", detail::move_by_walk<Exact, 3>, Walk_strategy::certified},
+    {"planes, no forecast", move<Exact, 3>, Walk_strategy::certified, false},
+    {"signs, exit rule", move<Exact, 3>, Walk_strategy::exit_rule},
+    {"signs, exit rule, no forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
+    {"signs, predictive simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
+    {"signs, predictive simplex, no forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
+    {"lazy signs, exit rule", move<Lazy, 3>, Walk_strategy::exit_rule},
+    {"rational signs, exit rule", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, true}};
+constexpr std::size_t slow_share = 20;
+
+Environment<3> environment_of(const Flight_setting& setting) {
+  const double n = setting.is_small ? 12 : 46;
+  Generator_values values;
+  if (setting.world == "hexahedra")
+    values = {{"cells", {n}}, {"solid", {0.08}}, {"rotated", {1}}};
+  else if (setting.is_small)
+    values = {{"generations", {1}}, {"cell_size", {0.4}}};
+  const char* name = setting.world == "hexahedra" ? "hexes" : "vessel";
+  return Environment<3>::build(std::get<Cell_soup<3>>(generate(name, values)), build_of_generated);
+}
+
+/// The mean length of the edges of some cells.
+double edge_length(const Snapshot<3>& snapshot, const std::vector<Particle<3>>& particles) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(1000, particles.size()); ++i) {
+    const Cell_view<3> cell = snapshot.view(particles[i].cell);
+    for (std::size_t f = 0; f < cell.facet_count(); ++f) {
+      const auto loop = cell.loop(f);
+      for (std::size_t k = 0; k < loop.size(); ++k, ++count)
+        sum += length(snapshot.point(loop[(k + 1) % loop.size()]) - snapshot.point(loop[k]));
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+std::vector<Particle<3>> starts(const Snapshot<3>& snapshot, std::size_t count, Random& random) {
+  const Locator<3> locator(snapshot);
+  Point<3> low = snapshot.point(0), high = low;
+  for (std::uint32_t i = 1; i < snapshot.point_count(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], snapshot.point(i)[k]);
+      high[k] = std::max(high[k], snapshot.point(i)[k]);
+    }
+  std::vector<Particle<3>> particles;
+  while (particles.size() < count) {
+    const Point<3> x{random.real(low[0], high[0]), random.real(low[1], high[1]),
+                     random.real(low[2], high[2])};
+    if (const auto particle = locator.particle_at(x)) particles.push_back(*particle);
+  }
+  return particles;
+}
+
+Vector<3> random_direction(Random& random) {
+  for (;;) {
+    const Vector<3> v{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
+    const double square = dot(v, v);
+    if (square <= 1 && square > 0x1p-20) return (1 / std::sqrt(square)) * v;
+  }
+}
+
+struct Flight {
+  std::vector<Particle<3>> particles;
+  std::vector<std::uint32_t> contacts;  ///< of each
+  double seconds = 0;
+};
+
+Flight fly(const Snapshot<3>& snapshot, const Way& way, std::vector<Particle<3>> particles,
+           const std::vector<Vector<3>>& moves, std::size_t stride, Walk_counts& counts) {
+  std::vector<std::uint32_t> contacts(particles.size());
+  Walk_options options;
+  options.strategy = way.strategy;
+  options.locates_contact = false;
+  const double start = experiments::processor_seconds();
+  for (std::size_t first = 0; first < moves.size(); first += stride)
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      Particle<3>& p = particles[i];
+      if (!way.forecasts) p.aimed = 0;
+      const Point<3> target = p.position + moves[first + i];
+      contacts[i] += way.move(snapshot, p, target, counts, options).status == Walk_status::contact;
+    }
+  const double seconds = experiments::processor_seconds() - start;
+  return {std::move(particles), std::move(contacts), seconds};
+}
+
+/// How many particles of a flight end elsewhere than those of another.
+std::uint64_t differences(const Flight& flight, const Flight& other) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < flight.particles.size(); ++i)
+    count += flight.particles[i].position != other.particles[i].position ||
+             flight.particles[i].cell != other.particles[i].cell || flight.contacts[i] != other.contacts[i];
+  return count;
+}
+
+}  // namespace
+
+std::vector<Flight_row> run_flights(const Flight_setting& setting, int rounds) {
+  const Environment<3> environment = environment_of(setting);
+  const Snapshot<3>& snapshot = environment.snapshot();
+  Random random(setting.seed);
+  const std::vector<Particle<3>> all = starts(snapshot, setting.particles, random);
+  const std::vector<Particle<3>> few(all.begin(),
+                                     all.begin() + static_cast<std::ptrdiff_t>(all.size() / slow_share));
+  const double length = setting.length * edge_length(snapshot, all);
+  std::vector<Vector<3>> moves(setting.particles * setting.steps);
+  for (Vector<3>& move : moves) move = length * random_direction(random);
+  std::vector<Flight_row> rows;
+  Flight expected;
+  for (const Way& way : ways) {
+    Flight_row& row = rows.emplace_back();
+    Flight flight = fly(snapshot, way, way.is_slow ? few : all, moves, all.size(), row.counts);
+    row.world = setting.world;
+    row.way = way.name;
+    row.length = setting.length;
+    row.cells = snapshot.cell_count();
+    row.moves = flight.particles.size() * setting.steps;
+    for (const std::uint32_t contacts : flight.contacts) row.blocked += contacts;
+    if (rows.size() == 1)
+      expected = std::move(flight);
+    else
+      row.different = differences(flight, expected);
+  }
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (ways[i].is_slow && round > 0) continue;
+      Walk_counts counts;
+      const Flight flight = fly(snapshot, ways[i], ways[i].is_slow ? few : all, moves, all.size(), counts);
+      rows[i].nanoseconds.push_back(1e9 * flight.seconds / static_cast<double>(rows[i].moves));
+    }
+  return rows;
+}
+
+}  // namespace cellwalk::ablation
