@@ -7,10 +7,10 @@
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>
-#include <cmath>
 #include <variant>
 
 #include "common/processor_time.h"
+#include "random_direction.h"
 
 namespace cellwalk::ablation {
 namespace {
@@ -66,10 +66,10 @@ double edge_length(const Snapshot<3>& snapshot, const std::vector<Particle<3>>& 
 std::vector<Particle<3>> starts(const Snapshot<3>& snapshot, std::size_t count, Random& random) {
   const Locator<3> locator(snapshot);
   Point<3> low = snapshot.point(0), high = low;
-  for (std::uint32_t i = 1; i < snapshot.point_count(); ++i)
+  for (const Point<3>& x : snapshot.points())
     for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], snapshot.point(i)[k]);
-      high[k] = std::max(high[k], snapshot.point(i)[k]);
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
     }
   std::vector<Particle<3>> particles;
   while (particles.size() < count) {
@@ -78,14 +78,6 @@ std::vector<Particle<3>> starts(const Snapshot<3>& snapshot, std::size_t count, 
     if (const auto particle = locator.particle_at(x)) particles.push_back(*particle);
   }
   return particles;
-}
-
-Vector<3> random_direction(Random& random) {
-  for (;;) {
-    const Vector<3> v{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
-    const double square = dot(v, v);
-    if (square <= 1 && square > 0x1p-20) return (1 / std::sqrt(square)) * v;
-  }
 }
 
 struct Flight {

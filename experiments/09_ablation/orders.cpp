@@ -10,20 +10,13 @@
 #include <cmath>
 
 #include "box_world.h"
+#include "random_direction.h"
 #include "wall_judge.h"
 
 namespace cellwalk::ablation {
 namespace {
 
 constexpr std::uint32_t period = 4;  // cubes along each axis in which edges start
-
-Vector<3> random_direction(Random& random) {
-  for (;;) {
-    const Vector<3> v{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
-    const double square = dot(v, v);
-    if (square <= 1 && square > 0x1p-20) return (1 / std::sqrt(square)) * v;
-  }
-}
 
 class Motions {
  public:

@@ -119,7 +119,7 @@ void write_orders(const Plan& plan, const fs::path& folder) {
       for (const double step : {0.03125, 0.125, 0.5, 1.0, 2.0})
         settings.push_back({world.name, world.size, motion, world.edge, step,
                             part_seed(plan.seed, "orders", settings.size()),
-                            plan.quick ? std::uint64_t{1'000} : std::uint64_t{100'000}});
+                            plan.quick ? std::uint64_t{500} : std::uint64_t{40'000}});
   const auto tallies = shared_trials(settings.size(), [&](std::size_t i) { return run_orders(settings[i]); });
   io::Csv_writer out(folder / "orders.csv", {"world",
                                              "size",

@@ -16,7 +16,7 @@ targets="ablation cellwalk"
 options=(--threads "$threads") making=()
 if $quick; then options+=(--quick) making+=(--quick); fi
 if ! $counts; then
-  if $quick; then options+=(--rounds 1); else options+=(--rounds 7); fi
+  if $quick; then options+=(--rounds 1); else options+=(--rounds 3); fi
 fi
 python3 experiments/09_ablation/make_scenes.py "$build" "$out/scenes" "${making[@]}"
 "$build/experiments/09_ablation/ablation" "$out/scenes/scenes.json" --out "$out" --commit "$commit" "${options[@]}"

@@ -60,7 +60,9 @@ TEST(WallJudge, AgreesWithManyPositionsInBetween) {
     }
     const Verdict verdict = judge.judge(e);
     ASSERT_NE(verdict, Verdict::undecided);
-    if (is_met) EXPECT_EQ(verdict, Verdict::blocked) << trial;
+    if (is_met) {
+      EXPECT_EQ(verdict, Verdict::blocked) << trial;
+    }
     blocked += verdict == Verdict::blocked;
     free += verdict == Verdict::free;
     only_between += verdict == Verdict::blocked && !is_met;

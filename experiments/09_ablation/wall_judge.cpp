@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "wall_judge.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 namespace cellwalk::ablation {
 namespace {
 
-using Fraction = boost::multiprecision::cpp_rational;
+using Fraction = boost::multiprecision::mpq_rational;
 
 template <class Number>
 using Vector_of = std::array<Number, 3>;
@@ -186,33 +186,38 @@ Verdict edge_passes_segment(const Moving_edge& e, const Point<3>& u, const Point
 }
 
 Wall_judge::Box Wall_judge::box_of(std::span<const Point<3>> points) {
-  Box box{points[0], points[0]};
+  Point<3> low = points[0], high = low;
   for (const Point<3>& x : points)
     for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], x[k]);
-      box.high[k] = std::max(box.high[k], x[k]);
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
     }
-  return box;
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
-bool Wall_judge::meet(const Box& x, const Box& y) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (x.low[k] > y.high[k] || y.low[k] > x.high[k]) return false;
-  return true;
+template <class Visit>
+bool Wall_judge::any_near(const Tree& tree, const Box& box, const Visit& visit) {
+  for (auto at = tree.qbegin(boost::geometry::index::intersects(box)); at != tree.qend(); ++at)
+    if (visit(at->second)) return true;
+  return false;
 }
 
 Wall_judge::Wall_judge(const experiments::Wall_mesh& walls) {
   std::set<std::array<std::uint32_t, 2>> known;
-  for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
+  std::vector<std::pair<Box, std::uint32_t>> of_triangles, of_segments;
+  for (std::uint32_t t = 0; t < walls.triangles.size(); ++t) {
     triangles_.push_back({walls.corner(t, 0), walls.corner(t, 1), walls.corner(t, 2)});
-    boxes_.push_back(box_of(triangles_.back()));
+    of_triangles.emplace_back(box_of(triangles_.back()), t);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [i, j] = std::minmax(walls.triangles[t][k], walls.triangles[t][(k + 1) % 3]);
       if (!known.insert({i, j}).second) continue;
-      const std::array ends{walls.points[i], walls.points[j]};
-      segments_.push_back({box_of(ends), ends[0], ends[1]});
+      of_segments.emplace_back(box_of(std::array{walls.points[i], walls.points[j]}),
+                               static_cast<std::uint32_t>(segments_.size()));
+      segments_.push_back({walls.points[i], walls.points[j]});
     }
   }
+  triangle_tree_ = Tree(of_triangles);
+  segment_tree_ = Tree(of_segments);
 }
 
 Verdict Wall_judge::judge(const Moving_edge& edge) const {
@@ -222,24 +227,25 @@ Verdict Wall_judge::judge(const Moving_edge& edge) const {
     is_decided &= verdict != Verdict::undecided;
     return verdict == Verdict::blocked;
   };
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
-    if (meet(boxes_[t], box) && (note(point_meets_triangle(edge.a, edge.b, triangles_[t])) ||
-                                 note(point_meets_triangle(edge.c, edge.d, triangles_[t]))))
-      return Verdict::blocked;
-  for (const Segment& s : segments_)
-    if (meet(s.box, box) && note(edge_passes_segment(edge, s.u, s.v))) return Verdict::blocked;
+  const bool is_blocked = any_near(triangle_tree_, box,
+                                   [&](std::uint32_t t) {
+                                     return note(point_meets_triangle(edge.a, edge.b, triangles_[t])) ||
+                                            note(point_meets_triangle(edge.c, edge.d, triangles_[t]));
+                                   }) ||
+                          any_near(segment_tree_, box, [&](std::uint32_t i) {
+                            return note(edge_passes_segment(edge, segments_[i][0], segments_[i][1]));
+                          });
+  if (is_blocked) return Verdict::blocked;
   return is_decided ? Verdict::free : Verdict::undecided;
 }
 
 Verdict Wall_judge::judge_segment(const Point<3>& p, const Point<3>& q) const {
-  const Box box = box_of(std::array{p, q});
   Verdict result = Verdict::free;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (!meet(boxes_[t], box)) continue;
+  any_near(triangle_tree_, box_of(std::array{p, q}), [&](std::uint32_t t) {
     const Verdict here = point_meets_triangle(p, q, triangles_[t]);
-    if (here == Verdict::blocked) return here;
-    if (here == Verdict::undecided) result = here;
-  }
+    if (here != Verdict::free && result != Verdict::blocked) result = here;
+    return here == Verdict::blocked;
+  });
   return result;
 }
 

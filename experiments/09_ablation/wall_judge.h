@@ -4,9 +4,15 @@
 #ifndef CELLWALK_EXPERIMENTS_ABLATION_WALL_JUDGE_H
 #define CELLWALK_EXPERIMENTS_ABLATION_WALL_JUDGE_H
 
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/peers/wall_mesh.h"
@@ -47,27 +53,26 @@ class Wall_judge {
   /// Judges a motion that begins free: no wall meets the edge at the start. Then the first wall that is met
   /// is met by an end, or in an edge of the wall by the inside of the edge; and where the edge passes the
   /// edge of a wall, there is a wall on one side of it.
-  /// Cost: about 1 ns a triangle, 0.2 us for each near the motion, 50 us for each that rounded numbers do not
-  /// tell apart.
+  /// Cost: 0.2 us a wall near the motion, 0.1 ms for each that rounded numbers do not tell apart.
   Verdict judge(const Moving_edge& edge) const;
 
   /// Whether a wall crosses the segment pq.
   Verdict judge_segment(const Point<3>& p, const Point<3>& q) const;
 
  private:
-  struct Box {
-    Point<3> low, high;
-  };
-  struct Segment {
-    Box box;
-    Point<3> u, v;
-  };
-  static Box box_of(std::span<const Point<3>> points);
-  static bool meet(const Box& x, const Box& y);
+  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Box = boost::geometry::model::box<Corner>;
+  using Tree =
+      boost::geometry::index::rtree<std::pair<Box, std::uint32_t>, boost::geometry::index::rstar<16>>;
 
-  std::vector<Box> boxes_;  ///< of the triangles
+  static Box box_of(std::span<const Point<3>> points);
+  /// Calls visit with the number of each item whose box meets another, until it returns true.
+  template <class Visit>
+  static bool any_near(const Tree& tree, const Box& box, const Visit& visit);
+
   std::vector<std::array<Point<3>, 3>> triangles_;
-  std::vector<Segment> segments_;  ///< the edges of the walls, each once
+  std::vector<std::array<Point<3>, 2>> segments_;  ///< the edges of the walls, each once
+  Tree triangle_tree_, segment_tree_;
 };
 
 }  // namespace cellwalk::ablation
