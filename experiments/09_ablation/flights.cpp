@@ -27,14 +27,14 @@ struct Way {
 
 constexpr Way ways[] = {
     {"planes", move<Exact, 3>, Walk_strategy::certified},
-    {"planes, no test of the own cell first", detail::move_by_walk<Exact, 3>, Walk_strategy::certified},
-    {"planes, no forecast", move<Exact, 3>, Walk_strategy::certified, false},
-    {"signs, exit rule", move<Exact, 3>, Walk_strategy::exit_rule},
-    {"signs, exit rule, no forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
-    {"signs, predictive simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
-    {"signs, predictive simplex, no forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
-    {"lazy signs, exit rule", move<Lazy, 3>, Walk_strategy::exit_rule},
-    {"rational signs, exit rule", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, true}};
+    {"planes_no_own_cell_first", detail::move_by_walk<Exact, 3>, Walk_strategy::certified},
+    {"planes_no_forecast", move<Exact, 3>, Walk_strategy::certified, false},
+    {"signs", move<Exact, 3>, Walk_strategy::exit_rule},
+    {"signs_no_forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
+    {"simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
+    {"simplex_no_forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
+    {"lazy_signs", move<Lazy, 3>, Walk_strategy::exit_rule},
+    {"rational_signs", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, true}};
 constexpr std::size_t slow_share = 20;
 
 Environment<3> environment_of(const Flight_setting& setting) {

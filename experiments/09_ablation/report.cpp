@@ -96,14 +96,14 @@ void write_flights(const Plan& plan, int rounds, const fs::path& folder) {
   for (const Flight_row& r : rows) {
     refuse(r.different, r.world + ", " + r.way);
     const Walk_counts& c = r.counts;
-    out.row(r.world, r.cells, r.length, '"' + r.way + '"', r.moves, r.blocked, r.different, c.crossings,
-            c.plane_blocks, c.uncertain_lanes, c.side_tests, c.along_tests, c.turns,
-            c.predicates.orientations, c.predicates.fallbacks);
+    out.row(r.world, r.cells, r.length, r.way, r.moves, r.blocked, r.different, c.crossings, c.plane_blocks,
+            c.uncertain_lanes, c.side_tests, c.along_tests, c.turns, c.predicates.orientations,
+            c.predicates.fallbacks);
   }
   out.commit();
   if (rounds == 0) return;
   io::Csv_writer times(folder / "flight_times.csv", {"world", "length_over_edge", "way", "ns_per_move"});
-  for (const Flight_row& r : rows) times.row(r.world, r.length, '"' + r.way + '"', time_text(r.nanoseconds));
+  for (const Flight_row& r : rows) times.row(r.world, r.length, r.way, time_text(r.nanoseconds));
   times.commit();
 }
 
