@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Runs the experiment and writes certificates.csv, flights.csv, orders.csv, asked.csv, stops.csv,
-// manifest.json and, if it is to be timed, certificate_times.csv and flight_times.csv.
+// Runs the experiment and writes certificates.csv, flights.csv, orders.csv, asked.csv, stops.csv, forms.csv,
+// manifest.json and, if it is to be timed, certificate_times.csv, flight_times.csv and form_times.csv.
 //
-//   ablation SCENES.json -o DIR [--quick] [--threads N] [--rounds N] [--seed N] [--commit NAME]
+//   ablation SCENES.json -o DIR [--data DIR] [--quick] [--threads N] [--rounds N] [--seed N] [--commit NAME]
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -15,10 +15,11 @@ int main(int argc, char** argv) {
   using namespace cellwalk;
   experiments::silence_later_ranks();
   CLI::App app("What the parts of the method are worth, and what moving one vertex at a time means");
-  std::string scenes, folder;
+  std::string scenes, data, folder;
   experiments::Plan plan;
   app.add_option("list", scenes, "the scenes, as make_scenes.py lists them")->required();
   app.add_option("-o,--out", folder, "folder for the results")->required();
+  app.add_option("--data", data, "a folder of public meshes");
   app.add_flag("--quick", plan.quick, "few trials: what the test compares");
   app.add_option("--threads", plan.threads, "rows at the same time; nothing but times depends on it")
       ->check(CLI::PositiveNumber);
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
   app.add_option("--commit", plan.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);
   return experiments::run_on_ranks("ablation", folder, [&](const std::filesystem::path& of_rank) {
-    ablation::run(plan, scenes, of_rank);
+    ablation::run(plan, scenes, data, of_rank);
     return 0;
   });
 }

@@ -4,13 +4,11 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/loading/generators.h>
-#include <cellwalk/walk/locate.h>
 
-#include <algorithm>
 #include <variant>
 
 #include "common/processor_time.h"
-#include "random_direction.h"
+#include "random_flights.h"
 
 namespace cellwalk::ablation {
 namespace {
@@ -46,38 +44,6 @@ Environment<3> environment_of(const Flight_setting& setting) {
     values = {{"generations", {1}}, {"cell_size", {0.4}}};
   const char* name = setting.world == "hexahedra" ? "hexes" : "vessel";
   return Environment<3>::build(std::get<Cell_soup<3>>(generate(name, values)), build_of_generated);
-}
-
-/// The mean length of the edges of some cells.
-double edge_length(const Snapshot<3>& snapshot, const std::vector<Particle<3>>& particles) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(1000, particles.size()); ++i) {
-    const Cell_view<3> cell = snapshot.view(particles[i].cell);
-    for (std::size_t f = 0; f < cell.facet_count(); ++f) {
-      const auto loop = cell.loop(f);
-      for (std::size_t k = 0; k < loop.size(); ++k, ++count)
-        sum += length(snapshot.point(loop[(k + 1) % loop.size()]) - snapshot.point(loop[k]));
-    }
-  }
-  return sum / static_cast<double>(count);
-}
-
-std::vector<Particle<3>> starts(const Snapshot<3>& snapshot, std::size_t count, Random& random) {
-  const Locator<3> locator(snapshot);
-  Point<3> low = snapshot.point(0), high = low;
-  for (const Point<3>& x : snapshot.points())
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], x[k]);
-      high[k] = std::max(high[k], x[k]);
-    }
-  std::vector<Particle<3>> particles;
-  while (particles.size() < count) {
-    const Point<3> x{random.real(low[0], high[0]), random.real(low[1], high[1]),
-                     random.real(low[2], high[2])};
-    if (const auto particle = locator.particle_at(x)) particles.push_back(*particle);
-  }
-  return particles;
 }
 
 struct Flight {
@@ -119,12 +85,11 @@ std::vector<Flight_row> run_flights(const Flight_setting& setting, int rounds) {
   const Environment<3> environment = environment_of(setting);
   const Snapshot<3>& snapshot = environment.snapshot();
   Random random(setting.seed);
-  const std::vector<Particle<3>> all = starts(snapshot, setting.particles, random);
+  const std::vector<Particle<3>> all = random_starts(snapshot, setting.particles, random);
   const std::vector<Particle<3>> few(all.begin(),
                                      all.begin() + static_cast<std::ptrdiff_t>(all.size() / slow_share));
   const double length = setting.length * edge_length(snapshot, all);
-  std::vector<Vector<3>> moves(setting.particles * setting.steps);
-  for (Vector<3>& move : moves) move = length * random_direction(random);
+  const std::vector<Vector<3>> moves = random_moves(length, setting.particles * setting.steps, random);
   std::vector<Flight_row> rows;
   Flight expected;
   for (const Way& way : ways) {

@@ -19,6 +19,7 @@
 #include "common/seeds.h"
 #include "common/shared.h"
 #include "flights.h"
+#include "forms.h"
 #include "orders.h"
 #include "segments.h"
 
@@ -184,9 +185,27 @@ void write_segments(const std::vector<Scene_entry>& scenes, const fs::path& fold
   stops.commit();
 }
 
+/// \param data a folder of public meshes, or nothing
+void write_forms(const Plan& plan, int rounds, const fs::path& data, const fs::path& folder) {
+  const std::vector<Form_setting> settings = form_settings(plan.quick, data, part_seed(plan.seed, "forms"));
+  const auto rows = joined(shared_trials(
+      settings.size(), [&](std::size_t i) { return run_forms(settings[i], rounds); },
+      rounds > 0 ? Trials::timed : Trials::on_threads));
+  io::Csv_writer out(folder / "forms.csv", {"mesh", "form", "cells_read", "not_planar", "not_convex", "cells",
+                                            "facets", "bytes", "moves", "blocked", "crossings"});
+  for (const Form_row& r : rows)
+    out.row(r.mesh, r.form, r.cells_read, r.not_planar, r.not_convex, r.cells, r.facets, r.bytes, r.moves,
+            r.blocked, r.crossings);
+  out.commit();
+  if (rounds == 0) return;
+  io::Csv_writer times(folder / "form_times.csv", {"mesh", "form", "ns_per_move"});
+  for (const Form_row& r : rows) times.row(r.mesh, r.form, time_text(r.nanoseconds));
+  times.commit();
+}
+
 }  // namespace
 
-void run(const Plan& plan, const fs::path& scenes, const fs::path& folder) {
+void run(const Plan& plan, const fs::path& scenes, const fs::path& data, const fs::path& folder) {
   const std::vector<Scene_entry> entries = real_scenes::read_scene_list(scenes);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(plan.threads));
@@ -195,6 +214,7 @@ void run(const Plan& plan, const fs::path& scenes, const fs::path& folder) {
   if (!experiments::is_idle(plan.rounds > 0)) {
     write_certificates(entries, plan.rounds, folder);
     write_flights(plan, plan.rounds, folder);
+    write_forms(plan, plan.rounds, data, folder);
   }
   auto manifest = experiments::manifest(plan.commit);
   manifest["quick"] = plan.quick;

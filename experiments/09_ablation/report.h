@@ -10,9 +10,10 @@
 namespace cellwalk::ablation {
 
 /// \param scenes the list that make_scenes.py wrote
+/// \param data a folder of public meshes; empty: none
 /// \throw std::runtime_error where answers differ that have to be the same
 void run(const experiments::Plan& plan, const std::filesystem::path& scenes,
-         const std::filesystem::path& folder);
+         const std::filesystem::path& data, const std::filesystem::path& folder);
 
 }  // namespace cellwalk::ablation
 

@@ -5,6 +5,7 @@
 #
 #   experiments/09_ablation/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
 #
+# With CELLWALK_TEST_DATA, a folder of public meshes, also those in both forms.
 # The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about 15 minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -18,6 +19,7 @@ if $quick; then options+=(--quick) making+=(--quick); fi
 if ! $counts; then
   if $quick; then options+=(--rounds 1); else options+=(--rounds 3); fi
 fi
+if ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then options+=(--data "$CELLWALK_TEST_DATA"); fi
 python3 experiments/09_ablation/make_scenes.py "$build" "$out/scenes" "${making[@]}"
 "$build/experiments/09_ablation/ablation" "$out/scenes/scenes.json" --out "$out" --commit "$commit" "${options[@]}"
 python3 experiments/09_ablation/summarize.py "$out" || [ $? -eq 3 ]
