@@ -20,7 +20,7 @@ struct Way {
                          const Walk_options&);
   Walk_strategy strategy;
   bool forecasts = true;  ///< false: what a particle aimed at is forgotten, so that facets come in order
-  bool is_slow = false;
+  std::size_t share = 1;  ///< one in so many of the particles fly
 };
 
 constexpr Way ways[] = {
@@ -31,9 +31,8 @@ constexpr Way ways[] = {
     {"signs_no_forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
     {"simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
     {"simplex_no_forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
-    {"lazy_signs", move<Lazy, 3>, Walk_strategy::exit_rule},
-    {"rational_signs", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, true}};
-constexpr std::size_t slow_share = 20;
+    {"lazy_signs", move<Lazy, 3>, Walk_strategy::exit_rule, true, 20},
+    {"rational_signs", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, 200}};
 
 Environment<3> environment_of(const Flight_setting& setting) {
   const double n = setting.is_small ? 12 : 46;
@@ -86,15 +85,17 @@ std::vector<Flight_row> run_flights(const Flight_setting& setting, int rounds) {
   const Snapshot<3>& snapshot = environment.snapshot();
   Random random(setting.seed);
   const std::vector<Particle<3>> all = random_starts(snapshot, setting.particles, random);
-  const std::vector<Particle<3>> few(all.begin(),
-                                     all.begin() + static_cast<std::ptrdiff_t>(all.size() / slow_share));
   const double length = setting.length * edge_length(snapshot, all);
   const std::vector<Vector<3>> moves = random_moves(length, setting.particles * setting.steps, random);
+  const auto flown = [&](const Way& way, Walk_counts& counts) {
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(all.size() / way.share);
+    return fly(snapshot, way, {all.begin(), end}, moves, all.size(), counts);
+  };
   std::vector<Flight_row> rows;
   Flight expected;
   for (const Way& way : ways) {
     Flight_row& row = rows.emplace_back();
-    Flight flight = fly(snapshot, way, way.is_slow ? few : all, moves, all.size(), row.counts);
+    Flight flight = flown(way, row.counts);
     row.world = setting.world;
     row.way = way.name;
     row.length = setting.length;
@@ -108,9 +109,8 @@ std::vector<Flight_row> run_flights(const Flight_setting& setting, int rounds) {
   }
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (ways[i].is_slow && round > 0) continue;
       Walk_counts counts;
-      const Flight flight = fly(snapshot, ways[i], ways[i].is_slow ? few : all, moves, all.size(), counts);
+      const Flight flight = flown(ways[i], counts);
       rows[i].nanoseconds.push_back(1e9 * flight.seconds / static_cast<double>(rows[i].moves));
     }
   return rows;

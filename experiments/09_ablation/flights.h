@@ -44,7 +44,7 @@ void members(Archive& archive, Value& row) requires std::same_as<std::remove_con
   archive(row.nanoseconds);
 }
 
-/// Flies all ways; rational numbers take a twentieth of the particles, and one timed round.
+/// Flies all ways; where signs are slow, with fewer of the particles.
 std::vector<Flight_row> run_flights(const Flight_setting& setting, int rounds);
 
 }  // namespace cellwalk::ablation

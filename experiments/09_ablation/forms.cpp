@@ -58,7 +58,10 @@ Form_row built(const Form_setting& setting, const Cell_soup<3>& soup, bool simpl
   row.not_convex = report.split.not_convex;
   row.cells = snapshot.cell_count();
   row.bytes = snapshot.bytes();
-  for (std::size_t c = 0; c < row.cells; ++c) row.facets += snapshot.view(static_cast<Cell>(c)).facet_count();
+  for (std::uint32_t f = 0; f < snapshot.half_facet_slots(); ++f) {
+    const Cell cell = snapshot.cell_of(Half_facet{f});
+    row.facets += snapshot.is_cell(cell) && snapshot.facet_of(Half_facet{f}) < snapshot.facet_count(cell);
+  }
   return row;
 }
 

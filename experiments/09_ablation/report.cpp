@@ -87,7 +87,7 @@ void write_flights(const Plan& plan, int rounds, const fs::path& folder) {
   for (const char* world : {"vessel", "hexahedra"})
     for (const double length : {0.05, 0.5, 4.0})
       settings.push_back({world, plan.quick, length, plan.quick ? std::size_t{2'000} : std::size_t{100'000},
-                          10, part_seed(plan.seed, "flights", settings.size())});
+                          5, part_seed(plan.seed, "flights", settings.size())});
   const auto rows = joined(shared_trials(
       settings.size(), [&](std::size_t i) { return run_flights(settings[i], rounds); },
       rounds > 0 ? Trials::timed : Trials::on_threads));
@@ -120,7 +120,7 @@ void write_orders(const Plan& plan, const fs::path& folder) {
       for (const double step : {0.03125, 0.125, 0.5, 1.0, 2.0})
         settings.push_back({world.name, world.size, motion, world.edge, step,
                             part_seed(plan.seed, "orders", settings.size()),
-                            plan.quick ? std::uint64_t{500} : std::uint64_t{40'000}});
+                            plan.quick ? std::uint64_t{500} : std::uint64_t{20'000}});
   const auto tallies = shared_trials(settings.size(), [&](std::size_t i) { return run_orders(settings[i]); });
   io::Csv_writer out(folder / "orders.csv", {"world",
                                              "size",
@@ -209,13 +209,13 @@ void run(const Plan& plan, const fs::path& scenes, const fs::path& data, const f
   const std::vector<Scene_entry> entries = real_scenes::read_scene_list(scenes);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(plan.threads));
-  write_orders(plan, folder);
-  write_segments(entries, folder);
   if (!experiments::is_idle(plan.rounds > 0)) {
     write_certificates(entries, plan.rounds, folder);
     write_flights(plan, plan.rounds, folder);
     write_forms(plan, plan.rounds, data, folder);
   }
+  write_segments(entries, folder);
+  write_orders(plan, folder);
   auto manifest = experiments::manifest(plan.commit);
   manifest["quick"] = plan.quick;
   manifest["seed"] = plan.seed;
