@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -205,17 +206,20 @@ void write_forms(const Plan& plan, int rounds, const fs::path& data, const fs::p
 
 }  // namespace
 
-void run(const Plan& plan, const fs::path& scenes, const fs::path& data, const fs::path& folder) {
-  const std::vector<Scene_entry> entries = real_scenes::read_scene_list(scenes);
+void run(const Plan& plan, const Inputs& inputs, const fs::path& folder) {
+  const auto is_chosen = [&inputs](const char* part) {
+    return inputs.parts.empty() || std::ranges::count(inputs.parts, part) > 0;
+  };
+  const std::vector<Scene_entry> entries = real_scenes::read_scene_list(inputs.scenes);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(plan.threads));
   if (!experiments::is_idle(plan.rounds > 0)) {
-    write_certificates(entries, plan.rounds, folder);
-    write_flights(plan, plan.rounds, folder);
-    write_forms(plan, plan.rounds, data, folder);
+    if (is_chosen("certificates")) write_certificates(entries, plan.rounds, folder);
+    if (is_chosen("flights")) write_flights(plan, plan.rounds, folder);
+    if (is_chosen("forms")) write_forms(plan, plan.rounds, inputs.data, folder);
   }
-  write_segments(entries, folder);
-  write_orders(plan, folder);
+  if (is_chosen("segments")) write_segments(entries, folder);
+  if (is_chosen("orders")) write_orders(plan, folder);
   auto manifest = experiments::manifest(plan.commit);
   manifest["quick"] = plan.quick;
   manifest["seed"] = plan.seed;
