@@ -81,7 +81,8 @@ def flights(report, folder):
     report.table("flights", "l" + "rrr" * len(worlds), ["", *(t for w in worlds for t in (f"{escaped(w)}, blocks", "signs", "ns"))], lines)
     report.define("FlightMoves", count(sum(int(r["moves"]) for r in read(folder, "flights.csv"))))
     report.define("FlightDifferent", count(sum(int(r["different"]) for r in read(folder, "flights.csv"))))
-    forecast = [1 - int(found[w, "simplex"]["signs"]) / int(found[w, "simplex_no_forecast"]["signs"]) for w in worlds]
+    signs = {(r["world"], r["length_over_edge"], r["way"]): int(r["signs"]) for r in read(folder, "flights.csv")}
+    forecast = [1 - n / signs[(*k[:2], "simplex_no_forecast")] for k, n in signs.items() if k[2] == "simplex"]
     report.define("FlightForecast", percent(max(forecast)))
 
 
