@@ -2,8 +2,8 @@
 // Runs the experiment and writes certificates.csv, flights.csv, orders.csv, asked.csv, stops.csv, forms.csv,
 // manifest.json and, if it is to be timed, certificate_times.csv, flight_times.csv and form_times.csv.
 //
-//   ablation SCENES.json -o DIR [--part NAME ...] [--data DIR] [--quick] [--threads N] [--rounds N] [--seed N]
-//                        [--commit NAME]
+//   ablation SCENES.json -o DIR [--part NAME ...] [--data DIR] [--quick] [--threads N] [--rounds N]
+//                        [--seed N] [--commit NAME]
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
