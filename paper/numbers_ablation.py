@@ -50,8 +50,8 @@ def certificates(report, folder):
     for name, column, one, other in (("Regions", "edges", ("0", "all"), ("1", "all")), ("Chain", "signs", ("0", "no_same_chain"), ("0", "all")),
                                      ("Edges", "signs", ("0", "no_certificate_of_edges"), ("0", "all"))):
         ratios = [per_move((s, *one), column) / max(per_move((s, *other), column), 1e-9) for s in SCENES]
-        report.define(f"Ablation{name}Least", decimal(min(ratios), 2))
-        report.define(f"Ablation{name}Most", decimal(max(ratios), 2))
+        report.define(f"Ablation{name}Least", decimal(min(ratios)))
+        report.define(f"Ablation{name}Most", decimal(max(ratios)))
     sentence = "Times were not taken in this run."
     if times:
         def ratio(choice, regions="0"):
