@@ -53,6 +53,7 @@ experiment exact_versus_float 02_exact_versus_float
 experiment small_obstacles 03_small_obstacles
 experiment contact_search 04_contact_search
 experiment degenerate_worlds 05_degenerate_worlds
+experiment ablation 09_ablation
 
 mkdir -p "$out"
 python3 paper/collect_numbers.py "$out" "${runs[@]}"

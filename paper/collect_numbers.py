@@ -4,7 +4,7 @@
 
 usage: collect_numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
 
-NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search, degenerate_worlds), KIND is quick or full, FOLDER
+NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search, degenerate_worlds, ablation), KIND is quick or full, FOLDER
 what its run.sh wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
 """
 
@@ -15,12 +15,13 @@ import sys
 from pathlib import Path
 
 TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus float", "small_obstacles": "03, small obstacles",
-          "contact_search": "04, contact searches", "degenerate_worlds": "05, degenerate worlds"}
+          "contact_search": "04, contact searches", "degenerate_worlds": "05, degenerate worlds",
+          "ablation": "09, ablation"}
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
 HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
-           "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {}}
+           "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {}, "ablation": {"orders": WIDE}}
 METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
            ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
            ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
@@ -289,6 +290,11 @@ def degenerate_worlds(report, folder):
                       percent(sum(int(r[column]) for r in to_walls) / sum(int(r["motions"]) for r in to_walls)))
 
 
+def ablation(report, folder):
+    import numbers_ablation  # which imports this module
+    numbers_ablation.collect(report, folder)
+
+
 def provenance(report, runs):
     lines = []
     for name, (kind, folder) in runs.items():
@@ -326,7 +332,8 @@ def main(arguments):
 
 
 SECTIONS = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
-            "contact_search": contact_search, "degenerate_worlds": degenerate_worlds}
+            "contact_search": contact_search, "degenerate_worlds": degenerate_worlds,
+            "ablation": ablation}
 
 if __name__ == "__main__":
     main(sys.argv[1:])

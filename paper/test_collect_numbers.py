@@ -72,8 +72,32 @@ def degenerate_worlds(folder):
         for d in (2, 3) for m in ("along_edges", "to_walls")])
 
 
+def ablation(folder):
+    scenes, worlds = ("catheter", "fine_catheter", "hexahedra"), (("boxes", 0.0625), ("boxes", 0.25), ("cubes", 1))
+    choices = ("all", "no_same_cell", "no_convex_pair", "no_same_chain", "no_certificate_of_edges")
+    signs = {"all": 10, "no_same_chain": 50, "no_certificate_of_edges": 200}
+    keys = [{"scene": s, "regions": g, "certificates": c} for s in scenes for g in (1, 0) for c in choices]
+    write(folder, "certificates.csv", [{**k, "moves": 1000, "held": 20, "different": 0, "edges": 300 if k["regions"] else 2400, "event_sweeps": 2,
+                                        "signs": signs.get(k["certificates"], 10)} for k in keys])
+    ways = ("planes", "planes_no_own_cell_first", "planes_no_forecast", "signs", "signs_no_forecast", "simplex", "simplex_no_forecast",
+            "lazy_signs", "rational_signs")
+    write(folder, "flights.csv", [{"world": w, "length_over_edge": n, "way": y, "moves": 100, "different": 0, "plane_blocks": 200,
+                                   "signs": 1000 if "no" in y else 900} for w in ("vessel", "hexahedra") for n in (0.05, 0.5) for y in ways])
+    write(folder, "orders.csv", [
+        {"world": w, "size": z, "motion": m, "step_over_edge": s, "made": 1000, "together": 100, "p_first_only": 5 if m != "shift" else 0,
+         "together_only": 2 if m == "independent" else 0, "orders_differ": 7 if m != "shift" else 0, "any_order_only": 0, "no_order": 0, "wrong": 0}
+        for w, z in worlds for m in ("shift", "turn", "independent") for s in (0.125, 1)])
+    write(folder, "asked.csv", [{"scene": s, "moves": 1000, "vertices_blocked": 30, "edges": 1900, "swept": 9, "unseen": 3, "wrong": 0} for s in scenes])
+    write(folder, "stops.csv", [{"scene": s, "sweep": w, "contacts": 40, "of_edges": 4, "through": n} for s in scenes
+                                for w, n in (("three_segments", 2), ("complete", 0))])
+    write(folder, "forms.csv", [{"mesh": m, "form": f, "cells_read": 100, "not_planar": bent, "cells": n, "bytes": 250 * n, "moves": 100,
+                                 "crossings": 2 * n} for m, bent in (("hexahedra", 0), ("turned_grid", 90))
+                                for f, n in (("polyhedra", 550 if bent else 100), ("tetrahedra", 600))])
+
+
 MADE_UP = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
-           "contact_search": contact_search, "degenerate_worlds": degenerate_worlds}
+           "contact_search": contact_search, "degenerate_worlds": degenerate_worlds,
+           "ablation": ablation}
 
 
 class CollectNumbers(unittest.TestCase):
@@ -112,6 +136,10 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(("1\\,600", "0", "0"), tuple(macros[f"Degenerate{n}"] for n in ("Walks", "Wrong", "Integer")))
         self.assertEqual(("20.0", "40.0"), (macros["DegenerateDoubleLeast"], macros["DegenerateDoubleMost"]))
         self.assertEqual(("200", "20.0", "80.0"), tuple(macros[f"Degenerate{n}"] for n in ("Touches", "ToWallsPass", "ToWallsStop")))
+        self.assertEqual(("8", "5", "20"), tuple(macros[f"Ablation{n}Most"] for n in ("Regions", "Chain", "Edges")))
+        self.assertEqual(("10.0", "5.0", "2.0"), tuple(macros[n] for n in ("FlightForecast", "OrderSmallMore", "OrderLargeFewer")))
+        self.assertEqual(("18", "6", "6", "0"), tuple(macros[n] for n in ("RodSwept", "RodUnseen", "StopsSegmentsThrough", "StopsCompleteThrough")))
+        self.assertEqual(("6", "1", "5.5"), tuple(macros[n] for n in ("FormMemoryMost", "FormBent", "FormGrowthMost")))
         self.assertEqual("full runs of some experiments and quick runs of others", macros["RunKinds"])
 
     def test_tables_show_the_outputs(self):
@@ -121,6 +149,8 @@ class CollectNumbers(unittest.TestCase):
         self.assertIn(r"3D & \texttt{double} & 1\,000 & 10 & 1.0 & 1 & 2 & 7 \\", (out / "table_walks.tex").read_text(encoding="utf-8"))
         self.assertIn(r"\texttt{0123456789ab} & GNU 12 & some\_processor", (out / "table_runs.tex").read_text(encoding="utf-8"))
         self.assertIn(r"coplanar walls & 0.0 & 50.0 & 40.0 & 50.0 \\", (out / "table_degenerate.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"no regions; no same chain & 2 & 0.05 &", (out / "table_certificates.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"turned grid & polyhedra & 100 & 90 & 550 & 1\,375 & 11 &", (out / "table_forms.tex").read_text(encoding="utf-8"))
         self.assertNotIn("lazy", (out / "table_sweeps.tex").read_text(encoding="utf-8"))
 
     def test_report_uses_what_is_written_and_nothing_else(self):
