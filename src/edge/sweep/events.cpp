@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "events.h"
 
+#include <cellwalk/kernel/error.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -77,8 +79,12 @@ class Event_sweep {
         chain = walk.chain();
       } else {
         chain.clear();
-        result.contact = contact(time.exact(), line, exact_segment(),
-                                 walk.wall() != Half_facet::none ? walk.wall() : parting);
+        const Half_facet wall = walk.wall() != Half_facet::none ? walk.wall() : parting;
+        if (wall == Half_facet::none)
+          throw Error(Error_code::other,
+                      "an edge has no chain any more, and no wall parts it from the one it had: the "
+                      "environment is not certified, or the chain was that of another edge");
+        result.contact = contact(time.exact(), line, exact_segment(), wall);
         return result;
       }
       if (const auto end = end_of(chain, line); end && (!next || *end < *next)) next = *end;
