@@ -155,6 +155,12 @@ void ask_in_images(bool generic, std::size_t worlds, const Map& map, double shar
     const auto has_same_cell = [&](const Particle<D>& x, const Particle<D>& y) {
       return image.new_cell[world.snapshot.index(x.cell)] == other.snapshot.index(y.cell);
     };
+    const auto cell_behind = [&](Half_facet f) {
+      return image.new_cell[world.snapshot.index(world.snapshot.neighbour(f))];
+    };
+    const auto cell_behind_there = [&](Half_facet f) {
+      return other.snapshot.index(other.snapshot.neighbour(f));
+    };
     std::vector<std::unique_ptr<Body<D>>> same;
     for (const auto& body : world.bodies) {
       ++bodies;
@@ -166,7 +172,7 @@ void ask_in_images(bool generic, std::size_t worlds, const Map& map, double shar
       for (std::size_t v = 0; v < body->vertex_count(); ++v)
         is_alike &= has_same_cell(body->particles()[v], copy->particles()[v]);
       for (std::size_t e = 0; e < body->edges().size(); ++e)
-        is_alike &= body->chain(e).size() == copy->chain(e).size();
+        is_alike &= std::ranges::equal(body->chain(e), copy->chain(e), {}, cell_behind, cell_behind_there);
       if (!is_alike) continue;  // on another side, or another way to the same one
       same.push_back(std::make_unique<Body<D>>(*body));
       other.bodies.push_back(std::move(copy));
