@@ -174,11 +174,13 @@ class Body_in_orders {
       if (some[c].vertex != others[c].vertex) return ": the vertex of a contact";
       if (x.time != y.time) return ": the time of a contact";
       if (x.body != y.body || x.feature != y.feature) return ": what of the body is met";
-      if (x.kind != y.kind ||
-          oracle::feature_of(worlds_[0]->snapshot, x) != oracle::feature_of(worlds_[order]->snapshot, y))
+      if (x.kind != y.kind) return ": the kind of what it meets";
+      if (x.normal != y.normal) return ": the normal of a contact";
+      // Of features of one kind that a face meets at the same time, that of the lowest half-facet is named.
+      if (x.body == Body_feature::face) continue;
+      if (oracle::feature_of(worlds_[0]->snapshot, x) != oracle::feature_of(worlds_[order]->snapshot, y))
         return ": what it meets";
       if (x.point != y.point) return ": the point of a contact";
-      if (x.normal != y.normal) return ": the normal of a contact";
     }
     return {};
   }
