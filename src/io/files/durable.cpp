@@ -100,7 +100,8 @@ void write_durably(const fs::path& destination, std::span<const std::span<const 
 
 void remove_abandoned(const fs::path& destination) {
   std::error_code failure;
-  const fs::path target = fs::weakly_canonical(destination, failure);
+  // Absolute: the canonical name of a file that is not there yet may be without its folder.
+  const fs::path target = fs::weakly_canonical(fs::absolute(destination, failure), failure);
   if (failure || !target.has_filename()) return;
   // As Atomic_file names them: .NAME.PROCESS.NUMBER.tmp
   constexpr std::size_t repeated_length = 200;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <csignal>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -93,12 +94,17 @@ TEST(Durable, GrowsFromALengthThatWasKept) {
   EXPECT_EQ(content_of(folder / "table"), "header\nrow\n");
 }
 
-TEST(Durable, RemovesWhatKilledProcessesLeft) {
-  const Folder folder;
+/// The number of a process that has ended.
+std::string ended_process() {
   const pid_t child = fork();
   if (child == 0) _exit(0);
   waitpid(child, nullptr, 0);
-  const std::string dead = std::to_string(child), alive = std::to_string(getpid());
+  return std::to_string(child);
+}
+
+TEST(Durable, RemovesWhatKilledProcessesLeft) {
+  const Folder folder;
+  const std::string dead = ended_process(), alive = std::to_string(getpid());
   for (const std::string& name :
        {".out.json." + dead + ".0.tmp", ".out.json." + dead + ".12.tmp", ".out.json." + alive + ".0.tmp",
         ".other.json." + dead + ".0.tmp", std::string(".out.json.x.0.tmp"), std::string("out.json")})
@@ -108,6 +114,16 @@ TEST(Durable, RemovesWhatKilledProcessesLeft) {
   EXPECT_TRUE(std::filesystem::exists(folder / (".out.json." + alive + ".0.tmp")));
   EXPECT_TRUE(std::filesystem::exists(folder / (".other.json." + dead + ".0.tmp")));
   remove_abandoned(folder / "missing" / "out.json");
+}
+
+TEST(Durable, RemovesWhatKilledProcessesLeftInTheWorkingFolder) {
+  const Folder folder;
+  folder.write(".out.json." + ended_process() + ".0.tmp", "");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  remove_abandoned("out.json");  // which is not there
+  std::filesystem::current_path(before);
+  EXPECT_EQ(folder.file_count(), 0u);
 }
 
 TEST(Durable, RefusesAFileThatIsShorterThanItWas) {
