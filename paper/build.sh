@@ -53,6 +53,9 @@ experiment exact_versus_float 02_exact_versus_float
 experiment small_obstacles 03_small_obstacles
 experiment contact_search 04_contact_search
 experiment degenerate_worlds 05_degenerate_worlds
+experiment real_scenes 06_real_scenes
+experiment moving_walls 07_moving_walls
+experiment scaling 08_scaling
 experiment ablation 09_ablation
 
 mkdir -p "$out"

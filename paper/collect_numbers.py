@@ -4,11 +4,12 @@
 
 usage: collect_numbers.py [--no-figures] OUT NAME=KIND:FOLDER ...
 
-NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search, degenerate_worlds, ablation), KIND is quick or full, FOLDER
-what its run.sh wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
+NAME is an experiment (figure_8, exact_versus_float, small_obstacles, contact_search, degenerate_worlds, real_scenes, moving_walls, scaling,
+ablation), KIND is quick or full, FOLDER what its run.sh wrote. Writes OUT/numbers.tex and OUT/table_*.tex, and draws the figures again, in the size of the page.
 """
 
 import csv
+import importlib
 import json
 import subprocess
 import sys
@@ -16,20 +17,22 @@ from pathlib import Path
 
 TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus float", "small_obstacles": "03, small obstacles",
           "contact_search": "04, contact searches", "degenerate_worlds": "05, degenerate worlds",
+          "real_scenes": "06, real scenes", "moving_walls": "07, moving walls", "scaling": "08, decomposed environments",
           "ablation": "09, ablation"}
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
 HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
-           "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {}, "ablation": {"orders": WIDE}}
+           "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {},
+           "real_scenes": {"ratios": WIDE}, "moving_walls": {"steps_one": HALF, "steps_all": HALF}, "scaling": {}, "ablation": {"orders": WIDE}}
 METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
            ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
            ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
            ("embree_packet_robust", "Embree, robust packets"), ("fcl_boxes", "FCL, segments"), ("cgal_segment", "CGAL, segments"),
            ("cgal_kept_box", "CGAL, box kept a body"), ("double_walk", "walk in doubles"),
            ("unit_cubes", "bound: unit cubes"), ("read_and_write", "bound: reading and writing")]
-SEARCHES = [("exact", ""), ("exhaustive", ""), ("exhaustive_traversed", ""), ("dichotomic", "10"), ("dichotomic", "20"),
-            ("dichotomic", "30")]
+SEARCHES = [("exact", ""), ("exhaustive", ""), ("exhaustive_unlimited", ""), ("exhaustive_traversed", ""), ("dichotomic", "10"),
+            ("dichotomic", "20"), ("dichotomic", "30"), ("dichotomic_segment", "20")]
 
 
 def read(folder, name):
@@ -53,10 +56,12 @@ def percent(value):
 
 
 def decimal(value, digits=3):
-    """A number as TeX has it: 1.2e-06 becomes a power of ten."""
+    """A number as TeX has it: 1.2e-06 becomes a power of ten, 1.23e+04 has its thousands apart."""
     text = f"{float(value):.{digits}g}"
     if "e" not in text:
         return text
+    if 1 <= float(text) < 1e6:
+        return count(float(text))
     mantissa, exponent = text.split("e")
     return rf"${mantissa}\cdot 10^{{{int(exponent)}}}$"
 
@@ -240,7 +245,8 @@ def contact_search(report, folder):
         for search, bits in SEARCHES:
             row, cost = found[world, search, bits], spent[world, search, bits]
             n = int(row["contacts"])
-            name = {"exhaustive_traversed": "exhaustive, end cells"}.get(search, search) + (f", $2^{{-{bits}}}$" if bits else "")
+            name = {"exhaustive_traversed": "exhaustive, end cells", "exhaustive_unlimited": "exhaustive, no limit",
+                    "dichotomic_segment": "dichotomic, segment"}.get(search, search) + (f", $2^{{-{bits}}}$" if bits else "")
             time = times.get((world, search, bits))
             lines.append([world, name, percent(int(row["late"]) / n), decimal(max(0, float(row["early_max"])), 2), decimal(row["gap_max"], 2),
                           decimal(row["normal_median"], 2), count(int(cost["signs"]) / n), f"{time:.0f}" if time else ""])
@@ -250,6 +256,15 @@ def contact_search(report, folder):
     late = [int(r["late"]) / int(r["contacts"]) for r in errors if r["search"] == "exhaustive_traversed"]
     report.define("SearchLateLeast", percent(min(late)))
     report.define("SearchLateMost", percent(max(late)))
+    segment = [found[world, "dichotomic_segment", "20"] for world in worlds]
+    report.define("SearchSegmentLate", percent(max(int(r["late"]) / int(r["contacts"]) for r in segment)))
+    report.define("SearchSegmentNone", percent(max(int(r["none_found"]) / int(r["contacts"]) for r in segment)))
+    report.define("SearchSegmentGap", decimal(max(float(r["gap_max"]) for r in segment), 2))
+    unlimited = [found[world, "exhaustive_unlimited", ""] for world in worlds]
+    report.define("SearchUnlimitedDiffer", count(sum(int(r["contacts"]) - int(r["same_time"]) for r in unlimited)))
+    limit = [int(spent[w, "exhaustive", ""]["signs"]) / int(spent[w, "exhaustive_unlimited", ""]["signs"]) for w in worlds]
+    report.define("SearchLimitLeast", decimal(min(limit), 3))
+    report.define("SearchLimitMost", decimal(max(limit), 3))
     normals = [float(r["normal_median"]) for r in errors if r["search"] == "dichotomic"]
     report.define("SearchNormalLeast", decimal(min(normals), 2))
     report.define("SearchNormalMost", decimal(max(normals), 2))
@@ -290,9 +305,9 @@ def degenerate_worlds(report, folder):
                       percent(sum(int(r[column]) for r in to_walls) / sum(int(r["motions"]) for r in to_walls)))
 
 
-def ablation(report, folder):
-    import numbers_ablation  # which imports this module
-    numbers_ablation.collect(report, folder)
+def of_module(name):
+    """What a module of its own collects, which imports this one."""
+    return lambda report, folder: importlib.import_module(name).collect(report, folder)
 
 
 def provenance(report, runs):
@@ -333,7 +348,8 @@ def main(arguments):
 
 SECTIONS = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
             "contact_search": contact_search, "degenerate_worlds": degenerate_worlds,
-            "ablation": ablation}
+            "real_scenes": of_module("numbers_application"), "moving_walls": of_module("numbers_moving_walls"),
+            "scaling": of_module("numbers_scaling"), "ablation": of_module("numbers_ablation")}
 
 if __name__ == "__main__":
     main(sys.argv[1:])

@@ -55,9 +55,10 @@ def small_obstacles(folder):
 
 
 def contact_search(folder):
-    kinds = [("exact", ""), ("exhaustive", ""), ("exhaustive_traversed", ""), *(("dichotomic", k) for k in (10, 20, 30))]
+    kinds = [("exact", ""), ("exhaustive", ""), ("exhaustive_unlimited", ""), ("exhaustive_traversed", ""),
+             *(("dichotomic", k) for k in (10, 20, 30)), ("dichotomic_segment", 20)]
     rows = [{"world": w, "search": s, "tolerance_bits": k} for w in ("room", "vessel") for s, k in kinds]
-    write(folder, "errors.csv", [{**r, "contacts": 50, "late": 10, "early_max": 1e-6, "gap_max": 1e-6, "normal_median": 9} for r in rows])
+    write(folder, "errors.csv", [{**r, "contacts": 50, "same_time": 49, "late": 10, "none_found": 5, "early_max": 1e-6, "gap_max": 1e-6, "normal_median": 9} for r in rows])
     write(folder, "costs.csv", [{**r, "signs": 1000 * (20 if r["search"] == "dichotomic" else 1)} for r in rows])
 
 
@@ -70,6 +71,30 @@ def degenerate_worlds(folder):
     write(folder, "touches.csv", [
         {"dimension": d, "motion": m, "motions": 50, "blocked": 10, "contacts_with_stop": 40, "wrong_with_stop": 0}
         for d in (2, 3) for m in ("along_edges", "to_walls")])
+
+
+def real_scenes(folder):
+    methods = {"cellwalk_complete": ("cellwalk", 1, 200), "bullet_group": ("bullet", 0, 100), "embree_16": ("embree", 0, 150), "cgal_body": ("cgal", 1, 160)}
+    write(folder, "real_scenes.csv", [
+        {"scene": s, "method": m, "margin_steps": margin, "library": library, "exact": exact, "cells": 5000, "moves": 1000, "blocked": 40,
+         "missed": 0 if exact else 2, "false": 0 if exact else 3, "ns_per_vertex_move": ns * margin, "step_us_p999": ns, "step_us_max": 2 * ns}
+        for s in ("S1a_vessel", "S5_rigid_ring", "S5_rigid_ring_finer_2") for m, (library, exact, ns) in methods.items()
+        for margin in ((1,) if library == "cellwalk" else (1, 2))])
+
+
+def moving_walls(folder):
+    kinds = [("cellwalk", "exact", 900)] + [(m, a, 90) for m in ("bullet_refit", "bullet_partial") for a in ("float", "double", "exact")]
+    write(folder, "moving_walls.csv", [
+        {"scene": f"{z}_{w}", "movers": w, "cells": n, "steps": 8, "moves": 80, "judged": 70, "blocked": 7, "bad_stops": 0, "method": m, "arithmetic": a,
+         "missed": 2 if a == "float" else 0, "false": 3 if a != "exact" else 0, "step_us": us * (2 if w == "all" and m == "cellwalk" else 1)}
+        for z, n in (("coarse", 1000), ("fine", 20000)) for w in ("one", "all") for m, a, us in kinds])
+
+
+def scaling(folder):
+    scenes, ranks = (("hexahedra", 2000), ("catheter", 100)), (2, 8, 64)
+    write(folder, "handovers.csv", [{"scene": s, "ranks": k, "steps": 20, "vertices": 1000, "moved": k, "edges": 0 if s == "catheter" else 500, "parted": k,
+                                     "most_vertices": 1500 // k} for s, _ in scenes for k in ranks])
+    write(folder, "parts.csv", [{"scene": s, "ranks": k, "cells": n, "ghosts": 10 * k} for s, n in scenes for k in ranks])
 
 
 def ablation(folder):
@@ -97,7 +122,7 @@ def ablation(folder):
 
 MADE_UP = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
            "contact_search": contact_search, "degenerate_worlds": degenerate_worlds,
-           "ablation": ablation}
+           "real_scenes": real_scenes, "moving_walls": moving_walls, "scaling": scaling, "ablation": ablation}
 
 
 class CollectNumbers(unittest.TestCase):
@@ -140,6 +165,16 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(("10.0", "5.0", "2.0"), tuple(macros[n] for n in ("FlightForecast", "OrderSmallMore", "OrderLargeFewer")))
         self.assertEqual(("18", "6", "6", "0"), tuple(macros[n] for n in ("RodSwept", "RodUnseen", "StopsSegmentsThrough", "StopsCompleteThrough")))
         self.assertEqual(("6", "1", "5.5"), tuple(macros[n] for n in ("FormMemoryMost", "FormBent", "FormGrowthMost")))
+        self.assertEqual(("20.0", "10.0", "2", "1"), tuple(macros[f"Search{n}"] for n in ("SegmentLate", "SegmentNone", "UnlimitedDiffer", "LimitMost")))
+        self.assertEqual(("3", "3\\,000", "0", "0"), tuple(macros[f"App{n}"] for n in ("Scenes", "Moves", "Wrong", "ExactWrong")))
+        self.assertIn("Bullet misses 6 and makes up 9, Embree misses 6", macros["AppRounded"])
+        self.assertEqual(("2.0 to 2.0", "1.2 to 1.2", "2.0 to 2.0"), tuple(macros[f"App{n}"] for n in ("Fastest", "FastestExact", "Large")))
+        self.assertIn("at most 200\\,\\textmu s, and the longest of all takes 400", macros["AppCatheterSteps"])
+        self.assertIn("leaves 5 times the former", macros["AppCatheterSteps"])
+        self.assertEqual(("280", "28", "0", "0"), tuple(macros[f"Wall{n}"] for n in ("Judged", "Blocked", "Wrong", "ExactFalse")))
+        self.assertEqual(("8", "12", "0", "12"), tuple(macros[f"Wall{n}"] for n in ("FloatMissed", "FloatFalse", "DoubleMissed", "DoubleFalse")))
+        self.assertIn("10 times as long as the fastest hierarchy if one vertex moves, and 20 times if all do", macros["WallTimes"])
+        self.assertEqual(("0.8", "8"), (macros["ScalingHandedMost"], macros["ScalingRanksMost"]))
         self.assertEqual("full runs of some experiments and quick runs of others", macros["RunKinds"])
 
     def test_tables_show_the_outputs(self):
@@ -151,6 +186,10 @@ class CollectNumbers(unittest.TestCase):
         self.assertIn(r"coplanar walls & 0.0 & 50.0 & 40.0 & 50.0 \\", (out / "table_degenerate.tex").read_text(encoding="utf-8"))
         self.assertIn(r"no regions; no same chain & 2 & 0.05 &", (out / "table_certificates.tex").read_text(encoding="utf-8"))
         self.assertIn(r"turned grid & polyhedra & 100 & 90 & 550 & 1\,375 & 11 &", (out / "table_forms.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"rigid ring, cells 1/2 & 5\,000 & 4.0 & 200 & 200 / 400 & Bullet, group & 100 & 100 / 200 & CGAL, body & 160 &",
+                      (out / "table_application.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"20\,000 & one & 10 & 900 & 90 & 90 \\", (out / "table_moving_walls.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"catheter & 8 & 12 & 1.5 & 0.8 &  & 80 \\", (out / "table_scaling.tex").read_text(encoding="utf-8"))
         self.assertNotIn("lazy", (out / "table_sweeps.tex").read_text(encoding="utf-8"))
 
     def test_report_uses_what_is_written_and_nothing_else(self):
