@@ -222,7 +222,7 @@ Particle<D> Moving_star<D>::registered_in(Cell c, const Particle<D>& p) const {
 template <int D>
 Chain Moving_star<D>::relinked(const Chain& before, Cell first, const Particle<D>& p,
                                const Particle<D>& q) const {
-  const Way_within<D> way(snapshot_, cells_, vertex_, counts_);
+  const Way_within<D> way(snapshot_, cells_, counts_);
   Chain chain;
   Cell old = first, now = p.cell;
   for (auto f = before.begin();;) {

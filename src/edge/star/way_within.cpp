@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/way_within.h>
-#include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
@@ -31,9 +30,7 @@ bool Way_within<D>::has(Cell cell) const {
 
 template <int D>
 bool Way_within<D>::may_pass(Half_facet f) const {
-  if (snapshot_.is_impassable(f) || !has(snapshot_.neighbour(f))) return false;
-  const Cell c = snapshot_.cell_of(f);
-  return has(c) && (vertex_ == any_vertex || has_point(snapshot_.view(c), snapshot_.facet_of(f), vertex_));
+  return !snapshot_.is_impassable(f) && has(snapshot_.neighbour(f)) && has(snapshot_.cell_of(f));
 }
 
 template <int D>
@@ -47,10 +44,7 @@ void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, 
                 "not certified, or it was not listed");
 }
 
-/// Where the edge passes each of these facets in its interior. False if it does not. Around a vertex that
-/// moves, may_pass() asks for the vertex only to give up early: between the two cells the edge stays in the
-/// star, so that it passes a facet without the vertex in its interior only behind the second cell, which it
-/// does not reach any more.
+/// Where the edge passes each of these facets in its interior. False if it does not.
 template <int D>
 bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
                                     const Point<D>& q) const {

@@ -117,7 +117,7 @@ void Relinker<D>::write_chain(Member edge, std::span<const Cell> sorted, Chain& 
     return moved ? moved->now : groups_.particle(member);
   };
   const Particle<D> p = end_of(u), q = end_of(v);
-  const Way_within<D> way(snapshot_, sorted, Way_within<D>::any_vertex, counts_);
+  const Way_within<D> way(snapshot_, sorted, counts_);
   Cell now = p.cell;
   const auto go_to = [&](Cell goal) {
     if (now != goal) way.append(chain, now, goal, p.position, q.position);

@@ -5,7 +5,6 @@
 
 #include <cellwalk/edge/chain.h>
 
-#include <cstdint>
 #include <span>
 
 namespace cellwalk::detail {
@@ -30,13 +29,9 @@ Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Particle<D
 template <int D>
 class Way_within {
  public:
-  static constexpr std::uint32_t any_vertex = 0xffffffffu;
-
   /// \param cells ascending; they outlive this
-  /// \param vertex only facets that have it are passed
-  Way_within(const Snapshot<D>& snapshot, std::span<const Cell> cells, std::uint32_t vertex,
-             Walk_counts& counts)
-      : snapshot_(snapshot), cells_(cells), vertex_(vertex), counts_(counts) {}
+  Way_within(const Snapshot<D>& snapshot, std::span<const Cell> cells, Walk_counts& counts)
+      : snapshot_(snapshot), cells_(cells), counts_(counts) {}
 
   /// Appends the facets through which the edge pq passes from one of the cells to another to the chain before
   /// them.
@@ -53,7 +48,6 @@ class Way_within {
 
   const Snapshot<D>& snapshot_;
   std::span<const Cell> cells_;
-  std::uint32_t vertex_;
   Walk_counts& counts_;
 };
 
