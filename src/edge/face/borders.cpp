@@ -2,6 +2,7 @@
 #include "borders.h"
 
 #include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
 #include <vector>
@@ -87,6 +88,16 @@ Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_sid
     if (wall != Half_facet::none) return wall;
   }
   return Half_facet::none;
+}
+
+Contact<3> contact_at_start(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
+  Contact<3> contact;
+  contact.point = start;
+  contact.body = Body_feature::edge;
+  contact.facet = wall;
+  contact.cell = snapshot.cell_of(wall);
+  contact.normal = inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
+  return contact;
 }
 
 }  // namespace cellwalk::detail

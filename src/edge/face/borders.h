@@ -15,6 +15,9 @@ namespace cellwalk::detail {
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
                           const Candidate_walls& candidates, Walk_counts& counts);
 
+/// The contact of a face, one of whose edges lies on the other side of a wall, at the start of a move.
+Contact<3> contact_at_start(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start);
+
 }  // namespace cellwalk::detail
 
 #endif  // CELLWALK_EDGE_FACE_BORDERS_H

@@ -97,17 +97,6 @@ class Face_sweep {
   Half_facet wall_ = Half_facet::none;
 };
 
-/// The contact of a face one of whose edges lies on the other side of a wall.
-Face_result edge_on_other_side(const Snapshot<3>& snapshot, Half_facet wall, const Point<3>& start) {
-  Contact<3> contact;
-  contact.point = start;
-  contact.body = Body_feature::edge;
-  contact.facet = wall;
-  contact.cell = snapshot.cell_of(wall);
-  contact.normal = detail::inner_normal(snapshot.view(contact.cell), snapshot.facet_of(wall));
-  return {{}, contact, true, true};
-}
-
 /// The supporting walls of a face that moved in its plane: walls in the plane that are joined under what it
 /// swept have it on one side all the time, and its edges, too.
 Face_registration moved_in_plane(const Snapshot<3>& snapshot, const Corners& corners, const Particle<3>& p,
@@ -157,7 +146,8 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
     ++counts.flat;
     const Face_registration end =
         moved_in_plane(snapshot, corners, path.to, q, r, chains, candidates, supporting_walls, counts);
-    if (end.piercing != Half_facet::none) return edge_on_other_side(snapshot, end.piercing, corners[0]);
+    if (end.piercing != Half_facet::none)
+      return {{}, detail::contact_at_start(snapshot, end.piercing, corners[0]), true, true};
     result.supporting_walls = end.supporting_walls;
   } else {
     Face_sweep sweep(snapshot, corners, counts);
@@ -174,7 +164,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
   const Half_facet wall =
       detail::wall_at_border(snapshot, detail::sides_of(chains, path.to, q, r), candidates, counts.walk);
   if (wall == Half_facet::none) return result;
-  return edge_on_other_side(snapshot, wall, corners[0]);
+  return {{}, detail::contact_at_start(snapshot, wall, corners[0]), true, true};
 }
 
 namespace detail {
