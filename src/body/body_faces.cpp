@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "body_faces.h"
 
+#include <cellwalk/internal/edge/flat_faces.h>
 #include <cellwalk/internal/edge/wedge.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace cellwalk::detail {
 namespace {
@@ -63,6 +65,40 @@ void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_
   }
 }
 
+/// What all faces rest on after the move that moved in their planes, as agreed with all that is joined to them; or
+/// a contact, if they cannot agree.
+/// \pre all else is free
+void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+                       const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
+  const auto corners = body.topology.corners_of(vertex);
+  std::vector<Edge_at_vertex> edges;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    edges.push_back({body.particles[corners[i].other], body.seen_from(corners[i]), &scratch.chains[i].chain});
+  std::vector<Face_at_vertex> faces;
+  std::vector<std::uint32_t> names;
+  for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
+    const auto& sides = body.topology.sides(f);
+    const std::uint32_t q = body.topology.faces()[f][(k + 1) % 3], r = body.topology.faces()[f][(k + 2) % 3];
+    faces.push_back({place_of(corners, sides[k]),
+                     place_of(corners, sides[(k + 2) % 3]),
+                     {&body.chains[sides[(k + 1) % 3]], q > r},
+                     &body.supporting_walls[f]});
+    names.push_back(f);
+  }
+  const Flat_faces found = find_flat_faces(*body.snapshot, path, edges, faces, counts);
+  if (found.contact) {
+    first = found.contact;
+    first->vertex = vertex;
+    first->feature = corners.front().edge;
+    return;
+  }
+  for (const auto& [number, supporting_walls] : found.supporting_walls) {
+    std::erase_if(scratch.supporting_walls, [&](const auto& entry) { return entry.first == names[number]; });
+    if (!supporting_walls.empty() || !body.supporting_walls[names[number]].empty())
+      scratch.supporting_walls.emplace_back(names[number], supporting_walls);
+  }
+}
+
 }  // namespace
 
 Face_registration registered_face(const Body_state<3>& body, std::uint32_t face, Face_counts& counts) {
@@ -106,6 +142,8 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   bool are_walls_near = false;
+  std::optional<Contact<3>> marked;  // of an edge on the other side: the move is real until another contact
+  const std::uint64_t flat_before = counts.flat;
   for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
     const auto& corners = body.topology.faces()[f];
     const auto& sides = body.topology.sides(f);
@@ -125,12 +163,16 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
       contact.body = Body_feature::face;
       contact.vertex = vertex;
       contact.feature = f;
-      if (!first || is_before(contact, *first)) first = contact;
+      std::optional<Contact<3>>& kept = swept.is_edge_on_other_side ? marked : first;
+      if (!kept || is_before(contact, *kept)) kept = contact;
     } else if (!first && (!swept.supporting_walls.empty() || !body.supporting_walls[f].empty())) {
       scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }
   }
-  if (are_walls_near) sweep_wedges(body, vertex, path, first, counts);
+  if (!are_walls_near) return;
+  sweep_wedges(body, vertex, path, first, counts);
+  if (!first) first = marked;
+  if (!first && counts.flat > flat_before) settle_flat_faces(body, scratch, vertex, path, first, counts);
 }
 
 }  // namespace cellwalk::detail

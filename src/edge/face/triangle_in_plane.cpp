@@ -140,6 +140,26 @@ bool Triangle_in_plane::overlaps(const Point<3>& u, const Point<3>& v) const {
   return true;
 }
 
+// An open segment and an open convex polygon are disjoint if and only if the line of the segment, or of a side
+// of the polygon, separates them weakly.
+bool Triangle_in_plane::has_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>& u,
+                                   const Point<3>& v) const {
+  const auto loop = cell.loop(i);
+  bool is_left = false, is_right = false;
+  for (const std::uint16_t k : loop) {
+    const int s = sense(u, v, cell.point(k));
+    is_left |= s > 0;
+    is_right |= s < 0;
+  }
+  if (!is_left || !is_right) return false;
+  const int facet_sense = -side_of_cell(cell, i) * own_sense_;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Point<3>&c = cell.point(loop[k]), &d = cell.point(loop[k + 1 == loop.size() ? 0 : k + 1]);
+    if (facet_sense * sense(c, d, u) <= 0 && facet_sense * sense(c, d, v) <= 0) return false;
+  }
+  return true;
+}
+
 bool Triangle_in_plane::is_pierced_by(const Cell_view<3>& cell, std::size_t i) const {
   bool is_above = false, is_below = false;
   for (const std::uint16_t v : cell.loop(i)) {

@@ -42,6 +42,8 @@ class Triangle_in_plane {
   bool overlaps(const Cell_view<3>& c, std::size_t i, const Cell_view<3>& d, std::size_t j) const;
   /// True if a segment in the plane has a part of positive length inside the triangle.
   bool overlaps(const Point<3>& u, const Point<3>& v) const;
+  /// True if a facet in the plane has inner points between the ends of a segment in it.
+  bool has_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>& u, const Point<3>& v) const;
   /// The corners of the part of a facet in the plane that lies in the closed triangle, each by positive
   /// multiples of its coordinates with respect to the corners of the triangle.
   std::vector<Ring_vector<3>> part_of(const Cell_view<3>& cell, std::size_t i) const;
