@@ -25,7 +25,7 @@ from collections import Counter, defaultdict
 from fractions import Fraction
 from pathlib import Path
 
-KINDS = ["walks", "sweeps"]
+KINDS = ["walks", "sweeps", "faces", "moving_walls"]
 
 
 def read_corpus(folder):
