@@ -36,7 +36,7 @@ inline constexpr std::array<const char*, 3> crossing_names{"no", "yes", "either"
 template <int D>
 struct Case {
   std::string id, degeneracy, near;  ///< near: the case of which a target was moved by an ulp
-  std::string nature;                        ///< more that tells sorts apart; it is not written
+  std::string nature;                ///< more that tells sorts apart; it is not written
   std::vector<Point<D>> points, side;
   std::vector<Move<D>> moves;
   bool moves_wall = false;       ///< what moves is a vertex of the world, and the object stands still

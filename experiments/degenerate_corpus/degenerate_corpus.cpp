@@ -20,7 +20,7 @@ namespace cellwalk::corpus {
 namespace {
 
 // In each dimension.
-constexpr std::size_t walks = 220, sweeps = 220, faces = 140, moving_walls = 120;
+constexpr std::size_t walks = 220, sweeps = 220, faces = 150, moving_walls = 120;
 
 void write_lines(const std::filesystem::path& file, const std::vector<nlohmann::ordered_json>& lines) {
   io::Atomic_file out(file);

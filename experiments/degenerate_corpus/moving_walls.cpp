@@ -23,8 +23,8 @@ class Moving_wall_maker final : public Maker<D> {
  public:
   Moving_wall_maker(const World<D>& world, std::uint64_t seed)
       : world_(world),
-        environment_(Environment<D>::build(world.soup,
-                                           {.duplicates = Duplicate_vertices::keep, .simplicial = true})),
+        environment_(
+            Environment<D>::build(world.soup, {.duplicates = Duplicate_vertices::keep, .simplicial = true})),
         locator_(environment_.snapshot()),
         source_world_{"", world.soup, true},
         source_(source_world_, seed) {}
@@ -72,7 +72,8 @@ class Moving_wall_maker final : public Maker<D> {
   const Point<D>& point(std::uint32_t v) const { return world_.soup.points[v]; }
 
   double eighths(int low, int high) {
-    return (low + static_cast<double>(source_.random().below(static_cast<std::uint64_t>(high - low + 1)))) / 8;
+    return (low + static_cast<double>(source_.random().below(static_cast<std::uint64_t>(high - low + 1)))) /
+           8;
   }
 
   std::vector<std::vector<std::uint32_t>> cells_around(std::uint32_t v) const {

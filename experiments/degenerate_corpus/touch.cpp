@@ -28,7 +28,8 @@ std::optional<Rational> time_of_passing(const Vec& a, const Vec& b, const Vec& q
   const Rational all = volume(a, b, q, r);
   if (all == 0) return {};
   const std::array<Rational, 4> shares{Rational(volume(x, b, q, r) / all), Rational(volume(a, x, q, r) / all),
-                                       Rational(volume(a, b, x, r) / all), Rational(volume(a, b, q, x) / all)};
+                                       Rational(volume(a, b, x, r) / all),
+                                       Rational(volume(a, b, q, x) / all)};
   if (std::ranges::any_of(shares, [](const Rational& s) { return s < 0; })) return {};
   const Rational moving = shares[0] + shares[1];
   if (moving == 0) return {};
@@ -64,10 +65,10 @@ std::optional<Rational> touch_of(const World<D>& world, const Wall<D>& wall, std
   const auto of_point = test::touch_of_point(from, to, obstacle).later;
   if (points.size() == 1) return of_point;
   if (points.size() == 3)
-    return first_meeting(from, to,
-                         std::array{embedded<D>(points[(move.vertex + 1) % 3]),
-                                    embedded<D>(points[(move.vertex + 2) % 3])},
-                         obstacle);
+    return first_meeting(
+        from, to,
+        std::array{embedded<D>(points[(move.vertex + 1) % 3]), embedded<D>(points[(move.vertex + 2) % 3])},
+        obstacle);
   const auto of_edge = test::touch_of_edge(from, to, embedded<D>(points[1 - move.vertex]), obstacle).later;
   return !of_edge || (of_point && *of_point < *of_edge) ? of_point : of_edge;
 }
@@ -128,8 +129,8 @@ std::optional<Rational> first_touch_of_walls(const World<D>& world, std::span<co
     std::vector<Point<3>> still;
     for (const std::uint32_t v : wall.corners)
       if (v != move.vertex) still.push_back(embedded<D>(world.soup.points[v]));
-    const auto time = first_meeting(embedded<D>(world.soup.points[move.vertex]), embedded<D>(move.to), still,
-                                    obstacle);
+    const auto time =
+        first_meeting(embedded<D>(world.soup.points[move.vertex]), embedded<D>(move.to), still, obstacle);
     if (time && (!first || *time < *first)) first = time;
   }
   return first;
@@ -196,14 +197,14 @@ std::string degeneracy(const World<D>& world, const Case<D>& c) {
   return (blocked_there ? "hits_" : "touches_") + c.touch->feature;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                 \
-  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                     \
-  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>,   \
-                                                  const Move<D>&);                              \
-  template std::optional<Rational> first_touch_of_walls<D>(                                     \
-      const World<D>&, std::span<const Point<D>>, const Move<D>&);                              \
-  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&); \
-  template void find_touch<D>(const World<D>&, Case<D>&);                                       \
+#define CELLWALK_INSTANTIATE(D)                                                                        \
+  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                            \
+  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>,          \
+                                                  const Move<D>&);                                     \
+  template std::optional<Rational> first_touch_of_walls<D>(const World<D>&, std::span<const Point<D>>, \
+                                                           const Move<D>&);                            \
+  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&);        \
+  template void find_touch<D>(const World<D>&, Case<D>&);                                              \
   template std::string degeneracy<D>(const World<D>&, const Case<D>&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

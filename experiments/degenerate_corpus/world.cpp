@@ -226,7 +226,7 @@ void place_vertex(World<D>& world, std::uint32_t vertex, const Vec& place) {
   for (std::size_t i = 0; i < world.walls.size(); ++i) replace(world.walls[i].corners, world.wall_points[i]);
 }
 
-#define CELLWALK_INSTANTIATE(D)                         \
+#define CELLWALK_INSTANTIATE(D)                           \
   template std::vector<World<D>> make_worlds<D>();        \
   template std::vector<World<D>> make_moving_worlds<D>(); \
   template void place_vertex<D>(World<D>&, std::uint32_t, const Vec&);

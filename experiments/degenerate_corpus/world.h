@@ -35,7 +35,7 @@ struct World {
   std::string name;
   Cell_soup<D> soup;
   std::vector<Wall<D>> walls;
-  std::vector<std::uint32_t> vertices;               ///< of walls, ascending
+  std::vector<std::uint32_t> vertices;              ///< of walls, ascending
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< sides of walls but for those within a facet (3D)
   /// Walls, and these, as rational points.
   std::vector<std::vector<Vec>> wall_points, edge_points, vertex_points;
