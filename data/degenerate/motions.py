@@ -335,6 +335,9 @@ class Sides:
         of_d = [sign(dot(n, d)) for n in self.planes]
         return [c for c in self.parent if all(s * t >= 0 for s, t in zip(c, of_d))]
 
+    def is_on_wall(self, d):
+        return any(dot(n, d) == 0 and all(dot(m, d) >= 0 for m in rims) for n, rims in self.walls)
+
     def shifted(self, other, cell, d):
         """The side, at a point a little further in direction d, whose sides are `other`, of a cell that holds d."""
         if not other.walls:
@@ -428,23 +431,20 @@ def pierced_at(a, b, q, wall):
     return min(times)
 
 
-def touching_times(pairs, target):
-    """When objects meet what stands still: the times, ascending, each with whether one goes on to meet it.
-
-    A pair is an object with the number of its vertex that moves to the target, and what stands still.
-    """
+def touching_times(world, shape, vertex, target):
+    """When an object meets walls: its times, ascending, each with whether it goes on to meet one of them."""
     times = {}
-    for shape, vertex, still in pairs:
-        if are_apart(shape + [target], still):
+    rest = [p for i, p in enumerate(shape) if i != vertex]
+    for wall in world.walls:
+        if are_apart(shape + [target], wall):
             continue
 
         def meets_at(t):
             moved = list(shape)
             moved[vertex] = at(shape[vertex], target, t)
-            return meets(moved, still)
+            return meets(moved, wall)
 
-        rest = [p for i, p in enumerate(shape) if i != vertex]
-        critical = critical_times((shape[vertex], target), rest + list(still))
+        critical = critical_times((shape[vertex], target), rest + list(wall))
         for t, after in zip(critical, critical[1:] + [None]):
             goes_on = after is not None and meets_at((t + after) / 2)
             if goes_on or meets_at(t):
@@ -472,7 +472,7 @@ def sweep_truth(world, shapes, moves, side):
         if d == (0, 0, 0):
             continue
         in_line = cross(d, sub(q, p)) == (0, 0, 0)
-        for t, goes_on in touching_times([(shapes[m], vertex, wall) for wall in world.walls], target):
+        for t, goes_on in touching_times(world, shapes[m], vertex, target):
             now = at(p, target, t)
             leaves, decided = {}, True
             for y in places_met([now, q], world.walls):
@@ -574,34 +574,65 @@ def face_truth(world, shape, vertex, target):
     return True, earliest(crossings)
 
 
+def pierces(edge, wall):
+    """True if the ends of an edge lie strictly on both sides of a wall, and it passes the wall strictly within."""
+    if len(wall) == 2:
+        return volume(wall + edge[:1]) * volume(wall + edge[1:]) < 0 and volume(edge + wall[:1]) * volume(edge + wall[1:]) < 0
+    turns = {sign(volume(edge + [wall[i], wall[(i + 1) % 3]])) for i in range(3)}
+    return volume(wall + edge[:1]) * volume(wall + edge[1:]) < 0 and turns in ({1}, {-1})
+
+
 def wall_hit(world, shape, vertex, target):
-    """The first time at which a wall that follows a vertex passes through an edge; None if none does, or all only in their planes."""
-    return earliest(
-        hit_time([wall[i], target] + wall[:i] + wall[i + 1 :], shape) for wall, i in world.walls_at(vertex)
-    )
+    """A time at which a wall that follows a vertex passes through an edge, or from which on it is pierced by it; None if there is none.
+
+    The edge is blocked at that time, or before.
+    """
+    times = []
+    for wall, i in world.walls_at(vertex):
+        if are_apart(wall + [target], shape):
+            continue
+        times.append(hit_time([wall[i], target] + wall[:i] + wall[i + 1 :], shape))
+        critical = critical_times((wall[i], target), wall[:i] + wall[i + 1 :] + shape)
+        for t, after in zip(critical, critical[1:]):
+            if pierces(shape, wall[:i] + [at(wall[i], target, (t + after) / 2)] + wall[i + 1 :]):
+                times.append(t)
+                break
+    return earliest(times)
 
 
 def moving_wall_truth(world, shape, vertex, target):
     """Whether the walls alone determine if one that follows a vertex is blocked by an edge that starts off all walls, and when.
 
-    They do if a wall passes through the edge at once where it meets it first, and where they meet at single times only. A point of the
-    edge then moves against the walls along the line of the vertex, backwards, as long as they are at it: cells follow affinely.
+    They do where a wall passes through the edge, or is pierced by it, and while each point of the edge meets walls at single times only:
+    it moves against them along the line of the vertex, backwards, as cells follow affinely, and must leave them in the component of its
+    small ball from which it came.
     """
-    hit = wall_hit(world, shape, vertex, target)
-    d = sub(target, world.points[vertex])
-    if d == (0, 0, 0):
+    start = world.points[vertex]
+    d, back = sub(target, start), sub(start, target)
+    walls = [(wall, i) for wall, i in world.walls_at(vertex) if not are_apart(wall + [target], shape)]
+    if d == (0, 0, 0) or not walls:
         return True, None
-    for t, goes_on in touching_times([(wall, i, shape) for wall, i in world.walls_at(vertex)], target):
-        if t == hit:
-            return True, hit
-        if t == 1:
-            break
-        now = world.moved(vertex, at(world.points[vertex], target, t))
-        for y in places_met(shape, now.walls):
+    hit = wall_hit(world, shape, vertex, target)
+
+    def points_at(t):
+        """Of each point met, whether it is blocked, and whether it meets walls at that time only."""
+        place = at(start, target, t)
+        places = places_met(shape, [wall[:i] + [place] + wall[i + 1 :] for wall, i in walls])
+        now = world.moved(vertex, place) if places else world
+        for y in places:
             sides = Sides(now, y)
-            before = sides.side_of(sides.with_direction(d)[0])
-            if before not in {sides.side_of(c) for c in sides.with_direction(tuple(-x for x in d))}:
-                return True, t
-        if goes_on:
+            came = sides.side_of(sides.with_direction(d)[0])
+            yield came not in map(sides.side_of, sides.with_direction(back)), not (sides.is_on_wall(d) or sides.is_on_wall(back))
+
+    times = sorted({t for wall, i in walls for t in critical_times((start, target), wall[:i] + wall[i + 1 :] + shape)})
+    for t, after in zip(times, times[1:]):
+        if hit is not None and hit <= t:
+            return True, hit
+        if any(is_blocked for is_blocked, _ in points_at(t)):
+            return True, t
+        met = list(points_at((t + after) / 2))
+        if any(is_single and is_blocked for is_blocked, is_single in met):
+            return True, t
+        if not all(is_single for _, is_single in met):
             return False, None
     return True, None

@@ -8,6 +8,7 @@ usage: test_degenerate_corpus.py PROGRAM
 import csv
 import filecmp
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -110,14 +111,19 @@ class Corpus(unittest.TestCase):
         self.assertEqual(0, code, text)
         self.assertEqual(0, check(*options)[0])
 
-    def damaged(self, kind, change, convention="none"):
-        """What the checker says of a corpus of one case, changed."""
-        case = next(c for c in cases_of(CORPUS) if Probe.is_fit(c, kind, convention))
-        change(case)
+    def damaged(self, kind, change, convention="none", most=1):
+        """How many cases of a corpus the checker finds wrong, and how many there are, when all are changed."""
+        cases = [c for c in cases_of(CORPUS) if Probe.is_fit(c, kind, convention)][:most]
+        for case in cases:
+            change(case)
         for name in KINDS:
-            (self.folder / f"{name}.jsonl").write_text(json.dumps(case) + "\n" if name == kind + "s" else "")
+            lines = [json.dumps(c) + "\n" for c in cases if name == kind + "s"]
+            (self.folder / f"{name}.jsonl").write_text("".join(lines))
         (self.folder / "worlds.jsonl").write_bytes((CORPUS / "worlds.jsonl").read_bytes())
-        return check("--in", self.folder)
+        code, text = check("--in", self.folder)
+        count, wrong = map(int, re.fullmatch(r"(\d+) cases, (\d+) wrong", text.splitlines()[-1]).groups())
+        self.assertEqual((len(cases), wrong > 0), (count, code == 1), text)
+        return wrong, count
 
     def test_checker_sees_a_damaged_corpus(self):
         def flip(c):
@@ -153,13 +159,13 @@ class Corpus(unittest.TestCase):
 
         seen = (flip, forget, delay, move_target, wrong_wall, wrong_feature, start_on_wall)
         for kind, more in (("walk", ()), ("face", (other_vertex, lose_point)), ("moving_wall", (other_vertex, lose_point))):
-            self.assertEqual(0, self.damaged(kind, lambda c: None)[0])
+            self.assertEqual((0, 1), self.damaged(kind, lambda c: None))
             for change in seen + more:
-                code, text = self.damaged(kind, change)
-                self.assertEqual(1, code, f"{kind}, {change.__name__}: {text}")
-            self.assertEqual(0, self.damaged(kind, lambda c: None, "touch")[0])
-            code, text = self.damaged(kind, block, "touch")
-            self.assertEqual(1, code, f"{kind}, blocked where it touches: {text}")
+                self.assertEqual((1, 1), self.damaged(kind, change), f"{kind}, {change.__name__}")
+            wrong, count = self.damaged(kind, block, "touch", 24)
+            self.assertGreater(count, 4)
+            # The walls alone do not determine what stays in a wall that moves.
+            self.assertGreaterEqual(wrong, count / 3 if kind == "moving_wall" else count, f"{kind}, blocked where it touches")
 
     def test_checker_sees_damaged_answers(self):
         table = self.answers("stop")
