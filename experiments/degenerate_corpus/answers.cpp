@@ -6,6 +6,7 @@
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/io/ovm.h>
+#include <cellwalk/reshape/reshaping.h>
 
 #include <fmt/format.h>
 
@@ -38,11 +39,12 @@ template <int D>
 class Answerer {
  public:
   explicit Answerer(const std::filesystem::path& file)
-      : environment_(Environment<D>::build(std::get<Cell_soup<D>>(io::read_ovm(file).mesh),
-                                           {.duplicates = Duplicate_vertices::keep})),
+      : soup_(std::get<Cell_soup<D>>(io::read_ovm(file).mesh)),
+        environment_(Environment<D>::build(soup_, {.duplicates = Duplicate_vertices::keep})),
         locator_(environment_.snapshot()) {}
 
   Row answer(const Case<D>& c, Touch touch) const {
+    if (c.moves_wall) return moving_wall(c);
     return c.points.size() == 1 ? walk(c, touch) : body(c, touch);
   }
 
@@ -86,6 +88,19 @@ class Answerer {
     return {};
   }
 
+  /// Each in an environment of its own, as walls do not go back.
+  Row moving_wall(const Case<D>& c) const {
+    Environment<D> environment =
+        Environment<D>::build(soup_, {.duplicates = Duplicate_vertices::keep, .simplicial = true});
+    Body<D> body(environment.snapshot(), Locator<D>(environment.snapshot()), {c.points, {{0, 1}}, {}});
+    Reshaping<D> reshaping(environment, {{&body}, {}}, {.at_contact = At_contact::hold});
+    const Vertex_result<D> result = reshaping.move(c.moves[0].vertex, c.moves[0].to);
+    if (result.end == Move_end::reached) return {};
+    if (result.end != Move_end::contact) throw std::runtime_error(c.id + ": the vertex cannot move");
+    return {true, 0, text_of(result.hit->time)};
+  }
+
+  Cell_soup<D> soup_;
   Environment<D> environment_;
   Locator<D> locator_;
 };
@@ -105,7 +120,10 @@ void answer(const std::filesystem::path& folder, Touch touch, const std::filesys
   std::map<std::string, std::unique_ptr<Answerer<2>>> worlds_2;
   std::map<std::string, std::unique_ptr<Answerer<3>>> worlds_3;
   io::Csv_writer rows(table, {"id", "answer", "move", "time"});
-  for (const char* file : {"walks.jsonl", "sweeps.jsonl"}) {
+  std::vector<const char*> files{"walks.jsonl", "sweeps.jsonl", "faces.jsonl"};
+  // Walls that move have no Touch::stop.
+  if (touch == Touch::pass) files.push_back("moving_walls.jsonl");
+  for (const char* file : files) {
     std::ifstream lines(folder / file);
     if (!lines) throw std::runtime_error(fmt::format("{}: cannot be read", (folder / file).string()));
     for (std::string line; std::getline(lines, line);) {

@@ -16,9 +16,10 @@ Json to_json(const Meeting& m) {
 template <int D>
 std::vector<Vec> pose(const Case<D>& c, std::uint32_t move, const Rational& time) {
   std::vector<Point<D>> points = c.points;
-  for (std::uint32_t m = 0; m < move; ++m) points[c.moves[m].vertex] = c.moves[m].to;
+  for (std::uint32_t m = 0; m < move && !c.moves_wall; ++m) points[c.moves[m].vertex] = c.moves[m].to;
   std::vector<Vec> result;
   for (const Point<D>& p : points) result.push_back(exact<D>(p));
+  if (c.moves_wall) return result;
   Vec& moved = result[c.moves[move].vertex];
   moved = between(moved, exact<D>(c.moves[move].to), time);
   return result;
@@ -70,6 +71,7 @@ Case<D> question(const Json& json) {
   Case<D> c;
   c.id = json.at("id");
   c.points = json.at("points").get<std::vector<Point<D>>>();
+  c.moves_wall = json.at("kind") == "moving_wall";
   if (!json.at("side").is_null()) c.side = json.at("side").get<std::vector<Point<D>>>();
   for (const Json& m : json.at("moves"))
     c.moves.push_back({m.at("vertex").get<std::uint32_t>(), m.at("to").get<Point<D>>()});

@@ -14,7 +14,7 @@
 
 namespace cellwalk::corpus {
 
-/// One vertex of the object moves along a straight line.
+/// One vertex of the object, or of the walls, moves along a straight line.
 template <int D>
 struct Move {
   std::uint32_t vertex = 0;
@@ -36,13 +36,21 @@ inline constexpr std::array<const char*, 3> crossing_names{"no", "yes", "either"
 template <int D>
 struct Case {
   std::string id, degeneracy, near;  ///< near: the case of which a target was moved by an ulp
+  std::string nature;                ///< more that tells sorts apart; it is not written
   std::vector<Point<D>> points, side;
   std::vector<Move<D>> moves;
+  bool moves_wall = false;       ///< what moves is a vertex of the world, and the object stands still
   bool at_start = false;         ///< the object meets a wall before it moves
   std::optional<Meeting> touch;  ///< the first time at which it meets a wall off its start
   Crossing crossing = Crossing::no;
   std::vector<Meeting> crossings;  ///< times at which it may be blocked
 };
+
+/// Where what moves is before it does.
+template <int D>
+Point<D> start_of(const Case<D>& c, const World<D>& world, const Move<D>& move) {
+  return c.moves_wall ? world.soup.points[move.vertex] : c.points[move.vertex];
+}
 
 /// The points of the object in a move, at a time.
 template <int D>

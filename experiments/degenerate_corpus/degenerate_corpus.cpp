@@ -19,7 +19,8 @@
 namespace cellwalk::corpus {
 namespace {
 
-constexpr std::size_t cases_of_a_kind = 220;  ///< in each dimension
+// In each dimension.
+constexpr std::size_t walks = 220, sweeps = 220, faces = 150, moving_walls = 120;
 
 void write_lines(const std::filesystem::path& file, const std::vector<nlohmann::ordered_json>& lines) {
   io::Atomic_file out(file);
@@ -28,37 +29,55 @@ void write_lines(const std::filesystem::path& file, const std::vector<nlohmann::
 }
 
 struct Lines {
-  std::vector<nlohmann::ordered_json> worlds, walks, sweeps;
+  std::vector<nlohmann::ordered_json> worlds, walks, sweeps, faces, moving_walls;
 };
 
 template <int D>
 void add_cases(const std::vector<World<D>>& worlds, const Make_maker<D>& make, const char* kind,
-               std::vector<nlohmann::ordered_json>& lines) {
-  for (const auto& placed : make_cases<D>(worlds, make, fmt::format("{}-{}d", kind, D), cases_of_a_kind))
+               std::size_t count, std::vector<nlohmann::ordered_json>& lines) {
+  for (const auto& placed : make_cases<D>(worlds, make, fmt::format("{}-{}d", kind, D), count))
     lines.push_back(to_json(placed.c, kind, worlds[placed.world]));
 }
 
 template <int D>
-void add_dimension(const std::filesystem::path& folder, Lines& lines) {
-  const std::vector<World<D>> worlds = make_worlds<D>();
+void add_worlds(const std::filesystem::path& folder, const std::vector<World<D>>& worlds, Lines& lines) {
   for (const World<D>& world : worlds) {
     lines.worlds.push_back(to_json(world));
     io::write_ovm(folder / "worlds" / (world.name + ".ovm"), world.soup);
   }
-  add_cases<D>(worlds, walk_maker<D>, "walk", lines.walks);
-  add_cases<D>(worlds, sweep_maker<D>, "sweep", lines.sweeps);
+}
+
+template <int D>
+void add_objects(const std::filesystem::path& folder, Lines& lines) {
+  const std::vector<World<D>> worlds = make_worlds<D>();
+  add_worlds(folder, worlds, lines);
+  add_cases<D>(worlds, walk_maker<D>, "walk", walks, lines.walks);
+  add_cases<D>(worlds, sweep_maker<D>, "sweep", sweeps, lines.sweeps);
+  if constexpr (D == 3) add_cases<3>(worlds, face_maker, "face", faces, lines.faces);
+}
+
+template <int D>
+void add_moving_walls(const std::filesystem::path& folder, Lines& lines) {
+  const std::vector<World<D>> worlds = make_moving_worlds<D>();
+  add_worlds(folder, worlds, lines);
+  add_cases<D>(worlds, moving_wall_maker<D>, "moving_wall", moving_walls, lines.moving_walls);
 }
 
 void make(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "worlds");
   Lines lines;
-  add_dimension<2>(folder, lines);
-  add_dimension<3>(folder, lines);
+  add_objects<2>(folder, lines);
+  add_objects<3>(folder, lines);
+  add_moving_walls<2>(folder, lines);
+  add_moving_walls<3>(folder, lines);
   write_lines(folder / "worlds.jsonl", lines.worlds);
   write_lines(folder / "walks.jsonl", lines.walks);
   write_lines(folder / "sweeps.jsonl", lines.sweeps);
-  fmt::print("{}: {} worlds, {} walks, {} sweeps\n", folder.string(), lines.worlds.size(), lines.walks.size(),
-             lines.sweeps.size());
+  write_lines(folder / "faces.jsonl", lines.faces);
+  write_lines(folder / "moving_walls.jsonl", lines.moving_walls);
+  fmt::print("{}: {} worlds, {} walks, {} sweeps, {} faces, {} moving walls\n", folder.string(),
+             lines.worlds.size(), lines.walks.size(), lines.sweeps.size(), lines.faces.size(),
+             lines.moving_walls.size());
 }
 
 }  // namespace

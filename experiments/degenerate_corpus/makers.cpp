@@ -17,7 +17,8 @@ namespace {
 /// What makes two cases alike: the degeneracy, the answer, and the walls met.
 template <int D>
 std::string sort_of(const Case<D>& c) {
-  std::string text = c.degeneracy + ' ' + crossing_names[static_cast<std::size_t>(c.crossing)];
+  std::string text =
+      c.degeneracy + ' ' + c.nature + ' ' + crossing_names[static_cast<std::size_t>(c.crossing)];
   if (c.touch)
     for (const std::string& kind : c.touch->wall_kinds) text += ' ' + kind;
   return text;
@@ -28,6 +29,7 @@ bool complete(Maker<D>& maker, const World<D>& world, Case<D>& c) {
   c.crossing = Crossing::no;
   c.crossings.clear();
   c.touch.reset();
+  c.nature.clear();
   if (!maker.judge(c)) return false;
   find_touch(world, c);
   c.degeneracy = degeneracy(world, c);

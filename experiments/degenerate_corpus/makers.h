@@ -30,6 +30,10 @@ template <int D>
 std::unique_ptr<Maker<D>> walk_maker(const World<D>& world, std::uint64_t seed);
 template <int D>
 std::unique_ptr<Maker<D>> sweep_maker(const World<D>& world, std::uint64_t seed);
+std::unique_ptr<Maker<3>> face_maker(const World<3>& world, std::uint64_t seed);
+/// \pre the cells of the world are simplices
+template <int D>
+std::unique_ptr<Maker<D>> moving_wall_maker(const World<D>& world, std::uint64_t seed);
 
 /// A case and the world in which it is.
 template <int D>

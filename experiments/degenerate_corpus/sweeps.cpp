@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Edges whose ends move. The oracle of walks judges the path of the end, that of chains the edge. Cells and
-// chains are handed on by the library, as far as the oracles agree with it: if they do not, nothing is made.
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/walk/locate.h>
-
-#include <algorithm>
+// Edges whose ends move.
 #include <memory>
-#include <stdexcept>
 
-#include "edge/sweep_judge.h"
+#include "edge_judge.h"
 #include "makers.h"
-#include "oracle/oracle.h"
 #include "touch.h"
 #include "walk/oracle_worlds.h"
 
@@ -18,20 +11,11 @@ namespace cellwalk::corpus {
 namespace {
 
 template <int D>
-struct Edge {
-  Particle<D> p, q;
-  Chain chain;  ///< from p to q
-};
-
-template <int D>
 class Sweep_maker final : public Maker<D> {
  public:
   Sweep_maker(const World<D>& world, std::uint64_t seed)
       : world_(world),
-        snapshot_(Snapshot<D>::compile(world.soup, glue(world.soup))),
-        locator_(snapshot_),
-        oracle_(world.soup),
-        chains_(world.soup),
+        judge_(world.soup),
         source_world_{"", world.soup, true},
         source_(source_world_, seed) {}
 
@@ -61,7 +45,7 @@ class Sweep_maker final : public Maker<D> {
     std::optional<Edge<D>> edge = start_of(c);
     if (!edge) return false;
     for (std::uint32_t m = 0; m < c.moves.size(); ++m) {
-      const std::optional<Judged> judged = judge_move(*edge, c.moves[m]);
+      const std::optional<Judged> judged = judge_.move(*edge, c.moves[m]);
       if (!judged) return false;
       for (const Rational& time : judged->times) c.crossings.push_back(meeting(world_, c, m, time));
       c.crossing = judged->crossing;
@@ -73,11 +57,6 @@ class Sweep_maker final : public Maker<D> {
   }
 
  private:
-  struct Judged {
-    Crossing crossing = Crossing::no;
-    std::vector<Rational> times;
-  };
-
   /// Where the edge may come from: moved there, one end after the other, it meets no wall off its start.
   std::optional<std::vector<Point<D>>> find_side(const std::vector<Point<D>>& points) {
     constexpr int tries = 12;
@@ -97,70 +76,19 @@ class Sweep_maker final : public Maker<D> {
   /// The edge as it stands, on its side of the walls there. None if it is not in free space.
   std::optional<Edge<D>> start_of(const Case<D>& c) {
     const std::vector<Point<D>>& at = c.side.empty() ? c.points : c.side;
-    const auto p = locator_.particle_at(at[0]), q = locator_.particle_at(at[1]);
-    if (!p || !q) return {};
-    const Chain_result<D> found = find_chain(snapshot_, *p, *q, counts_.walk);
-    if (found.contact) return {};
-    Edge<D> edge{*p, *q, found.chain};
-    if (c.side.empty()) return edge;
+    std::optional<Edge<D>> edge = judge_.place(at[0], at[1]);
+    if (!edge || c.side.empty()) return edge;
     for (const std::uint32_t v : {1u, 0u}) {  // the way of find_side() back
-      const auto judged = judge_move(edge, {v, c.points[v]});
+      const auto judged = judge_.move(*edge, {v, c.points[v]});
       if (!judged || judged->crossing != Crossing::no) return {};
     }
     return edge;
   }
 
-  /// Judges a move, and makes it if it is free. None if the path of the end leaves a choice.
-  std::optional<Judged> judge_move(Edge<D>& edge, const Move<D>& move) {
-    if (move.vertex == 1) {
-      Edge<D> turned{edge.q, edge.p, reversed(snapshot_, edge.chain)};
-      const auto judged = judge_move(turned, {0, move.to});
-      edge = {turned.q, turned.p, reversed(snapshot_, turned.chain)};
-      return judged;
-    }
-    const oracle::Trace trace = oracle_.trace(edge.p.position, move.to);
-    const oracle::Truth truth = oracle::judge(trace, snapshot_.index(edge.p.cell));
-    if (truth.choices > 0 || truth.stops.size() > 1) return {};
-    Particle<D> p = edge.p;
-    std::vector<Cell> visited;
-    std::vector<Half_facet> crossed;
-    const bool blocked =
-        cellwalk::move(snapshot_, p, move.to, counts_.walk, {Walk_strategy::certified, &visited, &crossed})
-            .contact.has_value();
-    if (blocked != truth.arrivals.empty()) throw std::logic_error("a walk that the oracle contradicts");
-    if (blocked) {
-      p.position = move.to;
-      p.cell = visited.back();
-    }
-    const Vertex_path<D> path{edge.p, p, visited, crossed, blocked};
-    const Sweep_result<D> result = sweep_triangle<D>(snapshot_, path, edge.q, edge.chain, counts_);
-    const auto motion = test::motion_of(world_.soup, snapshot_, path, edge.q, edge.chain);
-    const oracle::Outcomes outcomes = chains_.judge(motion);
-    if (test::fault_of(chains_, motion, outcomes, snapshot_, result) != test::Sweep_fault::none)
-      throw std::logic_error("a sweep that the oracle contradicts");
-    Judged judged;
-    for (const oracle::Share& s : outcomes.blocks) judged.times.push_back(to_rational(s));
-    if (blocked && outcomes.may_be_free())
-      judged.times.push_back(to_rational(trace.events[static_cast<std::size_t>(truth.stops[0].event)]));
-    std::ranges::sort(judged.times);
-    judged.times.erase(std::unique(judged.times.begin(), judged.times.end()), judged.times.end());
-    judged.crossing = judged.times.empty()                 ? Crossing::no
-                      : !blocked && outcomes.may_be_free() ? Crossing::either
-                                                           : Crossing::yes;
-    if (judged.crossing == Crossing::no) edge = {p, edge.q, result.chain};
-    // What has several ends goes on from one of them only.
-    if (judged.crossing == Crossing::no && outcomes.choices > 0) return {};
-    return judged;
-  }
-
   const World<D>& world_;
-  const Snapshot<D> snapshot_;
-  const Locator<D> locator_;
-  const oracle::Oracle<D> oracle_;
-  const oracle::Chain_oracle<D> chains_;
+  Edge_judge<D> judge_;
   const oracle::World<D> source_world_;
   oracle::Motion_source<D> source_;
-  Edge_counts counts_;
 };
 
 }  // namespace

@@ -10,6 +10,51 @@
 namespace cellwalk::corpus {
 namespace {
 
+Rational volume(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
+  Vec x, y, z;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = b[i] - a[i];
+    y[i] = c[i] - a[i];
+    z[i] = d[i] - a[i];
+  }
+  return x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) +
+         x[2] * (y[0] * z[1] - y[1] * z[0]);
+}
+
+/// The time at which a triangle, whose corner goes from a to b, passes a point. None if it does not, or if it
+/// moves in its plane.
+std::optional<Rational> time_of_passing(const Vec& a, const Vec& b, const Vec& q, const Vec& r,
+                                        const Vec& x) {
+  const Rational all = volume(a, b, q, r);
+  if (all == 0) return {};
+  const std::array<Rational, 4> shares{Rational(volume(x, b, q, r) / all), Rational(volume(a, x, q, r) / all),
+                                       Rational(volume(a, b, x, r) / all),
+                                       Rational(volume(a, b, q, x) / all)};
+  if (std::ranges::any_of(shares, [](const Rational& s) { return s < 0; })) return {};
+  const Rational moving = shares[0] + shares[1];
+  if (moving == 0) return {};
+  return Rational(shares[1] / moving);
+}
+
+/// The first time at which a segment or triangle meets an obstacle, a segment or triangle that it does not
+/// meet at the start, while one corner of it goes from a to b. The points in which they meet, with their
+/// times, form a convex set; the first one is a corner of it: one in what a side at the moving corner
+/// sweeps, a corner of the obstacle, or one at the end.
+std::optional<Rational> first_meeting(const Point<3>& a, const Point<3>& b, std::span<const Point<3>> still,
+                                      std::span<const Point<3>> obstacle) {
+  std::optional<Rational> first;
+  const auto note = [&](const std::optional<Rational>& time) {
+    if (time && (!first || *time < *first)) first = time;
+  };
+  for (const Point<3>& s : still) note(test::touch_of_edge(a, b, s, obstacle).later);
+  if (still.size() == 1) return first;
+  std::vector<Vec> end{exact<3>(b), exact<3>(still[0]), exact<3>(still[1])}, corners;
+  for (const Point<3>& x : obstacle) corners.push_back(exact<3>(x));
+  for (const Vec& x : corners) note(time_of_passing(exact<3>(a), end[0], end[1], end[2], x));
+  if (!first && meet(end, corners)) first = 1;
+  return first;
+}
+
 /// The first touch of a wall, by the rational arithmetic of the tests.
 template <int D>
 std::optional<Rational> touch_of(const World<D>& world, const Wall<D>& wall, std::span<const Point<D>> points,
@@ -19,6 +64,11 @@ std::optional<Rational> touch_of(const World<D>& world, const Wall<D>& wall, std
   const Point<3> from = embedded<D>(points[move.vertex]), to = embedded<D>(move.to);
   const auto of_point = test::touch_of_point(from, to, obstacle).later;
   if (points.size() == 1) return of_point;
+  if (points.size() == 3)
+    return first_meeting(
+        from, to,
+        std::array{embedded<D>(points[(move.vertex + 1) % 3]), embedded<D>(points[(move.vertex + 2) % 3])},
+        obstacle);
   const auto of_edge = test::touch_of_edge(from, to, embedded<D>(points[1 - move.vertex]), obstacle).later;
   return !of_edge || (of_point && *of_point < *of_edge) ? of_point : of_edge;
 }
@@ -60,7 +110,7 @@ bool meets_walls(const World<D>& world, std::span<const Point<D>> points) {
 template <int D>
 std::optional<Rational> first_touch(const World<D>& world, std::span<const Point<D>> points,
                                     const Move<D>& move) {
-  if (points.size() > 2) throw std::invalid_argument("a point or an edge");
+  if (points.size() > 3) throw std::invalid_argument("a point, an edge or a triangle");
   std::optional<Rational> first;
   for (const Wall<D>& wall : world.walls) {
     const auto later = touch_of<D>(world, wall, points, move);
@@ -70,9 +120,37 @@ std::optional<Rational> first_touch(const World<D>& world, std::span<const Point
 }
 
 template <int D>
+std::optional<Rational> first_touch_of_walls(const World<D>& world, std::span<const Point<D>> points,
+                                             const Move<D>& move) {
+  const std::array obstacle{embedded<D>(points[0]), embedded<D>(points[1])};
+  std::optional<Rational> first;
+  for (const Wall<D>& wall : world.walls) {
+    if (std::ranges::find(wall.corners, move.vertex) == wall.corners.end()) continue;
+    std::vector<Point<3>> still;
+    for (const std::uint32_t v : wall.corners)
+      if (v != move.vertex) still.push_back(embedded<D>(world.soup.points[v]));
+    const auto time =
+        first_meeting(embedded<D>(world.soup.points[move.vertex]), embedded<D>(move.to), still, obstacle);
+    if (time && (!first || *time < *first)) first = time;
+  }
+  return first;
+}
+
+template <int D>
 Meeting meeting(const World<D>& world, const Case<D>& c, std::uint32_t move, const Rational& time) {
   const std::vector<Vec> object = pose(c, move, time);
-  Meeting m{move, time, walls_met<D>(world, object), lowest_feature<D>(world, object), {}};
+  Meeting m{move, time, {}, {}, {}};
+  if (c.moves_wall) {
+    World<D> then = world;
+    const Move<D>& moved = c.moves[move];
+    place_vertex(then, moved.vertex,
+                 between(exact<D>(world.soup.points[moved.vertex]), exact<D>(moved.to), time));
+    m.walls = walls_met<D>(then, object);
+    m.feature = lowest_feature<D>(then, object);
+  } else {
+    m.walls = walls_met<D>(world, object);
+    m.feature = lowest_feature<D>(world, object);
+  }
   std::set<std::string> kinds;
   for (const std::uint32_t w : m.walls)
     kinds.insert(wall_kind_names[static_cast<std::size_t>(world.walls[w].kind)]);
@@ -85,21 +163,22 @@ void find_touch(const World<D>& world, Case<D>& c) {
   c.at_start = meets_walls<D>(world, c.points);
   std::vector<Point<D>> points = c.points;
   for (std::uint32_t m = 0; m < c.moves.size(); ++m) {
-    std::optional<Rational> first = first_touch<D>(world, points, c.moves[m]);
+    std::optional<Rational> first = c.moves_wall ? first_touch_of_walls<D>(world, points, c.moves[m])
+                                                 : first_touch<D>(world, points, c.moves[m]);
     for (const Meeting& crossing : c.crossings)
       if (crossing.move == m && (!first || crossing.time < *first)) first = crossing.time;
     if (first) {
       c.touch = meeting(world, c, m, *first);
       return;
     }
-    points[c.moves[m].vertex] = c.moves[m].to;
+    if (!c.moves_wall) points[c.moves[m].vertex] = c.moves[m].to;
   }
 }
 
 template <int D>
 std::string degeneracy(const World<D>& world, const Case<D>& c) {
   const bool moves =
-      std::ranges::any_of(c.moves, [&](const Move<D>& m) { return m.to != c.points[m.vertex]; });
+      std::ranges::any_of(c.moves, [&](const Move<D>& m) { return m.to != start_of(c, world, m); });
   if (!moves) return c.at_start ? "zero_length_on_wall" : "zero_length";
   const auto last = [&](std::uint32_t m) {
     return !c.crossings.empty() && c.crossings[0].move == m ? c.crossings[0].time : Rational(1);
@@ -118,12 +197,14 @@ std::string degeneracy(const World<D>& world, const Case<D>& c) {
   return (blocked_there ? "hits_" : "touches_") + c.touch->feature;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                 \
-  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                     \
-  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>,   \
-                                                  const Move<D>&);                              \
-  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&); \
-  template void find_touch<D>(const World<D>&, Case<D>&);                                       \
+#define CELLWALK_INSTANTIATE(D)                                                                        \
+  template bool meets_walls<D>(const World<D>&, std::span<const Point<D>>);                            \
+  template std::optional<Rational> first_touch<D>(const World<D>&, std::span<const Point<D>>,          \
+                                                  const Move<D>&);                                     \
+  template std::optional<Rational> first_touch_of_walls<D>(const World<D>&, std::span<const Point<D>>, \
+                                                           const Move<D>&);                            \
+  template Meeting meeting<D>(const World<D>&, const Case<D>&, std::uint32_t, const Rational&);        \
+  template void find_touch<D>(const World<D>&, Case<D>&);                                              \
   template std::string degeneracy<D>(const World<D>&, const Case<D>&);
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

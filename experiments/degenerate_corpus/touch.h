@@ -16,10 +16,16 @@ bool meets_walls(const World<D>& world, std::span<const Point<D>> points);
 
 /// The infimum of the times at which a wall meets a point of the object that was not in it at the start of a
 /// move, or the moving vertex elsewhere than at its start.
-/// \pre at most two points
+/// \pre at most three points; three meet no wall before they move
 template <int D>
 std::optional<Rational> first_touch(const World<D>& world, std::span<const Point<D>> points,
                                     const Move<D>& move);
+
+/// The first time at which walls at a vertex that moves meet what stands still.
+/// \pre two points, which meet no wall before it moves
+template <int D>
+std::optional<Rational> first_touch_of_walls(const World<D>& world, std::span<const Point<D>> points,
+                                             const Move<D>& move);
 
 /// What the object meets at a time of a move.
 template <int D>

@@ -76,16 +76,19 @@ void add_features(World<D>& world) {
       ++uses[{wall.facet, std::min(u, v), std::max(u, v)}];
     }
   }
-  const auto point = [&](std::uint32_t v) { return exact<D>(world.soup.points[v]); };
-  for (const std::uint32_t v : vertices) world.vertex_points.push_back({point(v)});
   std::set<std::array<std::uint32_t, 2>> edges;
   for (const auto& [side, count] : uses)
     if (count == 1) edges.insert({side[1], side[2]});
-  for (const auto& [u, v] : edges) world.edge_points.push_back({point(u), point(v)});
-  for (const Wall<D>& wall : world.walls) {
-    std::vector<Vec>& corners = world.wall_points.emplace_back();
-    for (const std::uint32_t v : wall.corners) corners.push_back(point(v));
-  }
+  world.vertices.assign(vertices.begin(), vertices.end());
+  world.edges.assign(edges.begin(), edges.end());
+  const auto points = [&](const auto& corners) {
+    std::vector<Vec> result;
+    for (const std::uint32_t v : corners) result.push_back(exact<D>(world.soup.points[v]));
+    return result;
+  };
+  for (const std::uint32_t v : world.vertices) world.vertex_points.push_back(points(std::array{v}));
+  for (const auto& edge : world.edges) world.edge_points.push_back(points(edge));
+  for (const Wall<D>& wall : world.walls) world.wall_points.push_back(points(wall.corners));
 }
 
 template <int D>
@@ -170,7 +173,65 @@ std::vector<World<D>> make_worlds() {
   return worlds;
 }
 
-template std::vector<World<2>> make_worlds<2>();
-template std::vector<World<3>> make_worlds<3>();
+template <int D>
+std::vector<World<D>> make_moving_worlds() {
+  std::vector<World<D>> worlds;
+  const auto add = [&](const char* name, std::uint64_t seed, const auto& change) {
+    Lattice_world_options<D> options;
+    options.cells.fill(D == 2 ? 4 : 2);
+    options.cells[0] = D == 2 ? 4 : 3;
+    options.seed = seed;
+    options.simplex_share = D == 2 ? 0.6 : 1;
+    options.star_share = D == 2 ? 0.4 : 0;
+    change(options);
+    worlds.push_back(make_world<D>(name, options));
+  };
+  using Options = Lattice_world_options<D>;
+  add("moving-solid", 21, [](Options& o) { o.solid_share = 0.2; });
+  add("moving-membranes", 22, [](Options& o) { o.membrane_share = D == 2 ? 0.3 : 0.2; });
+  add("moving-pinched", 23, [](Options& o) {
+    o.removed_share = 0.3;
+    o.membrane_share = 0.1;
+  });
+  add("moving-slits", 24, [](Options& o) {
+    o.slit_share = 0.2;
+    o.membrane_share = 0.05;
+  });
+  add("moving-rotated", 25, [](Options& o) {
+    o.map = rotated<D>();
+    o.membrane_share = 0.15;
+    o.solid_share = 0.1;
+  });
+  add("moving-turned", 26, [](Options& o) {
+    o.map = exact_float::lattice_map<D>({});
+    o.membrane_share = 0.2;
+  });
+  add("moving-small", 27, [](Options& o) {
+    o.map = scaled<D>(0x1p-20);
+    o.membrane_share = 0.15;
+    o.solid_share = 0.1;
+  });
+  return worlds;
+}
+
+template <int D>
+void place_vertex(World<D>& world, std::uint32_t vertex, const Vec& place) {
+  const auto replace = [&](const auto& corners, std::vector<Vec>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (corners[i] == vertex) points[i] = place;
+  };
+  for (std::size_t i = 0; i < world.vertices.size(); ++i)
+    replace(std::array{world.vertices[i]}, world.vertex_points[i]);
+  for (std::size_t i = 0; i < world.edges.size(); ++i) replace(world.edges[i], world.edge_points[i]);
+  for (std::size_t i = 0; i < world.walls.size(); ++i) replace(world.walls[i].corners, world.wall_points[i]);
+}
+
+#define CELLWALK_INSTANTIATE(D)                           \
+  template std::vector<World<D>> make_worlds<D>();        \
+  template std::vector<World<D>> make_moving_worlds<D>(); \
+  template void place_vertex<D>(World<D>&, std::uint32_t, const Vec&);
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+#undef CELLWALK_INSTANTIATE
 
 }  // namespace cellwalk::corpus

@@ -35,13 +35,23 @@ struct World {
   std::string name;
   Cell_soup<D> soup;
   std::vector<Wall<D>> walls;
-  /// Walls, their sides but for those within a facet (3D), and their vertices, as rational points.
+  std::vector<std::uint32_t> vertices;              ///< of walls, ascending
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< sides of walls but for those within a facet (3D)
+  /// Walls, and these, as rational points.
   std::vector<std::vector<Vec>> wall_points, edge_points, vertex_points;
 };
 
-/// All worlds, in order.
+/// All worlds in which objects move, in order.
 template <int D>
 std::vector<World<D>> make_worlds();
+
+/// All worlds in which walls move: their cells are simplices.
+template <int D>
+std::vector<World<D>> make_moving_worlds();
+
+/// Puts a vertex of the walls elsewhere, as a rational point only.
+template <int D>
+void place_vertex(World<D>& world, std::uint32_t vertex, const Vec& place);
 
 }  // namespace cellwalk::corpus
 

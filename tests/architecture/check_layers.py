@@ -35,7 +35,7 @@ TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "wa
 OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}
 # Experiments whose results are judged by the oracles of tests, and where those are.
 JUDGED = {"02_exact_versus_float", "05_degenerate_worlds", "07_moving_walls", "degenerate_corpus"}
-JUDGES = {"oracle", "kernel", "walk", "edge"}
+JUDGES = {"oracle", "kernel", "walk", "edge", "reshape"}
 
 # Gmsh is GPL too: io is LGPL only when it is built without it.
 GPL_LAYERS = {"meshing"}
