@@ -65,8 +65,8 @@ void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_
   }
 }
 
-/// What all faces rest on after the move that moved in their planes, as agreed with all that is joined to them; or
-/// a contact, if they cannot agree.
+/// What faces that moved in their planes rest on after the move, as agreed with all that is joined to them;
+/// or a contact, if they cannot agree.
 /// \pre all else is free
 void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
                        const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls in the plane of a motion, in groups that have what moves on one side. Theory: docs/sweep.md, faces.
+// The walls in the plane of a motion, in groups that have what moves on one side. Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_FACE_SUPPORTING_WALL_SEARCH_H
 #define CELLWALK_EDGE_FACE_SUPPORTING_WALL_SEARCH_H
 

@@ -140,8 +140,8 @@ bool Triangle_in_plane::overlaps(const Point<3>& u, const Point<3>& v) const {
   return true;
 }
 
-// An open segment and an open convex polygon are disjoint if and only if the line of the segment, or of a side
-// of the polygon, separates them weakly.
+// An open segment and an open convex polygon are disjoint if and only if the line of the segment, or of a
+// side of the polygon, separates them weakly.
 bool Triangle_in_plane::has_inside(const Cell_view<3>& cell, std::size_t i, const Point<3>& u,
                                    const Point<3>& v) const {
   const auto loop = cell.loop(i);

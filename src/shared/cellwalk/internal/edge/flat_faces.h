@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Faces at a vertex that moves in their plane: on which sides of walls in it they are, together with all that is
-// joined to them. Theory: docs/sweep.md, faces.
+// Faces at a vertex that moves in their plane: on which sides of walls in it they are, and what is joined to
+// them. Theory: docs/sweep.md, faces.
 #ifndef CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 #define CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 
