@@ -14,14 +14,16 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cellwalk::test {
 
-/// A room of 22 x 12 x 2 cubes with membranes at half its height.
-inline Environment<3> with_membranes(const Point<3>& low, const Point<3>& high) {
+/// A room of cubes, 2 in height, with membranes where their centres are in a box.
+inline Environment<3> with_membranes(const Point<3>& low, const Point<3>& high, unsigned length = 22,
+                                     unsigned width = 12) {
   Grid_options<3> options;
-  options.cells = {22, 12, 2};
+  options.cells = {length, width, 2};
   auto environment = Environment<3>::build(hex_grid(options));
   const Snapshot<3>& snapshot = environment.snapshot();
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
@@ -68,6 +70,8 @@ class Moving {
     }
     return true;
   }
+
+  std::span<const Point<3>> positions() const { return body_.positions(); }
 
  private:
   static Body_soup<3> soup(const std::vector<Point<3>>& points,
