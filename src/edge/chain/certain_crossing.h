@@ -20,9 +20,9 @@ enum class Crossing_proof {
 ///
 /// With corners a, b, c and d = q - p, all seen from p, the signs asked for are those of det(d,a,b),
 /// det(d,b,c), det(d,c,a), of S = det(a,b,c) at p, and of S - det(d,a,b) - det(d,b,c) - det(d,c,a) at q. Each
-/// of the first four is a sum of six products of three differences. A term takes at most eight roundings
-/// (three differences, two products, three sums) to nearest, so with u = 2^-53 and all differences at most m
-/// in magnitude, the error is at most 6 * 8.1 u m^3 < 2^-47 m^3. The last is in error by four times that, and by
+/// of the first four is a sum of six products of three differences. A term takes at most eight roundings to
+/// nearest (three differences, two products, three sums), so with u = 2^-53 and all differences at most m in
+/// magnitude, the error is at most 6 * 8.1 u m^3 < 2^-47 m^3. The last is in error by four times that, and by
 /// the roundings of three sums of numbers up to 24 m^3.
 class Certain_crossing {
  public:
