@@ -89,7 +89,8 @@ void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::ui
   if (found.contact) {
     first = found.contact;
     first->vertex = vertex;
-    first->feature = corners.front().edge;
+    first->body = Body_feature::face;
+    first->feature = names[found.face];
     return;
   }
   for (const auto& [number, supporting_walls] : found.supporting_walls) {

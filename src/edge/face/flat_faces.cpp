@@ -226,6 +226,7 @@ Flat_faces find_flat_faces(const Snapshot<3>& snapshot, const Vertex_path<3>& pa
     const Half_facet wall = motion.settle();
     if (wall != Half_facet::none) {
       result.contact = contact_at_start(snapshot, wall, a);
+      result.face = f;
       return result;
     }
     motion.append_to(result);

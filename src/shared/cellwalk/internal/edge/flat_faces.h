@@ -32,6 +32,7 @@ struct Flat_faces {
   /// Set if a wall comes between the faces, or between a face and an edge: on no side of it all are free.
   /// Then the time is 0, and the point the start of p.
   std::optional<Contact<3>> contact;
+  std::size_t face = 0;  ///< one that moves in the plane of that wall
   /// The supporting walls after the move, by the numbers of the faces that move in their planes near walls.
   std::vector<std::pair<std::size_t, Supporting_walls>> supporting_walls;
 };
