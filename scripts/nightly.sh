@@ -10,13 +10,14 @@
 #   asan      all tests under the address and undefined-behaviour sanitizers, a twentieth of the usual length
 #   tsan      all tests with threads under the thread sanitizer
 #   fuzz      every fuzz target
+#   tutorials typed in a clean Debian 12 and a clean Debian 13
 #   soak      oracles and scenes with new seeds, for an hour
 #
 # A part that fails does not keep the others from running. The last line names the parts that failed; then the script ends with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-parts=(sources tidy long asan tsan fuzz soak)
+parts=(sources tidy long asan tsan fuzz tutorials soak)
 wanted=()
 seconds=600
 while [ $# -gt 0 ]; do
@@ -49,6 +50,10 @@ tsan() {
       -R Thread -LE long
 }
 fuzz() { scripts/fuzz.sh --seconds "$seconds"; }
+tutorials() {
+  scripts/setup.sh --for package &&
+    for release in bookworm trixie; do scripts/clean_root.sh $release tests/docs/type_tutorials.sh || return 1; done
+}
 soak() { scripts/soak.sh --hours 1 --seed "$(date +%Y%m%d)"; }
 
 scripts/setup.sh --for ci

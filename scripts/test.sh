@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh --for test
 
 echo "test: configuring build/release"
-cmake --preset release -DCELLWALK_LONG_TESTS="${CELLWALK_LONG_TESTS:-OFF}" \
+cmake --preset release -DCELLWALK_BUILD_TESTS=ON -DCELLWALK_BUILD_EXPERIMENTS=ON -DCELLWALK_LONG_TESTS="${CELLWALK_LONG_TESTS:-OFF}" \
   -DCELLWALK_TEST_DATA="${CELLWALK_TEST_DATA:-}" >build-release.log 2>&1 ||
   { cat build-release.log >&2; exit 1; }
 rm -f build-release.log

@@ -3,6 +3,7 @@
 """Checks README.md and all pages of docs/: relative links and their anchors, the commands they name, and what commands print.
 
 usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
+       test_pages.py ROOT PROGRAM --tutorials
 
 - Links lead to files of the repository, and to headings where they have an anchor. docs/README.md leads to all pages.
 - `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
@@ -11,6 +12,7 @@ usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
   `$ export NAME=VALUE` holds for the rest of the page. A block after <!-- needs PART PART --> is left out where
   one of these parts is missing; one after <!-- not run --> always. One after <!-- long --> is run with --long, and nothing else then. data/ and examples/ are those of the repository, build/release is the
   folder of the program.
+- With --tutorials, the pages in docs/tutorials are run and nothing else; no part may be missing.
 - A picture that the commands of a page draw, and that the page shows from docs/images, is the one there. For the picture of a run,
   NAME/picture.png, that is gallery_NAME.png, which has half its width and height.
 """
@@ -32,6 +34,7 @@ CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
 FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
 FEWEST_LONG = {"commands": 10, "pictures": 10}
+FEWEST_TUTORIALS = {"commands": 20, "pictures": 2}
 
 
 def anchor(heading):
@@ -169,20 +172,23 @@ def run_blocks(page, root, program, missing, counts, is_long):
 
 def main():
     root, program, missing = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), set(sys.argv[3:])
-    is_long = "--long" in missing
-    fewest_of = FEWEST_LONG if is_long else FEWEST
+    is_long, only_tutorials = "--long" in missing, "--tutorials" in missing
+    only_runs = is_long or only_tutorials
+    fewest_of = FEWEST_LONG if is_long else FEWEST_TUTORIALS if only_tutorials else FEWEST
     pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
+    if only_tutorials:
+        pages = sorted((root / "docs" / "tutorials").glob("*.md"))
     help_texts, problems, counts = Help(program), [], dict.fromkeys(fewest_of, 0)
     for page in pages:
         problems += run_blocks(page, root, program, missing, counts, is_long)
-        if is_long:
+        if only_runs:
             continue
         problems += check_links(page, counts)
         if page.name != "errors.md":  # which has wrong ones on purpose
             problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
-    if not is_long:
+    if not only_runs:
         problems += check_index(root, pages)
-    commands = "" if is_long else help_texts.of(()).partition("Subcommands:")[2]
+    commands = "" if only_runs else help_texts.of(()).partition("Subcommands:")[2]
     for command in re.findall(r"^  (\w+)  ", commands, re.MULTILINE):
         examples = help_texts.of((command,)).partition("Examples:")[2].partition("\n\n")[0].splitlines()
         problems += check_options(f"cellwalk {command} --help", examples, help_texts, counts)
