@@ -27,20 +27,12 @@ from collections import Counter, defaultdict
 from fractions import Fraction
 from pathlib import Path
 
-from motions import (
-    World,
-    at,
-    face_hit,
-    face_truth,
-    first_touch,
-    first_touch_of_walls,
-    moving_wall_truth,
-    pierced_at,
-    sweep_truth,
-    vec,
-    walk_truth,
-    wall_hit,
-)
+from exact.sweeps import pierced_at, sweep_truth
+from exact.touches import first_touch, first_touch_of_walls
+from exact.vectors import at, vec
+from exact.volumes import face_hit, face_truth, moving_wall_truth, wall_hit
+from exact.walks import walk_truth
+from exact.world import World
 
 POINTS = {"walk": 1, "sweep": 2, "face": 3, "moving_wall": 2}  # of an object
 
