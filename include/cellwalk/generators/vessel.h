@@ -29,7 +29,7 @@ struct Vessel_options {
 };
 
 /// A branching vessel: a trunk that starts at the origin in direction z and forks into ever thinner branches,
-/// rounded at the ends. Tetrahedra, about 44,000 with the default options, in one component; solid ones of
+/// rounded at the ends. Tetrahedra, about 43,000 with the default options, in one component; solid ones of
 /// its tissue come in addition, and its walls are inner facets then.
 /// \throw Error(usage) for options out of range
 /// Cost: about 7 us a tetrahedron.

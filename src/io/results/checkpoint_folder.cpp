@@ -36,7 +36,7 @@ struct Damage {
 struct Sealed {
   std::array<char, 8> magic = io::magic;
   std::uint32_t version = io::version, byte_order = io::byte_order;
-  std::uint64_t step = 0, bytes = 0, checksum = 0;  ///< of the head with 0 here, of the program and the state
+  std::uint64_t step = 0, bytes = 0, checksum = 0;  ///< of the head that has the content's checksum here
 
   template <class Archive>
   void archive(Archive& a) {
