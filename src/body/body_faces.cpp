@@ -65,34 +65,59 @@ void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_
   }
 }
 
+/// What a vertex takes along.
+struct Star_of_vertex {
+  std::vector<Edge_at_vertex> edges;
+  std::vector<Face_at_vertex> faces;
+  std::vector<std::uint32_t> names;  ///< the numbers of the faces
+};
+
+Star_of_vertex star_of(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex) {
+  const auto corners = body.topology.corners_of(vertex);
+  Star_of_vertex star;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    star.edges.push_back(
+        {body.particles[corners[i].other], body.seen_from(corners[i]), &scratch.chains[i].chain});
+  for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
+    const auto& sides = body.topology.sides(f);
+    const std::uint32_t q = body.topology.faces()[f][(k + 1) % 3], r = body.topology.faces()[f][(k + 2) % 3];
+    star.faces.push_back({place_of(corners, sides[k]),
+                          place_of(corners, sides[(k + 2) % 3]),
+                          {&body.chains[sides[(k + 1) % 3]], q > r},
+                          &body.supporting_walls[f]});
+    star.names.push_back(f);
+  }
+  return star;
+}
+
+/// What comes between parts of the body that have the vertex alone in common.
+void sweep_parts(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex,
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
+  if (body.topology.is_joined_at(vertex)) return;
+  const Star_of_vertex star = star_of(body, scratch, vertex);
+  auto contact = wall_between_parts(*body.snapshot, path, star.edges, star.faces, counts);
+  if (!contact) return;
+  contact->vertex = vertex;
+  contact->feature = vertex;
+  if (!first || is_before(*contact, *first)) first = *contact;
+}
+
 /// What faces that moved in their planes rest on after the move, as agreed with all that is joined to them;
 /// or a contact, if they cannot agree.
 /// \pre all else is free
 void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
                        const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
-  const auto corners = body.topology.corners_of(vertex);
-  std::vector<Edge_at_vertex> edges;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    edges.push_back({body.particles[corners[i].other], body.seen_from(corners[i]), &scratch.chains[i].chain});
-  std::vector<Face_at_vertex> faces;
-  std::vector<std::uint32_t> names;
-  for (const auto& [f, k] : body.topology.face_corners_of(vertex)) {
-    const auto& sides = body.topology.sides(f);
-    const std::uint32_t q = body.topology.faces()[f][(k + 1) % 3], r = body.topology.faces()[f][(k + 2) % 3];
-    faces.push_back({place_of(corners, sides[k]),
-                     place_of(corners, sides[(k + 2) % 3]),
-                     {&body.chains[sides[(k + 1) % 3]], q > r},
-                     &body.supporting_walls[f]});
-    names.push_back(f);
-  }
-  const Flat_faces found = find_flat_faces(*body.snapshot, path, edges, faces, counts);
+  const Star_of_vertex star = star_of(body, scratch, vertex);
+  const Flat_faces found = find_flat_faces(*body.snapshot, path, star.edges, star.faces,
+                                           body.topology.is_joined_at(vertex), counts);
   if (found.contact) {
     first = found.contact;
     first->vertex = vertex;
     first->body = Body_feature::face;
-    first->feature = names[found.face];
+    first->feature = star.names[found.face];
     return;
   }
+  const auto& names = star.names;
   for (const auto& [number, supporting_walls] : found.supporting_walls) {
     std::erase_if(scratch.supporting_walls, [&](const auto& entry) { return entry.first == names[number]; });
     if (!supporting_walls.empty() || !body.supporting_walls[names[number]].empty())
@@ -172,6 +197,7 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
   }
   if (!are_walls_near) return;
   sweep_wedges(body, vertex, path, first, counts);
+  sweep_parts(body, scratch, vertex, path, first, counts);
   if (!first) first = marked;
   if (!first && counts.flat > flat_before) settle_flat_faces(body, scratch, vertex, path, first, counts);
 }

@@ -84,6 +84,24 @@ void Body_topology::link_faces(std::size_t vertices) {
   std::vector<std::uint32_t> next(face_corner_begin_.begin(), face_corner_begin_.end() - 1);
   for (std::uint32_t f = 0; f < faces_.size(); ++f)
     for (std::uint32_t k = 0; k < 3; ++k) face_corners_[next[faces_[f][k]]++] = {f, k};
+  for (std::uint32_t v = 0; v < vertices; ++v) is_joined_.push_back(edges_at_are_joined(v));
+}
+
+bool Body_topology::edges_at_are_joined(std::uint32_t vertex) const {
+  std::vector<std::uint32_t> part;  // of each edge at the vertex
+  for (const Corner& corner : corners_of(vertex)) part.push_back(corner.edge);
+  std::size_t parts = part.size();
+  const auto part_of = [&](std::uint32_t edge) {
+    const auto corners = corners_of(vertex);
+    return part[std::ranges::lower_bound(corners, edge, {}, &Corner::edge) - corners.begin()];
+  };
+  for (const auto& [f, k] : face_corners_of(vertex)) {
+    const std::uint32_t one = part_of(sides_[f][k]), other = part_of(sides_[f][(k + 2) % 3]);
+    if (one == other) continue;
+    std::ranges::replace(part, other, one);
+    --parts;
+  }
+  return parts < 2;
 }
 
 }  // namespace cellwalk::detail

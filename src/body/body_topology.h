@@ -45,9 +45,13 @@ class Body_topology {
     return {face_corners_.data() + face_corner_begin_[vertex],
             face_corners_.data() + face_corner_begin_[vertex + 1]};
   }
+  /// True if one can come from each edge at a vertex to each other one by faces.
+  /// \pre there are faces
+  bool is_joined_at(std::uint32_t vertex) const { return is_joined_[vertex]; }
 
  private:
   void link_faces(std::size_t vertices);
+  bool edges_at_are_joined(std::uint32_t vertex) const;
 
   std::vector<std::array<std::uint32_t, 2>> edges_;
   std::vector<Corner> corners_;              ///< of vertex after vertex
@@ -56,6 +60,7 @@ class Body_topology {
   std::vector<std::array<std::uint32_t, 3>> faces_, sides_;
   std::vector<Face_corner> face_corners_;  ///< of vertex after vertex
   std::vector<std::uint32_t> face_corner_begin_;
+  std::vector<bool> is_joined_;
 };
 
 }  // namespace cellwalk::detail

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "borders.h"
+#include "ridge_wedges.h"
 #include "supporting_wall_search.h"
 
 namespace cellwalk::detail {
@@ -15,17 +16,18 @@ namespace {
 /// All that p takes along in one plane that holds its way: the faces and edges in it move in it, and what is
 /// off it is on one side. Each of the former is on one side of each group of walls that its interior meets on
 /// the way. Two that are joined are on the same side of a wall that has inner points in what the common edge
-/// sweeps, or on the way of p.
+/// sweeps, or on the way of p; and in one wedge where walls have a ridge on that way.
 class Motion_in_plane {
  public:
   /// \param flat a face that moves in the plane
   Motion_in_plane(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                   std::span<const Edge_at_vertex> edges, std::span<const Face_at_vertex> faces,
-                  std::size_t flat, Face_counts& counts)
+                  std::size_t flat, Ridge_wedges* wedges, Face_counts& counts)
       : snapshot_(snapshot),
         path_(path),
         edges_(edges),
         faces_(faces),
+        wedges_(wedges),
         counts_(counts),
         plane_(triangle_of(is_in_line(faces[flat].pq) ? faces[flat].pr : faces[flat].pq), counts.walk) {
     of_edge_.resize(edges.size());
@@ -191,41 +193,88 @@ class Motion_in_plane {
           if (part != at_edge.front())
             join(*at_edge.front(), *part, [&](auto halves) { return along(std::move(halves), &e); });
       }
+      if (wedges_ != nullptr) is_new |= spread_to_wedges();
       for (const auto& part : parts_)
         if (part->search->piercing() != Half_facet::none) return part->search->piercing();
     }
     return Half_facet::none;
   }
 
+  /// Between what is in the plane and what is held on the way, also off the plane.
+  bool spread_to_wedges() {
+    bool is_new = false;
+    for (const auto& part : parts_)
+      for (const Half_facet half : part->search->taken()) wedges_->hold_side(half);
+    for (const auto& part : parts_)
+      for (const int side : {-1, 1})
+        for (const Half_facet half : part->search->halves_at(side))
+          if (wedges_->needs(half)) is_new |= part->search->take(half);
+    return is_new;
+  }
+
   const Snapshot<3>& snapshot_;
   const Vertex_path<3>& path_;
   std::span<const Edge_at_vertex> edges_;
   std::span<const Face_at_vertex> faces_;
+  Ridge_wedges* wedges_;  ///< null if all that p takes along is joined
   Face_counts& counts_;
   Triangle_in_plane plane_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Part*> of_edge_;  ///< null for edges off the plane, or in the line of the way
 };
 
+bool moves_in_its_plane(const Vertex_path<3>& path, const Point<3>& q, const Point<3>& r,
+                        Face_counts& counts) {
+  return Exact::orientation(counts.walk.predicates, path.from.position, path.to.position, q, r) == 0;
+}
+
+/// With all edges, and all faces that move off their plane; none if walls part nothing.
+std::optional<Ridge_wedges> wedges_on_way(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
+                                          std::span<const Edge_at_vertex> edges,
+                                          std::span<const Face_at_vertex> faces, Face_counts& counts) {
+  std::optional<Ridge_wedges> wedges(std::in_place, snapshot, path, counts);
+  if (wedges->is_empty()) return {};
+  for (const Edge_at_vertex& edge : edges)
+    if (!are_collinear(path.from.position, path.to.position, edge.end.position))
+      wedges->hold_edge(edge.end.position);
+  for (const Face_at_vertex& face : faces) {
+    const Point<3>&q = edges[face.pq].end.position, &r = edges[face.pr].end.position;
+    if (!moves_in_its_plane(path, q, r, counts)) wedges->hold_face(q, r);
+  }
+  return wedges;
+}
+
 }  // namespace
+
+std::optional<Contact<3>> wall_between_parts(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
+                                             std::span<const Edge_at_vertex> edges,
+                                             std::span<const Face_at_vertex> faces, Face_counts& counts) {
+  const auto wedges = wedges_on_way(snapshot, path, edges, faces, counts);
+  return wedges ? wedges->conflict() : std::nullopt;
+}
 
 Flat_faces find_flat_faces(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                            std::span<const Edge_at_vertex> edges, std::span<const Face_at_vertex> faces,
-                           Face_counts& counts) {
+                           bool are_joined, Face_counts& counts) {
   const Point<3>&a = path.from.position, &b = path.to.position;
   Flat_faces result;
+  std::optional<Ridge_wedges> wedges =
+      are_joined ? std::nullopt : wedges_on_way(snapshot, path, edges, faces, counts);
   std::vector<bool> is_done(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Point<3>&q = edges[faces[f].pq].end.position, &r = edges[faces[f].pr].end.position;
-    if (is_done[f] || Exact::orientation(counts.walk.predicates, a, b, q, r) != 0 ||
+    if (is_done[f] || !moves_in_its_plane(path, q, r, counts) ||
         (are_collinear(a, b, q) && are_collinear(a, b, r)))
       continue;
-    Motion_in_plane motion(snapshot, path, edges, faces, f, counts);
+    Motion_in_plane motion(snapshot, path, edges, faces, f, wedges ? &*wedges : nullptr, counts);
     for (std::size_t g = f; g < faces.size(); ++g)
       if (motion.has_face(g)) is_done[g] = true;
     const Half_facet wall = motion.settle();
-    if (wall != Half_facet::none) {
+    if (wall != Half_facet::none)
       result.contact = contact_at_start(snapshot, wall, a);
+    else if (wedges)
+      result.contact = wedges->conflict();
+    if (result.contact) {
       result.face = f;
       return result;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Faces at a vertex that moves in their plane: on which sides of walls in it they are, and what is joined to
-// them. Theory: docs/sweep.md, faces.
+// What a vertex takes along: faces that move in their plane, and parts that have the vertex alone in common.
+// Theory: docs/sweep.md, faces.
 #ifndef CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 #define CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 
@@ -40,11 +40,21 @@ struct Flat_faces {
 /// The supporting walls of all faces at p that move in their own plane, while p goes its way.
 /// \param edges all edges at p
 /// \param faces all faces at p
+/// \param are_joined one can come from each edge at p to each other one by faces
 /// \pre the sweeps of the edges and faces are free, each by itself
 /// Cost: some 100 us, up to milliseconds, if walls lie in the plane; else some us a face.
 Flat_faces find_flat_faces(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                            std::span<const Edge_at_vertex> edges, std::span<const Face_at_vertex> faces,
-                           Face_counts& counts);
+                           bool are_joined, Face_counts& counts);
+
+/// The first wall on the way of p that comes between edges and faces at p that are not joined: where p passes
+/// along a ridge of walls, all must be in one of the wedges between them. Faces that move in their plane are
+/// left out; find_flat_faces() has them. The normal is against the motion.
+/// \pre the sweeps of the edges and faces are free, each by itself, up to the time of the contact
+/// Cost: some us; some ten us more for each wall along the way.
+std::optional<Contact<3>> wall_between_parts(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
+                                             std::span<const Edge_at_vertex> edges,
+                                             std::span<const Face_at_vertex> faces, Face_counts& counts);
 
 }  // namespace cellwalk::detail
 
