@@ -222,5 +222,24 @@ TEST(LocateByHand, KnowsSolidOutsideAndDisconnectedSpace) {
   EXPECT_EQ(between.sides.size(), 1);
 }
 
+// Rounded signs put a vertex outside of its own cells. A motion that ends where it starts then looks for another
+// cell along a line that is none: it ends all the same, in some cell.
+TEST(WalkByHand, RoundedMotionsMayEndWhereTheyStart) {
+  Cell_soup<3> soup = make_cubes(2, 2, 2);
+  for (Point<3>& p : soup.points)
+    p = {0.9 * p[0] + 0.1 * p[1], 0.7 * p[1] - 0.2 * p[2], 1.1 * p[2] + 0.3 * p[0]};
+  const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
+  std::size_t searches = 0;
+  for (std::size_t c = 0; c < snapshot.cell_count(); ++c)
+    for (std::size_t v = 0; v < 8; ++v) {
+      const Point<3> place = snapshot.view(snapshot.cell(c)).point(v);
+      Walk_counts counts;
+      const auto result = walk<Float>(snapshot, Particle<3>{place, snapshot.cell(c), 0}, place, counts);
+      searches += counts.star_searches;
+      EXPECT_LT(snapshot.index(result.cell), snapshot.cell_count());
+    }
+  EXPECT_GT(searches, 10u);
+}
+
 }  // namespace
 }  // namespace cellwalk

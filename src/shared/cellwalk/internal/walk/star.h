@@ -128,7 +128,8 @@ class Rotational_order {
     return Kernel::orientation(counts_.predicates, a_, b_, u, v);
   }
 
-  /// A corner off the line that comes before all others, if the turn starts outside of the cell.
+  /// A corner off the line that comes before all others, if the turn starts outside of the cell; any if there
+  /// is no line: by rounded signs a motion may leave a cell although it ends where it starts.
   const Point<3>& first_corner(const Cell_view<3>& cell) const {
     std::size_t first = cell.vertex_count();
     for (std::size_t k = 0; k < cell.vertex_count(); ++k) {
@@ -140,7 +141,7 @@ class Rotational_order {
     for (std::size_t k = 0; k < cell.vertex_count(); ++k)
       if (first != k && !are_collinear(a_, b_, cell.point(k)) && turn(cell.point(first), cell.point(k)) < 0)
         first = k;
-    return cell.point(first);
+    return cell.point(first == cell.vertex_count() ? 0 : first);
   }
 
   const Point<3>&a_, &b_;
