@@ -124,8 +124,8 @@ TEST(PinchedBodies, OneWallPartsNothing) {
     for (const Quarter& edge : quarters) EXPECT_FALSE(move_face_and_edge(room, face, edge));
 }
 
-// The vertex passes two membranes side by side: inside of one, or along the ridge between them, where it is in
-// neither, and yet all that it takes along is on one side of both.
+// The vertex passes two membranes side by side: inside of one, or along the ridge between them, where it is
+// in neither, and yet all that it takes along is on one side of both.
 TEST(PinchedBodies, MembranesSideBySideHoldAllOnOneSide) {
   const auto environment = with_membranes({9.9, 3.9, 0.9}, {11.1, 6.1, 1.1});
   for (const double y : {5.5, 5.0})
@@ -144,8 +144,8 @@ TEST(PinchedBodies, MembranesSideBySideHoldAllOnOneSide) {
       }
 }
 
-// A wall stands on the ridge of a membrane, or hangs from it. A flap below the membrane and one before that wall
-// can move on in the one case, and not in the other one.
+// A wall stands on the ridge of a membrane, or hangs from it. A flap below the membrane and one before that
+// wall can move on in the one case, and not in the other one.
 TEST(PinchedBodies, AWallOnTheRidgeOfAMembranePartsItsSides) {
   for (const bool hangs : {false, true}) {
     const auto room = with_walls({behind, hangs ? below : above});

@@ -222,8 +222,8 @@ TEST(LocateByHand, KnowsSolidOutsideAndDisconnectedSpace) {
   EXPECT_EQ(between.sides.size(), 1);
 }
 
-// Rounded signs put a vertex outside of its own cells. A motion that ends where it starts then looks for another
-// cell along a line that is none: it ends all the same, in some cell.
+// Rounded signs put a vertex outside of its own cells. A motion that ends where it starts then looks for
+// another cell along a line that is none: it ends all the same, in some cell.
 TEST(WalkByHand, RoundedMotionsMayEndWhereTheyStart) {
   Cell_soup<3> soup = make_cubes(2, 2, 2);
   for (Point<3>& p : soup.points)
