@@ -14,9 +14,9 @@
 
 namespace cellwalk::detail {
 
-/// Walls that hold a piece of the way from a to b have half-planes on the line ab, which part the space around
-/// the piece into wedges, one from each half-plane to the next. What starts at p is in one of them on each
-/// piece, and all of it in the same.
+/// Walls that hold a piece of the way from a to b have half-planes on the line ab, which part the space
+/// around the piece into wedges, one from each half-plane to the next. What starts at p is in one of them on
+/// each piece, and all of it in the same.
 class Ridge_wedges {
  public:
   /// Cost: some us without a wall on the way; some ten us for each wall on it.
