@@ -148,8 +148,8 @@ set key tmargin center horizontal Left reverse samplen 1 maxcols 2 width 2
         script += f"set arrow from graph 0, first {line} to graph 1, first {line} nohead lw 2 dt 2\n"
     drawn = []
     for k, title in enumerate(series):
-        _, mark, width, grey = plots.STYLES[k]
-        drawn.append(f'${name} using 0:{k + 2}:xtic(1) with points pt {mark} lw {width} ps 1.5 lc rgb "{grey}" '
+        _, mark, width, colour = plots.STYLES[k]
+        drawn.append(f'${name} using 0:{k + 2}:xtic(1) with points pt {mark} lw {width} ps 1.5 lc rgb "{colour}" '
                      f'title {plots.quoted(title)}')
     return script + "plot " + ", \\\n  ".join(drawn) + "\n"
 

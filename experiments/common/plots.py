@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Plots of experiments by gnuplot: PNG, SVG and PDF of one script. Lines are told apart by dashes and marks, not colours."""
+"""Plots of experiments by gnuplot: PNG, SVG and PDF of one script. Lines are told apart by dashes and marks, and by colours."""
 
 import shutil
 import subprocess
@@ -13,9 +13,9 @@ TERMINALS = {
     "pdf": 'pdfcairo size 8in,5.3in enhanced',
 }
 
-# Dash type, point type, line width, grey.
-STYLES = [(1, 7, 3, "#000000"), (2, 5, 2, "#000000"), (4, 9, 2, "#555555"), (3, 11, 2, "#000000"), (5, 13, 2, "#555555"),
-          (1, 6, 1.5, "#777777"), (2, 4, 1.5, "#777777"), (3, 8, 1.5, "#555555"), (4, 10, 1.5, "#000000")]
+# Dash type, point type, line width, colour.
+STYLES = [(1, 7, 3, "#0060a8"), (2, 5, 2, "#c8501e"), (4, 9, 2, "#00805a"), (3, 11, 2, "#8a3fa0"), (5, 13, 2, "#a87800"),
+          (1, 6, 1.5, "#5a6470"), (2, 4, 1.5, "#b03060"), (3, 8, 1.5, "#2e8b9a"), (4, 10, 1.5, "#222222")]
 
 
 def draw(folder, name, script):
@@ -44,8 +44,8 @@ def line_plot(series, xlabel, ylabel, log="", xrange="", yrange="", tics=None, c
     script = ""
     plots, bars_below = [], []  # marks are drawn over bars
     for number, (name, points) in enumerate(series.items()):
-        dash, mark, width, grey = STYLES[number % len(STYLES)]
-        style = f'dt {dash} pt {mark} lw {width} ps 1.1 lc rgb "{grey}"'
+        dash, mark, width, colour = STYLES[number % len(STYLES)]
+        style = f'dt {dash} pt {mark} lw {width} ps 1.1 lc rgb "{colour}"'
         zero = [p for p in points if "y" in log and p[1] <= 0]
         drawn = [p for p in points if p not in zero]
         block = f"$data_{number}"
@@ -55,11 +55,11 @@ def line_plot(series, xlabel, ylabel, log="", xrange="", yrange="", tics=None, c
                      else f"NaN with linespoints {style} title {quoted(name)}")
         bars = [p for p in drawn if len(p) == 4]
         if bars:
-            bars_below.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt -1 lw 1 lc rgb "{grey}" notitle')
+            bars_below.append(f'{block} using 1:2:3:4 with yerrorbars dt 1 pt -1 lw 1 lc rgb "{colour}" notitle')
         bounds = [p for p in zero if len(p) == 4]
         if bounds:
             script += f"$bound_{number} << END\n" + "".join(f"{p[0]!r} {p[3]!r}\n" for p in bounds) + "END\n"
-            plots.append(f'$bound_{number} using 1:2 with points pt {mark} ps 0.6 lw 1 lc rgb "{grey}" notitle')
+            plots.append(f'$bound_{number} using 1:2 with points pt {mark} ps 0.6 lw 1 lc rgb "{colour}" notitle')
     script += f"set xlabel {quoted(xlabel)}\nset ylabel {quoted(ylabel)}\n"
     script += 'set grid ytics lc rgb "#dddddd" lt 1\nset key outside right top Left reverse samplen 5\n'
     script += "".join(f"set logscale {axis}\n" for axis in log)

@@ -23,9 +23,13 @@ class Plots(unittest.TestCase):
 
     def test_lines_differ_without_colour(self):
         self.assertEqual(len(plots.STYLES), len({style[:2] for style in plots.STYLES}))
-        for *_, shade in plots.STYLES:
-            self.assertEqual(shade[1:3], shade[3:5])
-            self.assertEqual(shade[1:3], shade[5:7])
+
+    def test_colours_differ_and_are_seen_on_paper(self):
+        colours = [colour for *_, colour in plots.STYLES]
+        self.assertEqual(len(colours), len(set(colours)))
+        for colour in colours:
+            red, green, blue = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
+            self.assertLess(0.3 * red + 0.59 * green + 0.11 * blue, 150)
 
     def test_pictures_are_drawn(self):
         with tempfile.TemporaryDirectory() as name:
