@@ -26,7 +26,8 @@ def brief(value):
 
 
 def step(row):
-    return f'{brief(float(row["step_us_p999"]))} / {brief(float(row["step_us_max"]))}'
+    most, longest = brief(float(row["step_us_p999"])), brief(float(row["step_us_max"]))
+    return most if most == longest else f"{most} / {longest}"
 
 
 def named(row):
