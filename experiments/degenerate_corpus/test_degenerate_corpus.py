@@ -20,7 +20,8 @@ from pathlib import Path
 CORPUS = Path(__file__).resolve().parents[2] / "data" / "degenerate"
 sys.path.insert(0, str(CORPUS))
 sys.dont_write_bytecode = True
-import motions  # noqa: E402
+from exact.vectors import at, vec  # noqa: E402
+from exact.world import World  # noqa: E402
 
 CHECKER = CORPUS / "check.py"
 KINDS = ["walks", "sweeps", "faces", "moving_walls"]
@@ -77,12 +78,12 @@ class Corpus(unittest.TestCase):
         self.assertGreater(sum(len(c["moves"]) == 2 for c in cases), 50)
 
     def test_some_faces_are_met_by_no_edge(self):
-        worlds = {w["name"]: motions.World(w) for w in map(json.loads, (CORPUS / "worlds.jsonl").read_text().splitlines())}
+        worlds = {w["name"]: World(w) for w in map(json.loads, (CORPUS / "worlds.jsonl").read_text().splitlines())}
 
         def is_met_within(case):
-            world, shape, move = worlds[case["world"]], list(map(motions.vec, case["points"])), case["moves"][0]
+            world, shape, move = worlds[case["world"]], list(map(vec, case["points"])), case["moves"][0]
             v, time = move["vertex"], Fraction(case["touch"]["time"])
-            shape[v] = motions.at(shape[v], motions.vec(move["to"]), time)
+            shape[v] = at(shape[v], vec(move["to"]), time)
             return not any(world.met([shape[v], end]) for i, end in enumerate(shape) if i != v)
 
         within = [c for c in cases_of(CORPUS) if c["kind"] == "face" and c["touch"] and is_met_within(c)]
