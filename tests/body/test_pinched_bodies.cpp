@@ -49,10 +49,11 @@ Point<3> at(double x, double y, double z) { return {x, 6 + y, 6 + z}; }
 std::array<Point<3>, 2> face_in(const Quarter& q) { return {at(7.5, 0, 5 * q.z), at(7.5, 5 * q.y, 0)}; }
 
 std::optional<Contact<3>> move_face_and_edge(const Environment<3>& room, const Quarter& face,
-                                             const Quarter& edge) {
+                                             const Quarter& edge, bool is_back = false) {
   const auto [q, r] = face_in(face);
-  Moving body(room.snapshot(), {start, q, r, at(7.5, 4 * edge.y, 5 * edge.z)}, {{0, 1, 2}}, {{0, 3}});
-  return body.move(0, target);
+  Moving body(room.snapshot(), {is_back ? target : start, q, r, at(7.5, 4 * edge.y, 5 * edge.z)}, {{0, 1, 2}},
+              {{0, 3}});
+  return body.move(0, is_back ? start : target);
 }
 
 constexpr std::array quarters{below_behind, above_behind, above_before, below_before};
@@ -79,28 +80,29 @@ TEST(PinchedBodies, WallsAtTheWayDoNotComeBetweenAFaceAndAnEdge) {
       if (has_wall[k]) centres.push_back(walls[k]);
     }
     const auto room = with_walls(centres);
-    for (std::size_t face = 0; face < 4; ++face)
-      for (std::size_t edge = 0; edge < 4; ++edge) {
-        const auto contact = move_face_and_edge(room, quarters[face], quarters[edge]);
-        SCOPED_TRACE(testing::Message() << set << " " << face << " " << edge);
-        // An edge off all walls has to be where the vertex passes, and one in a wall where it passes itself.
-        const bool can_move = are_linked(face, edge, has_wall) && are_linked(edge, of_vertex, has_wall);
-        if (contact && can_move) {
-          EXPECT_EQ(contact->body, Body_feature::edge);
-          ++selected;
-        } else {
-          EXPECT_EQ(contact.has_value(), !can_move);
-        }
-        ++(contact ? blocked : free);
-        if (!contact) continue;
-        EXPECT_EQ(contact->rounded_time(), 1.0 / 3);
-        EXPECT_EQ(contact->point, at(7, 0, 0));
-        EXPECT_EQ(contact->vertex, 0u);
+    for (std::size_t k = 0; k < 32; ++k) {
+      const std::size_t face = k / 8, edge = k / 2 % 4;
+      const bool is_back = k % 2 == 1;
+      const auto contact = move_face_and_edge(room, quarters[face], quarters[edge], is_back);
+      SCOPED_TRACE(testing::Message() << set << " " << face << " " << edge << " " << is_back);
+      // An edge off all walls has to be where the vertex passes, and one in a wall where it passes itself.
+      const bool can_move = are_linked(face, edge, has_wall) && are_linked(edge, of_vertex, has_wall);
+      if (contact && can_move) {
+        EXPECT_EQ(contact->body, Body_feature::edge);
+        ++selected;
+      } else {
+        EXPECT_EQ(contact.has_value(), !can_move);
       }
+      ++(contact ? blocked : free);
+      if (!contact) continue;
+      EXPECT_EQ(contact->rounded_time(), 1.0 / 3);
+      EXPECT_EQ(contact->point, at(is_back ? 8 : 7, 0, 0));
+      EXPECT_EQ(contact->vertex, 0u);
+    }
   }
-  EXPECT_GT(blocked, 60);
-  EXPECT_GT(free, 100);
-  EXPECT_LT(selected, 10);
+  EXPECT_GT(blocked, 120);
+  EXPECT_GT(free, 200);
+  EXPECT_LT(selected, 20);
 }
 
 TEST(PinchedBodies, WallsAtTheWayDoNotComeBetweenTwoFaces) {

@@ -83,7 +83,7 @@ std::size_t Ridge_wedges::wedge_of(const Piece& piece, const Half_plane& x) cons
   return k;
 }
 
-void Ridge_wedges::hold(Piece& piece, std::size_t one, std::size_t other) const {
+void Ridge_wedges::hold(Piece& piece, std::size_t one, std::size_t other) {
   for (std::size_t k = 0; k < piece.may_be_in.size(); ++k)
     if (k != one && k != other) piece.may_be_in[k] = false;
 }

@@ -19,7 +19,7 @@ namespace cellwalk::detail {
 /// each piece, and all of it in the same.
 class Ridge_wedges {
  public:
-  /// Cost: some us without a wall on the way; some ten us for each wall on it.
+  /// Cost: a flood along the way, and exact fractions for each wall near it.
   Ridge_wedges(const Snapshot<3>& snapshot, const Vertex_path<3>& path, Face_counts& counts);
 
   /// True if on no piece there is more than one wedge.
@@ -64,7 +64,8 @@ class Ridge_wedges {
   void add_wall(Piece& piece, Half_facet wall) const;
   /// The last half-plane that is not after x.
   std::size_t wedge_of(const Piece& piece, const Half_plane& x) const;
-  void hold(Piece& piece, std::size_t one, std::size_t other) const;
+  /// Leaves no wedges of a piece but these two, as far as they were left.
+  static void hold(Piece& piece, std::size_t one, std::size_t other);
   /// Calls f with each piece that lies in a half-facet, the wedge on its side, and the one beyond.
   template <class Pieces, class F>
   void for_each_place(Pieces& pieces, Half_facet half, const F& f) const;

@@ -30,7 +30,7 @@ struct Face_at_vertex {
 
 struct Flat_faces {
   /// Set if a wall comes between the faces, or between a face and an edge: on no side of it all are free.
-  /// Then the time is 0, and the point the start of p.
+  /// Then the time is 0, and the point the start of p; or it is a contact of wall_between_parts().
   std::optional<Contact<3>> contact;
   std::size_t face = 0;  ///< one that moves in the plane of that wall
   /// The supporting walls after the move, by the numbers of the faces that move in their planes near walls.
@@ -51,7 +51,7 @@ Flat_faces find_flat_faces(const Snapshot<3>& snapshot, const Vertex_path<3>& pa
 /// along a ridge of walls, all must be in one of the wedges between them. Faces that move in their plane are
 /// left out; find_flat_faces() has them. The normal is against the motion.
 /// \pre the sweeps of the edges and faces are free, each by itself, up to the time of the contact
-/// Cost: some us; some ten us more for each wall along the way.
+/// Cost: a flood along the way, and exact fractions for each wall near it.
 std::optional<Contact<3>> wall_between_parts(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                                              std::span<const Edge_at_vertex> edges,
                                              std::span<const Face_at_vertex> faces, Face_counts& counts);
