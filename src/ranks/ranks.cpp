@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/module.h>
-#include <cellwalk/internal/kernel/bytes.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/ranks/ranks.h>
 
 #include <fmt/format.h>
@@ -73,9 +73,9 @@ void Ranks::gather(std::string bytes, const std::function<void(std::string)>& us
   for (std::size_t from = 1; from < size(); ++from) {
     Message message = transport_->receive(from);
     if (message.kind == Message_kind::failure) {
-      Byte_reader failure(message.bytes);
-      const auto code = failure.value<Error_code>();
-      throw Error(code, std::string(failure.text()));
+      detail::Byte_reader failure{std::string_view(message.bytes)};
+      const auto code = failure.next<Error_code>();
+      throw Error(code, failure.next<std::string>());
     }
     use(std::move(message.bytes));
   }
@@ -99,10 +99,9 @@ void Ranks::while_waiting(std::function<void()> check) {
 void Ranks::fail(Error_code code, const std::string& message) {
   if (!transport_) return;
   if (is_first()) transport_->end(static_cast<int>(code));
-  Byte_writer failure;
-  failure.value(code);
-  failure.text(message);
-  transport_->send(0, {Message_kind::failure, failure.take()});
+  detail::Byte_writer failure;
+  failure(code, message);
+  transport_->send(0, {Message_kind::failure, failure.message()});
   transport_->receive(0);  // the farewell; a first rank that takes notice ends this process instead
   transport_->drop_sent();
 }

@@ -1,59 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/internal/kernel/bytes.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
+#include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/internal/simulation/world_part.h>
+#include <cellwalk/internal/walk/saved_particle.h>
 
 #include <algorithm>
-#include <tuple>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace cellwalk {
 namespace {
-
-/// A contact as bytes, with its time as it is reported.
-template <int D>
-struct Told_contact {
-  std::uint32_t step = 0, particle = 0, cell_index = 0, body = 0, vertex = 0, feature = 0;
-  bool is_of_body = false;
-  Body_feature body_feature = Body_feature::vertex;
-  Contact_kind kind = Contact_kind::facet;
-  std::uint16_t corner = 0;
-  Half_facet facet = Half_facet::none;
-  Cell cell = Cell::none;
-  double time = 0;
-  Point<D> point{};
-  Vector<D> normal{};
-};
-
-template <int D>
-Told_contact<D> told(const Run_contact<D>& met) {
-  const Contact<D>& c = met.contact;
-  return {met.step,
-          met.particle,
-          met.cell,
-          met.body.value_or(0),
-          c.vertex,
-          c.feature,
-          met.body.has_value(),
-          c.body,
-          c.kind,
-          c.corner,
-          c.facet,
-          c.cell,
-          c.rounded_time(),
-          c.point,
-          c.normal};
-}
-
-template <int D>
-Run_contact<D> as_met(const Told_contact<D>& c) {
-  Run_contact<D> met;
-  met.step = c.step;
-  met.particle = c.particle;
-  met.cell = c.cell_index;
-  if (c.is_of_body) met.body = c.body;
-  met.contact = {Exact_time(c.time), c.point,  c.normal, c.kind, c.corner, c.facet, c.cell,
-                 c.body_feature,     c.vertex, c.feature};
-  return met;
-}
 
 /// The first body of a part, of those without the catheter: parts hold about as many vertices.
 template <int D>
@@ -101,56 +58,47 @@ World_part<D>::World_part(World<D>& world, std::size_t number, std::size_t count
 
 template <int D>
 std::string World_part<D>::tell(const Told& what) const {
-  Byte_writer bytes;
-  std::vector<Told_contact<D>> contacts;
+  detail::Byte_writer out;
   if (what.contacts)
-    for (const Run_contact<D>& met : world_.contacts_) contacts.push_back(told(met));
-  bytes.list(contacts);
-  bytes.value(what.states);
-  if (!what.states) return bytes.take();
+    out(world_.contacts_);
+  else
+    out(std::vector<Run_contact<D>>());
+  out(what.states);
+  if (!what.states) return out.message();
   const auto [begin, end] = world_.own_particles_;
-  bytes.value(number_);
-  bytes.value(begin);
-  bytes.list(std::span<const Particle<D>>(world_.particles_).subspan(begin, end - begin));
-  bytes.list(std::span<const Vector<D>>(world_.velocities_).subspan(begin, end - begin));
-  bytes.value(world_.counts_);
-  bytes.list(world_.own_bodies_);
-  std::vector<std::uint32_t> cells;
+  const auto own = [begin = begin, end = end](const auto& all) {
+    return std::vector(all.begin() + begin, all.begin() + end);
+  };
+  out(number_, begin, own(world_.particles_), own(world_.velocities_), world_.counts_, world_.own_bodies_);
   for (const std::uint32_t b : world_.own_bodies_) {
     const std::span<const Point<D>> positions = world_.positions(b);
-    cells.clear();
+    std::vector<std::uint32_t> cells;
     for (std::uint32_t v = 0; v < positions.size(); ++v) cells.push_back(world_.cell_of(b, v));
-    bytes.list(positions);
-    bytes.list(cells);
-    bytes.value(world_.body_counts(b));
-    bytes.value(world_.has_arrived(b));
+    out(std::vector(positions.begin(), positions.end()), cells, world_.body_counts(b), world_.has_arrived(b));
   }
-  return bytes.take();
+  return out.message();
 }
 
 template <int D>
-void World_part<D>::take_over(std::string_view told_bytes) {
-  Byte_reader bytes(told_bytes);
-  for (const Told_contact<D>& c : bytes.list<Told_contact<D>>()) world_.contacts_.push_back(as_met(c));
-  if (!bytes.value<bool>()) return;
-  const auto part = bytes.value<std::size_t>();
-  const auto begin = bytes.value<std::uint32_t>();
-  const auto particles = bytes.list<Particle<D>>();
-  const auto velocities = bytes.list<Vector<D>>();
+void World_part<D>::take_over(std::string_view told) {
+  detail::Byte_reader in(told);
+  for (const auto& met : in.next<std::vector<Run_contact<D>>>()) world_.contacts_.push_back(met);
+  if (!in.next<bool>()) return;
+  const auto part = in.next<std::size_t>();
+  const auto begin = in.next<std::uint32_t>();
+  const auto particles = in.next<std::vector<Particle<D>>>();
+  const auto velocities = in.next<std::vector<Vector<D>>>();
   if (begin > world_.particles_.size() || particles.size() > world_.particles_.size() - begin ||
       velocities.size() != particles.size() || part >= world_.counts_elsewhere_.size())
     throw Error(Error_code::other, "particles of another process are not those of this scene");
   std::ranges::copy(particles, world_.particles_.begin() + begin);
   std::ranges::copy(velocities, world_.velocities_.begin() + begin);
-  world_.counts_elsewhere_[part] = bytes.value<Walk_counts>();
-  for (const std::uint32_t b : bytes.list<std::uint32_t>()) {
+  in(world_.counts_elsewhere_[part]);
+  for (const auto b : in.next<std::vector<std::uint32_t>>()) {
     if (b >= world_.elsewhere_.size() || !world_.elsewhere_[b])
       throw Error(Error_code::other, "bodies of another process are not those of this scene");
     auto& stand_in = *world_.elsewhere_[b];
-    stand_in.positions = bytes.list<Point<D>>();
-    stand_in.cells = bytes.list<std::uint32_t>();
-    stand_in.counts = bytes.value<Body_counts>();
-    stand_in.has_arrived = bytes.value<bool>();
+    in(stand_in.positions, stand_in.cells, stand_in.counts, stand_in.has_arrived);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -88,6 +89,8 @@ TEST(ByteArchive, GivesBackWhatWasWritten) {
     EXPECT_EQ(in.next<std::uint8_t>(), 7);
     EXPECT_TRUE(in.is_at_end());
     in.expect_end();
+    const std::string message = out.message();
+    EXPECT_TRUE(detail::Byte_reader(std::string_view(message)).next<Whole>() == outer);
   }
 }
 

@@ -2,7 +2,7 @@
 #include "table.h"
 
 #include <cellwalk/internal/io/query_file.h>
-#include <cellwalk/internal/kernel/bytes.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -24,6 +24,18 @@
 namespace cellwalk::cli {
 namespace {
 
+template <class T>
+std::string to_message(const T& value) {
+  detail::Byte_writer out;
+  out(value);
+  return out.message();
+}
+
+template <class T>
+T from_message(std::string_view message) {
+  return detail::Byte_reader(message).next<T>();
+}
+
 /// What a rank found out about its rows.
 struct Answered {
   std::array<std::uint64_t, std::size(motion_status_names)> tally{};
@@ -44,19 +56,16 @@ struct Answered {
   }
 
   /// Adds those of the rank that is next.
-  void add(Byte_reader& bytes) {
-    const auto more = bytes.value<decltype(tally)>();
-    for (std::size_t s = 0; s < tally.size(); ++s) tally[s] += more[s];
-    counts += bytes.value<Edge_counts>();
-    const auto line_of_rank = bytes.value<std::size_t>();
-    const std::string_view error_of_rank = bytes.text();
-    if (line == 0) line = line_of_rank, error = error_of_rank;
+  void add(const Answered& next) {
+    for (std::size_t s = 0; s < tally.size(); ++s) tally[s] += next.tally[s];
+    counts += next.counts;
+    if (line == 0) line = next.line, error = next.error;
   }
-  void write(Byte_writer& bytes) const {
-    bytes.value(tally);
-    bytes.value(counts);
-    bytes.value(line);
-    bytes.text(error);
+
+  /// See byte_archive.h.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(tally, counts, line, error);
   }
 };
 
@@ -93,12 +102,10 @@ std::size_t first_row(Ranks& ranks, std::size_t rows) {
     firsts.push_back(sum);
     sum += of_rank;
   };
-  Byte_writer own, all;
-  own.value(rows);
-  ranks.gather(own.take(), [&](const std::string& bytes) { add(Byte_reader(bytes).value<std::size_t>()); });
-  all.list(firsts);
-  const std::string shared = ranks.broadcast(all.take());
-  return Byte_reader(shared).list<std::size_t>()[ranks.rank()];
+  ranks.gather(to_message(rows),
+               [&](const std::string& of_rank) { add(from_message<std::size_t>(of_rank)); });
+  const std::string shared = ranks.broadcast(to_message(firsts));
+  return from_message<std::vector<std::size_t>>(shared)[ranks.rank()];
 }
 
 /// The points of the row of which a repro file or a picture is wanted, on the first rank; none if none is.
@@ -109,12 +116,11 @@ std::optional<std::array<Point<D>, N>> wanted_row(const Query_options& options, 
                                                   const std::vector<Query_row<D, N>>& rows) {
   if (!options.row) return std::nullopt;
   using Points = std::array<Point<D>, N>;
-  Byte_writer own;
-  if (*options.row >= first && *options.row - first < rows.size() && rows[*options.row - first].error.empty())
-    own.value(rows[*options.row - first].points);
   std::optional<Points> found;
-  ranks.gather(own.take(), [&](const std::string& bytes) {
-    if (!bytes.empty()) found = Byte_reader(bytes).value<Points>();
+  if (*options.row >= first && *options.row - first < rows.size() && rows[*options.row - first].error.empty())
+    found = rows[*options.row - first].points;
+  ranks.gather(to_message(found), [&](const std::string& of_rank) {
+    if (!found) found = from_message<std::optional<Points>>(of_rank);
   });
   if (!ranks.is_first()) return std::nullopt;
   if (!found)
@@ -169,9 +175,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
         write_answers(table, first + begin, snapshot, of_batch, answers);
       });
   if (files == nullptr) {
-    Byte_writer bytes;
-    answered.write(bytes);
-    ranks.gather(bytes.take());
+    ranks.gather(to_message(answered));
     ranks.gather(std::move(text));
     return;
   }
@@ -183,8 +187,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
   }
   ranks.gather({}, [&](const std::string& of_rank) {
     if (of_rank.empty()) return;  // that of the first itself
-    Byte_reader bytes(of_rank);
-    answered.add(bytes);
+    answered.add(from_message<Answered>(of_rank));
   });
   ranks.gather({}, [&](const std::string& of_rank) { files->answers->write(of_rank); });
   report(options, *files, answered);

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_REPLAY_PARTS_H
 
 #include <cellwalk/body/step.h>
-#include <cellwalk/internal/kernel/bytes.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/internal/records/body_trace.h>
 #include <cellwalk/internal/records/trace.h>
@@ -27,15 +27,6 @@ Trace part_of(const Trace& trace, const Block& bodies);
 /// \pre moves > 0
 std::vector<double> per_move(std::vector<double> times, std::uint64_t moves);
 
-inline void add(Body_counts& sum, const Body_counts& more) { sum += more; }
-inline void add(Replay_counts& sum, const Replay_counts& more) {
-  sum.vertex_hits += more.vertex_hits;
-  sum.edge_hits += more.edge_hits;
-  sum.triangle_hits += more.triangle_hits;
-  sum.rounds += more.rounds;
-  sum.body += more.body;
-}
-
 /// What the rounds of a replay found. Ranks work at the same time, so the slowest one counts.
 template <class Counts>
 struct Rounds {
@@ -46,31 +37,25 @@ struct Rounds {
 
   /// On the first rank: of all ranks; on others, as it was.
   void gather(Ranks& ranks) {
-    Byte_writer bytes;
-    if (!ranks.is_first()) {
-      bytes.list(ns);
-      bytes.list(step_us);
-      bytes.value(mismatches);
-      bytes.value(registered_anew);
-      bytes.value(counts);
-    }
-    ranks.gather(bytes.take(), [this](const std::string& of_rank) {
+    detail::Byte_writer bytes;
+    if (!ranks.is_first()) bytes(ns, step_us, mismatches, registered_anew, counts);
+    ranks.gather(bytes.message(), [this](const std::string& of_rank) {
       if (!of_rank.empty()) take(of_rank);
     });
   }
 
  private:
   void take(std::string_view of_rank) {
-    Byte_reader bytes(of_rank);
+    detail::Byte_reader bytes{std::string_view(of_rank)};
     const auto slower = [](std::vector<double>& times, const std::vector<double>& others) {
       for (std::size_t i = 0; i < times.size() && i < others.size(); ++i)
         times[i] = std::max(times[i], others[i]);
     };
-    slower(ns, bytes.list<double>());
-    slower(step_us, bytes.list<double>());
-    mismatches += bytes.value<std::uint64_t>();
-    registered_anew += bytes.value<std::uint64_t>();
-    add(counts, bytes.value<Counts>());
+    slower(ns, bytes.next<std::vector<double>>());
+    slower(step_us, bytes.next<std::vector<double>>());
+    mismatches += bytes.next<std::uint64_t>();
+    registered_anew += bytes.next<std::uint64_t>();
+    counts += bytes.next<Counts>();
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Values as bytes of this machine, written and read by the same enumeration of their parts: for states that
-// are saved and taken up again.
+// are saved and taken up again, and for messages among processes.
 //
 // A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, which may be
 // private to it and to both of these as friends, or there is a function visit_parts(a, value) in its
@@ -20,6 +20,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -78,6 +79,8 @@ class Byte_writer {
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
+  /// The same as a message.
+  std::string message() const { return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}; }
 
  private:
   template <class T>
@@ -130,6 +133,7 @@ class Byte_reader {
   static constexpr bool is_reading = true;
 
   explicit Byte_reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit Byte_reader(std::string_view message) : rest_(std::as_bytes(std::span(message))) {}
 
   template <class... T>
   void operator()(T&... values) {
@@ -154,7 +158,9 @@ class Byte_reader {
     if (!rest_.empty()) refuse();
   }
   [[noreturn]] static void refuse() {
-    throw Error(Error_code::input, "a saved state is damaged: it is not what this program writes");
+    throw Error(
+        Error_code::input,
+        "a saved state, or what another process sent, is damaged: it is not what this program writes");
   }
 
  private:

@@ -6,11 +6,14 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/records/trace.h>
+#include <cellwalk/kernel/counts.h>
 #include <cellwalk/simulation/run_contact.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace cellwalk {
@@ -22,7 +25,11 @@ struct Replay_counts {
   std::uint64_t triangle_hits = 0;  ///< triangles swept by edges that hit: bits 4 to 6
   std::uint64_t rounds = 0;  ///< edges that passed around an obstacle: the triangle hits, the edge does not
   Body_counts body;          ///< held: moves after which the vertex stays in place
+
+  static constexpr std::array<std::string_view, 4> names{"vertex_hits", "edge_hits", "triangle_hits",
+                                                         "rounds"};
 };
+static_assert(names_all_before<Replay_counts>(offsetof(Replay_counts, body)));
 
 struct Replay_options {
   Sweep sweep = Sweep::triangle;  ///< three_segments or triangle

@@ -32,7 +32,7 @@ class World_part {
   std::string tell(const Told& what) const;
   /// Takes over what another part tells: World::contacts(), positions() and the like tell of it too. Call
   /// sort_contacts() after the last part.
-  /// \throw Error(other) if it is not of such a part
+  /// \throw Error if it is not of such a part
   void take_over(std::string_view told);
   /// Puts contacts in the order of one world.
   void sort_contacts();
