@@ -47,7 +47,7 @@ class Failure_search {
       own(world);
       own(experiments::text_of(folder_ / name));
     }
-    experiments::ranks().gather(own.take(), [this](const std::string& bytes) {
+    experiments::ranks().gather(own.message(), [this](const std::string& bytes) {
       experiments::Result_reader reader(bytes);
       std::size_t left = 0;
       for (reader(left); left > 0; --left) {

@@ -86,21 +86,18 @@ std::string text_of(const fs::path& file) {
 
 void gather_files(const fs::path& folder, const std::string& prefix) {
   if (ranks().is_alone()) return;
-  Byte_writer own;
+  detail::Byte_writer own;
   std::vector<fs::path> files;
   if (!ranks().is_first())
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
       if (entry.path().filename().string().starts_with(prefix)) files.push_back(entry.path());
-  own.value(files.size());
-  for (const fs::path& file : files) {
-    own.text(file.filename().string());
-    own.text(text_of(file));
-  }
-  ranks().gather(own.take(), [&](const std::string& bytes) {
-    Byte_reader reader(bytes);
-    for (auto left = reader.value<std::size_t>(); left > 0; --left) {
-      const std::string name(reader.text());
-      io::write_file(folder / name, reader.text());
+  own(files.size());
+  for (const fs::path& file : files) own(file.filename().string(), text_of(file));
+  ranks().gather(own.message(), [&](const std::string& bytes) {
+    detail::Byte_reader reader{std::string_view(bytes)};
+    for (auto left = reader.next<std::size_t>(); left > 0; --left) {
+      const auto name = reader.next<std::string>();
+      io::write_file(folder / name, reader.next<std::string>());
     }
   });
 }

@@ -5,15 +5,17 @@
 #ifndef CELLWALK_EXPERIMENTS_COMMON_SHARED_H
 #define CELLWALK_EXPERIMENTS_COMMON_SHARED_H
 
-#include <cellwalk/internal/kernel/bytes.h>
+#include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/ranks/ranks.h>
 
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -45,20 +47,20 @@ class Result_writer {
   template <class T>
   void operator()(const T& value) {
     if constexpr (std::is_trivially_copyable_v<T>)
-      bytes_.value(value);
+      bytes_.put_bytes(std::as_bytes(std::span(&value, 1)));
     else
       members(*this, value);
   }
-  void operator()(const std::string& value) { bytes_.text(value); }
+  void operator()(const std::string& value) { bytes_(value); }
   template <class T>
   void operator()(const std::vector<T>& values) {
-    bytes_.value(static_cast<std::uint64_t>(values.size()));
+    bytes_(static_cast<std::uint64_t>(values.size()));
     for (const T& value : values) (*this)(value);
   }
-  std::string take() { return bytes_.take(); }
+  std::string message() const { return bytes_.message(); }
 
  private:
-  Byte_writer bytes_;
+  detail::Byte_writer bytes_;
 };
 
 /// Reads what a Result_writer wrote.
@@ -69,19 +71,19 @@ class Result_reader {
   template <class T>
   void operator()(T& value) {
     if constexpr (std::is_trivially_copyable_v<T>)
-      value = bytes_.value<T>();
+      std::memcpy(static_cast<void*>(&value), bytes_.take_bytes(sizeof value).data(), sizeof value);
     else
       members(*this, value);
   }
-  void operator()(std::string& value) { value = bytes_.text(); }
+  void operator()(std::string& value) { bytes_(value); }
   template <class T>
   void operator()(std::vector<T>& values) {
-    values.resize(bytes_.value<std::uint64_t>());
+    values.resize(bytes_.next<std::uint64_t>());
     for (T& value : values) (*this)(value);
   }
 
  private:
-  Byte_reader bytes_;
+  detail::Byte_reader bytes_;
 };
 
 enum class Trials {
@@ -111,14 +113,14 @@ auto shared_trials(std::size_t count, const Trial& trial, Trials how = Trials::o
   Result_writer of_rank;
   for (std::size_t i = first; i < count; i += step) of_rank(results[i]);
   std::size_t from = 0;
-  ranks().gather(of_rank.take(), [&](const std::string& bytes) {
+  ranks().gather(of_rank.message(), [&](const std::string& bytes) {
     Result_reader reader(bytes);
     for (std::size_t i = from; i < count; i += step) reader(results[i]);
     ++from;
   });
   Result_writer all;
   if (ranks().is_first()) all(results);
-  const std::string shared = ranks().broadcast(all.take());
+  const std::string shared = ranks().broadcast(all.message());
   Result_reader reader(shared);
   reader(results);
   return results;
