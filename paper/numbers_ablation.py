@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What the report says of experiment 09: macros and tables from its outputs."""
 
-from collect_numbers import count, decimal, escaped, has, percent, read
+from collect_numbers import count, decimal, escaped, has, percent, read, span
 
 SCENES = {"catheter": "catheter", "fine_catheter": "fine catheter", "hexahedra": "hexahedra"}
+CATHETERS = ("catheter", "fine_catheter")
 CHOICES = {"all": "all certificates", "no_region_of_the_body": "no region of the body", "no_regions_of_stars": "no regions of stars",
            "no_clusters": "no clusters", "no_planes": "no planes", "no_same_cell": "no same cell", "no_convex_pair": "no convex pair",
            "no_same_chain": "no same chain", "no_flood": "no flood", "no_certificate_of_edges": "none of edges",
@@ -47,11 +48,16 @@ def certificates(report, folder):
     report.define("AblationAnswers", count(sum(int(r["moves"]) for r in rows.values())))
     report.define("AblationDifferent", count(sum(int(r["different"]) for r in rows.values())))
     report.define("AblationChoices", len(rows) // len(SCENES))
-    for name, column, one, other in (("Regions", "edges", ("0", "all"), ("1", "all")), ("Chain", "signs", ("0", "no_same_chain"), ("0", "all")),
-                                     ("Edges", "signs", ("0", "no_certificate_of_edges"), ("0", "all"))):
-        ratios = [per_move((s, *one), column) / max(per_move((s, *other), column), 1e-9) for s in SCENES]
-        report.define(f"Ablation{name}Least", decimal(min(ratios)))
-        report.define(f"Ablation{name}Most", decimal(max(ratios)))
+
+    def ratio_of(column, one, other, scenes=SCENES):
+        return span([per_move((s, *one), column) / max(per_move((s, *other), column), 1e-9) for s in scenes], 3)
+    report.define("AblationRegions", ratio_of("edges", ("0", "all"), ("1", "all")))
+    report.define("AblationEdges", ratio_of("signs", ("0", "no_certificate_of_edges"), ("0", "all")))
+    for name, choice in (("Chain", "no_same_chain"), ("Flood", "no_flood")):
+        report.define(f"Ablation{name}Catheters", ratio_of("signs", ("0", choice), ("0", "all"), CATHETERS))
+        report.define(f"Ablation{name}Hexahedra", ratio_of("signs", ("0", choice), ("0", "all"), ("hexahedra",)))
+    whole = [r for (_, _, choice), r in rows.items() if choice == "all" and int(r["edges"])]
+    report.define("AblationFloodShare", percent(max((int(r["clear"]) / int(r["edges"]) for r in whole), default=0)))
     sentence = "Times were not taken in this run."
     if times:
         def ratio(choice, regions="0"):
@@ -79,11 +85,26 @@ def flights(report, folder):
             line.append(count(times[world, way]) if times else "")
         lines.append(line)
     report.table("flights", "l" + "rrr" * len(worlds), ["", *(t for w in worlds for t in (f"{escaped(w)}, blocks", "signs", "ns"))], lines)
-    report.define("FlightMoves", count(sum(int(r["moves"]) for r in read(folder, "flights.csv"))))
-    report.define("FlightDifferent", count(sum(int(r["different"]) for r in read(folder, "flights.csv"))))
-    signs = {(r["world"], r["length_over_edge"], r["way"]): int(r["signs"]) for r in read(folder, "flights.csv")}
-    forecast = [1 - n / signs[(*k[:2], "simplex_no_forecast")] for k, n in signs.items() if k[2] == "simplex"]
-    report.define("FlightForecast", percent(max(forecast)))
+    define_flights(report, read(folder, "flights.csv"))
+    ratios = [times[w, "rational_signs"] / times[w, "signs"] for w in worlds] if times else []
+    report.define("FlightRational", f" By the exit rule, moves by rational signs take {span(ratios)} times as long as by filtered ones." if ratios else "")
+
+
+def define_flights(report, rows):
+    report.define("FlightMoves", count(sum(int(r["moves"]) for r in rows)))
+    report.define("FlightDifferent", count(sum(int(r["different"]) for r in rows)))
+    report.define("FlightPlaneSigns", span([1000 * int(r["signs"]) / int(r["moves"]) for r in rows if r["way"] == "planes"]))
+    signs = {(r["world"], r["length_over_edge"], r["way"]): int(r["signs"]) for r in rows}
+
+    def saved(way):
+        """The most that the forecast saves, and the length of the moves."""
+        without = {k: signs[(*k[:2], f"{way}_no_forecast")] for k in signs if k[2] == way}
+        return max((1 - signs[k] / n if n else 0, k[1]) for k, n in without.items())
+    most, length = saved("simplex")
+    report.define("FlightForecast", percent(most))
+    report.define("FlightForecastLength", length)
+    others = max(saved(way)[0] for way in ("planes", "signs"))
+    report.define("FlightForecastOthers", rf"at most {percent(others)}\,\% there" if others else "none there")
 
 
 def orders(report, folder):
@@ -117,6 +138,10 @@ def orders(report, folder):
     for name, some in (("Small", small), ("Large", large)):
         report.define(f"Order{name}More", of_blocked("p_first_only", some))
         report.define(f"Order{name}Fewer", of_blocked("together_only", some))
+        report.define(f"Order{name}Differ", of_blocked("orders_differ", some))
+    shortest = [r for r in free if r["step_over_edge"] == min(steps, key=float)]
+    for name, column in (("Together", "together"), ("More", "p_first_only"), ("Fewer", "together_only"), ("Differ", "orders_differ")):
+        report.define(f"OrderShortest{name}", count(sum(int(r[column]) for r in shortest)))
     report.define("OrderNone", count(sum(int(r["no_order"]) for r in rows)))
     report.define("OrderBoth", count(sum(int(r["any_order_only"]) for r in rows)))
 
@@ -126,6 +151,9 @@ def segments(report, folder):
     rods = [r for r in asked if r["scene"] != "hexahedra"]
     for name, column in (("Moves", "moves"), ("Edges", "edges"), ("Swept", "swept"), ("Unseen", "unseen"), ("Held", "vertices_blocked")):
         report.define(f"Rod{name}", count(sum(int(r[column]) for r in rods)))
+    high = percent(max(float(r["unseen_high"]) for r in rods))
+    report.define("RodUnseenHigh", rf" (of each catheter, at most {high}\,\% with 95\,\% confidence, if edges count as independent)"
+                  if all(int(r["swept"]) for r in rods) else "")
     cubes = [r for r in asked if r["scene"] == "hexahedra"]
     for name, column in (("Moves", "moves"), ("Swept", "swept"), ("Unseen", "unseen")):
         report.define(f"Cube{name}", count(sum(int(r[column]) for r in cubes)))
@@ -152,14 +180,14 @@ def forms(report, folder):
     report.table("forms", "llrrrrrr", ["mesh", "form", "cells read", "not planar", "cells", "bytes a cell read", "crossings", "ns"], lines)
     exact = [(a, b) for a, b in zip(rows[::2], rows[1::2]) if a["not_planar"] == "0"]
     memory = [int(b["bytes"]) / int(a["bytes"]) for a, b in exact]
-    report.define("FormMemoryLeast", decimal(min(memory), 2))
-    report.define("FormMemoryMost", decimal(max(memory), 2))
+    report.define("FormMemory", span(memory))
     bent = [r for r in rows if r["form"] == "polyhedra" and r["not_planar"] != "0"]
     report.define("FormBent", len(bent))
     report.define("FormMeshes", len(rows) // 2)
+    polyhedra = {r["mesh"]: int(r["bytes"]) / int(r["cells_read"]) for r in rows if r["form"] == "polyhedra"}
+    report.define("FormTurnedMemory", decimal(polyhedra["hexahedra_turned"] / polyhedra["hexahedra"], 2))
     growth = [int(r["cells"]) / int(r["cells_read"]) for r in bent]
-    report.define("FormGrowthLeast", decimal(min(growth), 2))
-    report.define("FormGrowthMost", decimal(max(growth), 2))
+    report.define("FormGrowth", span(growth))
 
 
 def collect(report, folder):

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What the report says of experiment 06: macros and tables from its outputs."""
 
-from collect_numbers import count, decimal, escaped, percent, read
+from collect_numbers import count, decimal, escaped, percent, read, span
 
 TITLES = {"S1a_vessel": "catheter, vessel", "S1b_vessel_fine": "fine catheter, vessel", "S2_aneurysm": "catheter, aneurysm",
           "S3_spheres": "soft spheres, vessel", "S3_aneurysm_spheres": "soft spheres, aneurysm", "S4_soft_ring": "soft ring",
           "S5_rigid_ring": "rigid ring", "S6_at_rest": "bodies at rest", "S7_many": "many hexahedra"}
+RINGS = ("S4_soft_ring", "S5_rigid_ring")
+AT_REST = "S6_at_rest"
 CATHETERS = ("S1a_vessel", "S1b_vessel_fine", "S2_aneurysm")
 LIBRARIES = {"bullet": "Bullet", "embree": "Embree", "cgal": "CGAL"}
+# What a method is, by the second word of its name.
+KINDS = {"star": "kept boxes", "group": "kept boxes", "body": "kept boxes", "move": "a box of each move", "8": "rays", "16": "rays", "tree": "segments"}
 HAPTIC_PERIOD = 1000  # microseconds, of a device served at 1 kHz
 
 
@@ -52,6 +56,10 @@ def define_wrong(report, scenes):
     report.define("AppBlocked", count(sum(int(r["blocked"]) for r in firsts)))
     report.define("AppWrong", count(sum(own)))
     report.define("AppExactWrong", count(sum(exact)))
+    report.define("AppRounded", rounded_peers(rows))
+
+
+def rounded_peers(rows):
     rounded = []
     for library in ("bullet", "embree"):
         methods = {}
@@ -62,17 +70,23 @@ def define_wrong(report, scenes):
             # One margin of each scene: all give the same answers.
             tallies = [wrong({r["scene"]: r for r in of_method}.values()) for of_method in methods.values()]
             missed, false = min(tallies, key=sum)
-            rounded.append(f"{LIBRARIES[library]} misses {count(missed)} and makes up {count(false)}")
-    report.define("AppRounded", "by the method with fewest wrong answers " + ", ".join(rounded) if rounded else
-                  "none of them was installed where this was run")
+            chosen = list(methods.values())[tallies.index([missed, false])]
+            at_rest = sum(wrong({r["scene"]: r for r in chosen if r["scene"] == AT_REST}.values()))
+            where = "there" if rounded else "of these where bodies rest on oblique walls"
+            rounded.append(f"{LIBRARIES[library]} misses {count(missed)} blocked moves and makes up {count(false)} ({count(at_rest)} {where})")
+    if not rounded:
+        return "No rounded peer was installed where this was run."
+    return f"Of rounded peers, by the method with fewest wrong answers, {', '.join(rounded)}."
 
 
 def define_times(report, scenes):
-    names = ["AppCatheterSteps", "AppFastest", "AppFastestExact", "AppLarge"]
+    names = ["AppCatheterSteps", "AppFastest", "AppFastestExact", "AppRings"]
     own = {s: next(r for r in rows if r["method"] == "cellwalk_complete") for s, rows in scenes.items()}
     if not all(r["ns_per_vertex_move"] for r in own.values()):
         for name in names:
             report.define(name, "(times were not taken)")
+        for name in ("AppKinds", "AppFiner"):
+            report.define(name, "")
         return
 
     def ratios(is_exact, chosen):
@@ -85,7 +99,31 @@ def define_times(report, scenes):
                                       f"{decimal(least, 2)} times the former")
     report.define("AppFastest", ratios(False, scenes))
     report.define("AppFastestExact", ratios(True, scenes))
-    report.define("AppLarge", ratios(False, [s for s in ("S4_soft_ring", "S5_rigid_ring") if s in scenes]))
+    rings = [s for s in RINGS if s in scenes]
+    peers = dict.fromkeys(named(fastest(scenes[s])) for s in rings if fastest(scenes[s]) is not None)
+    report.define("AppRings", f"{ratios(False, rings)} ({'; '.join(peers)})" if peers else "(no peer)")
+    report.define("AppKinds", kinds_of_peers(scenes))
+    report.define("AppFiner", with_finer_cells(scenes, own))
+
+
+def kinds_of_peers(scenes):
+    kinds = [KINDS[peer["method"].split("_")[1]] for rows in scenes.values() if (peer := fastest(rows)) is not None]
+    if not kinds:
+        return ""
+    most_first = sorted(set(kinds), key=lambda kind: (-kinds.count(kind), kind))
+    return " The fastest peers are " + ", ".join(f"{kind} in {kinds.count(kind)}" for kind in most_first) + " of the scenes."
+
+
+def with_finer_cells(scenes, own):
+    """What the finest cells in the same walls cost, each scene beside the one without."""
+    finer = {s: s.partition("_finer_") for s in scenes if "_finer_" in s and s.partition("_finer_")[0] in scenes}
+    finest = max((f for _, _, f in finer.values()), key=int, default=None)
+    pairs = [(s, base) for s, (base, _, f) in finer.items() if f == finest and fastest(scenes[s]) is not None]
+    if not pairs:
+        return ""
+    ours = [time(own[s]) / time(own[base]) for s, base in pairs]
+    peers = [time(fastest(scenes[s])) / time(fastest(scenes[base])) for s, base in pairs]
+    return f" If edges of cells are {finest} times shorter in the same walls, we take {span(ours)} times as long, and the fastest peer {span(peers)} times."
 
 
 def collect(report, folder):
