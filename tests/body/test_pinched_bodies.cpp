@@ -120,6 +120,38 @@ TEST(PinchedBodies, WallsAtTheWayDoNotComeBetweenTwoFaces) {
     }
 }
 
+/// A face in the quarter below and behind, between walls there, and an edge to a point in the half-plane of
+/// one of them, or in the line of the way. The edges of the face pass the walls outside, as the vertex does.
+struct Bare_edge {
+  const char* where;
+  Point<3> end, landed_from;
+};
+
+// Such an edge is where the vertex passes, whatever the wall in its half-plane would allow: its chain says so.
+TEST(PinchedBodies, ABareEdgeIsWhereTheVertexPasses) {
+  const auto room = with_walls({behind, below});
+  const auto [q, r] = face_in(below_behind);
+  const std::array<Bare_edge, 5> edges{{{"from above the wall behind", at(9, -4, 0), at(9, -4, 1)},
+                                        {"from before the wall below", at(9, 0, -4), at(9, 1, -4)},
+                                        {"behind that wall at the end", at(6.25, -4, 0), at(6.25, -4, 0)},
+                                        {"in the line, ahead", at(10, 0, 0), at(10, 0, 0)},
+                                        {"in the line, behind", at(5, 0, 0), at(5, 0, 0)}}};
+  for (const Bare_edge& edge : edges) {
+    SCOPED_TRACE(edge.where);
+    Moving body(room.snapshot(), {start, q, r, edge.landed_from}, {{0, 1, 2}}, {{0, 3}});
+    ASSERT_FALSE(body.move(3, edge.end));
+    const auto contact = body.move(0, target);
+    EXPECT_TRUE(contact.has_value());
+    if (contact) {
+      EXPECT_EQ(contact->rounded_time(), 1.0 / 3);
+      EXPECT_EQ(contact->point, at(7, 0, 0));
+    }
+    Moving alone(room.snapshot(), {start, edge.landed_from}, {}, {{0, 1}});
+    ASSERT_FALSE(alone.move(1, edge.end));
+    EXPECT_FALSE(alone.move(0, target)) << "without the face";
+  }
+}
+
 TEST(PinchedBodies, OneWallPartsNothing) {
   const auto room = with_walls({below});
   for (const Quarter& face : quarters)

@@ -228,12 +228,17 @@ bool moves_in_its_plane(const Vertex_path<3>& path, const Point<3>& q, const Poi
   return Exact::orientation(counts.walk.predicates, path.from.position, path.to.position, q, r) == 0;
 }
 
-/// With all edges, and all faces that move off their plane; none if walls part nothing.
+/// With all edges, and all faces that move off their plane; none if walls part nothing. Where an edge has no
+/// face, its chain says in which wedge it is, also if it lies in a wall or in the line of the way; and that
+/// was followed from the cells through which p walks.
 std::optional<Ridge_wedges> wedges_on_way(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                                           std::span<const Edge_at_vertex> edges,
                                           std::span<const Face_at_vertex> faces, Face_counts& counts) {
   std::optional<Ridge_wedges> wedges(std::in_place, snapshot, path, counts);
   if (wedges->is_empty()) return {};
+  std::vector<bool> has_face(edges.size());
+  for (const Face_at_vertex& face : faces) has_face[face.pq] = has_face[face.pr] = true;
+  if (std::ranges::find(has_face, false) != has_face.end()) wedges->hold_path(path);
   for (const Edge_at_vertex& edge : edges)
     if (!are_collinear(path.from.position, path.to.position, edge.end.position))
       wedges->hold_edge(edge.end.position);

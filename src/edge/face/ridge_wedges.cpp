@@ -96,11 +96,49 @@ void Ridge_wedges::hold_edge(const Point<3>& q) {
   }
 }
 
+std::size_t Ridge_wedges::wedge_of_angle(const Piece& piece, const Point<3>& q, const Point<3>& r) const {
+  Half_plane first = half_plane(q);
+  if (turn(first, r) < 0) first = half_plane(r);
+  return wedge_of(piece, first);
+}
+
 void Ridge_wedges::hold_face(const Point<3>& q, const Point<3>& r) {
-  Half_plane face = half_plane(q);
-  if (turn(face, r) < 0) face = half_plane(r);
   for (Piece& piece : pieces_) {
-    const std::size_t k = wedge_of(piece, face);  // it begins there, and no wall is between its sides
+    const std::size_t k = wedge_of_angle(piece, q, r);  // no wall is between its sides
+    hold(piece, k, k);
+  }
+}
+
+Cell Ridge_wedges::cell_after(const Vertex_path<3>& path, const Fraction& time) const {
+  const Rational_segment<3> way(a_, b_);
+  Cell cell = path.from.cell;
+  for (const Half_facet f : path.crossed) {
+    const std::optional<Span> met = way.in_facet(snapshot_.view(cell), snapshot_.facet_of(f));
+    if (met && time < met->low) break;
+    cell = snapshot_.neighbour(f);  // if p crosses it later, the way is in it until then
+  }
+  return cell;
+}
+
+bool Ridge_wedges::is_in_border(const Cell_view<3>& cell, const Fraction& time) const {
+  const Rational_segment<3> way(a_, b_);
+  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+    const std::optional<Span> met = way.in_facet(cell, i);
+    if (met && !(time < met->low) && time < met->high) return true;
+  }
+  return false;
+}
+
+void Ridge_wedges::hold_path(const Vertex_path<3>& path) {
+  for (Piece& piece : pieces_) {
+    const Cell_view<3> cell = snapshot_.view(cell_after(path, piece.low));
+    if (!is_in_border(cell, piece.low)) continue;  // a wall blocks p before
+    std::size_t u = 0;
+    while (are_collinear(a_, b_, cell.point(u))) ++u;
+    const Half_plane one = half_plane(cell.point(u));
+    std::size_t v = 0;
+    while (turn(one, cell.point(v)) == 0) ++v;
+    const std::size_t k = wedge_of_angle(piece, cell.point(u), cell.point(v));
     hold(piece, k, k);
   }
 }

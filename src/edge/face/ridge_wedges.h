@@ -29,6 +29,8 @@ class Ridge_wedges {
   void hold_edge(const Point<3>& q);
   /// Holds a face pqr that moves off its plane.
   void hold_face(const Point<3>& q, const Point<3>& r);
+  /// Holds what is where p itself passes: an edge without a face, since its chain was followed from there.
+  void hold_path(const Vertex_path<3>& path);
   /// Holds what moves in the plane of a wall, on one side of it.
   void hold_side(Half_facet half);
   /// True if what moves in the plane of a wall can, on some piece, not be on the other side of it.
@@ -64,6 +66,12 @@ class Ridge_wedges {
   void add_wall(Piece& piece, Half_facet wall) const;
   /// The last half-plane that is not after x.
   std::size_t wedge_of(const Piece& piece, const Half_plane& x) const;
+  /// That of what is between two points less than half a turn apart, with no wall between them.
+  std::size_t wedge_of_angle(const Piece& piece, const Point<3>& q, const Point<3>& r) const;
+  /// The cell in which p is just after a time, or one in the same wedge.
+  Cell cell_after(const Vertex_path<3>& path, const Fraction& time) const;
+  /// True if the way is in the border of a cell just after a time.
+  bool is_in_border(const Cell_view<3>& cell, const Fraction& time) const;
   /// Leaves no wedges of a piece but these two, as far as they were left.
   static void hold(Piece& piece, std::size_t one, std::size_t other);
   /// Calls f with each piece that lies in a half-facet, the wedge on its side, and the one beyond.
