@@ -125,7 +125,8 @@ void add_log(CLI::App& app, Log_options& log) {
             ->type_name("FILE");
     command->add_option("--log-interval", log.seconds, "Seconds between two lines of the log")
         ->needs(file)
-        ->check(cellwalk::cli::number_from(0.001, "of at least 0.001"))
+        ->check(
+            cellwalk::cli::number_from(0.001, "from 0.001 to 1000000", cellwalk::cli::longest_log_interval))
         ->type_name("SECONDS")
         ->capture_default_str();
   }
@@ -204,7 +205,7 @@ int main(int argc, char** argv) {
   }
   std::optional<Work_log> work_log;
   const auto logged = [&](Ranks& all) {
-    // What all do is said by the first.
+    // What all do is said by the first. Outputs of the command ask for the name.
     if (!log.file.empty() && !cellwalk::is_later_rank())
       work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
     action(all);
