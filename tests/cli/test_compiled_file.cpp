@@ -2,10 +2,14 @@
 // Compiled environments, as the commands write, read and refuse them.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/program.h"
+#include "environment/images.h"
 
 namespace cellwalk::test {
 namespace {
@@ -141,6 +145,27 @@ TEST_F(Compiled_file, DamagedFilesAreRefused) {
   refused("foreign.cellwalk", "compiled on a machine of another byte order");
   damage("flipped.cellwalk", whole.size() - 8, "\x7f");
   refused("flipped.cellwalk", "a checksum differs");
+}
+
+TEST_F(Compiled_file, ContentThatIsNoneIsFoundWhateverItsChecksums) {
+  make({"squares", "--cells", "3"});
+  const std::string whole = text("env.cellwalk");
+  int tried = 0;
+  for (std::size_t facet = 0; facet < 4; ++facet)
+    for (std::size_t other = 0; other < facet; ++other) {
+      // The facets of the cell in the middle lead where others do.
+      std::string changed = whole;
+      const auto image = std::as_writable_bytes(std::span(changed));
+      const std::span<std::byte> links = section_of(image, "links");
+      constexpr std::size_t middle = 4, lanes = 4, word = 4;
+      std::byte* const cell = links.data() + middle * lanes * word;
+      std::swap_ranges(cell + facet * word, cell + (facet + 1) * word, cell + other * word);
+      seal(image);
+      write("changed.cellwalk", changed);
+      expect_failure(4, {"check", "changed.cellwalk"}, {"changed.cellwalk: facet (", "glue the cells again"});
+      ++tried;
+    }
+  EXPECT_EQ(tried, 6);
 }
 
 }  // namespace
