@@ -189,6 +189,7 @@ py::tuple Any_body::state() {
 Any_body Any_body::of_state(const py::tuple& state) {
   need_parts(state, 2);
   const Held_world environment = state[0].cast<std::shared_ptr<Shared_world>>();
+  if (!environment) throw py::value_error("this pickle of a body is damaged");  // None is cast to null
   const auto held = state[1].cast<py::bytes>();
   const std::string_view bytes = held;
   return std::visit(

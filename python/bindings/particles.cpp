@@ -99,7 +99,9 @@ py::tuple Particles::state() const {
 
 Particles Particles::of_state(const py::tuple& state) {
   need_parts(state, 5);
-  Particles made(state[0].cast<std::shared_ptr<Shared_world>>());
+  auto environment = state[0].cast<std::shared_ptr<Shared_world>>();
+  if (!environment) throw py::value_error("this pickle of particles is damaged");  // None is cast to null
+  Particles made(std::move(environment));
   made.epoch_ = state[4].cast<std::uint64_t>();
   std::visit(
       [&]<int D>(const World<D>& world) {

@@ -145,7 +145,8 @@ class Particles(unittest.TestCase):
         aimed[inside] = 6
         for state in ((environment, moved, cells, places, epoch), (environment, positions, far, places, epoch),
                       (environment, positions, cells, aimed, epoch), (environment, positions, cells[1:], places, epoch),
-                      (environment, positions, cells, places[1:], epoch), (environment, positions, cells, epoch)):
+                      (environment, positions, cells, places[1:], epoch), (environment, positions, cells, epoch),
+                      (None, positions, cells, places, epoch)):
             with self.assertRaises(ValueError):
                 cellwalk.Particles.__new__(cellwalk.Particles).__setstate__(state)
 
@@ -199,6 +200,8 @@ class Bodies(unittest.TestCase):
                 cellwalk.Body.__new__(cellwalk.Body).__setstate__((environment, damaged))
         with self.assertRaises(cellwalk.InputError):
             cellwalk.Body.__new__(cellwalk.Body).__setstate__((cellwalk.Environment.generate("tets", cells=[6, 6, 6]), bytes_of))
+        with self.assertRaisesRegex(ValueError, "damaged"):
+            cellwalk.Body.__new__(cellwalk.Body).__setstate__((None, bytes_of))
 
 
 if __name__ == "__main__":

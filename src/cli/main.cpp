@@ -4,7 +4,9 @@
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/kernel/error.h>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +21,8 @@
 #include <string_view>
 
 #include "cli/common/command.h"
+#include "cli/common/interruption.h"
+#include "cli/common/printable.h"
 #include "cli/common/work_log.h"
 
 namespace {
@@ -32,6 +36,13 @@ void discard_and_stop(int signal) {
   cellwalk::io::discard_unfinished_files();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
+}
+
+/// Opens what is closed of the standard streams, so that no file gets their numbers, and with it what is
+/// printed. Standard output cannot be written then, and commands fail as they do on a full device.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR);
 }
 
 constexpr std::size_t longest_name = 255;  // bytes that Linux allows
@@ -62,7 +73,7 @@ std::string with_short_words(std::string message, std::span<char* const> words, 
 int fail(Ranks& ranks, Error_code code, const std::string& message) {
   if (ranks.is_first()) {
     std::fflush(stdout);
-    std::fprintf(stderr, "cellwalk: %s\n", message.substr(0, message.find('\n')).c_str());
+    std::fprintf(stderr, "cellwalk: %s\n", cellwalk::cli::printable(message).c_str());
   }
   ranks.fail(code, message);
   return ranks.is_first() ? static_cast<int>(code) : EXIT_SUCCESS;
@@ -114,7 +125,8 @@ void add_log(CLI::App& app, Log_options& log) {
             ->type_name("FILE");
     command->add_option("--log-interval", log.seconds, "Seconds between two lines of the log")
         ->needs(file)
-        ->check(cellwalk::cli::number_from(0.001, "of at least 0.001"))
+        ->check(
+            cellwalk::cli::number_from(0.001, "from 0.001 to 1000000", cellwalk::cli::longest_log_interval))
         ->type_name("SECONDS")
         ->capture_default_str();
   }
@@ -134,7 +146,8 @@ int run(Ranks& ranks, const cellwalk::cli::Action& action, std::span<char* const
   } catch (const std::bad_alloc&) {
     return fail(ranks, Error_code::other, "out of memory: use a smaller input or a larger machine");
   } catch (const std::exception& error) {
-    return fail(ranks, Error_code::other, error.what());
+    const std::string_view message = error.what();  // that of a library may have further lines
+    return fail(ranks, Error_code::other, std::string(message.substr(0, message.find('\n'))));
   }
 }
 
@@ -142,7 +155,8 @@ int run(Ranks& ranks, const cellwalk::cli::Action& action, std::span<char* const
 
 int main(int argc, char** argv) {
   using namespace cellwalk::cli;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, discard_and_stop);
+  hold_standard_streams();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle_unless_ignored(signal, discard_and_stop);
   // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
@@ -191,7 +205,7 @@ int main(int argc, char** argv) {
   }
   std::optional<Work_log> work_log;
   const auto logged = [&](Ranks& all) {
-    // What all do is said by the first.
+    // What all do is said by the first. Outputs of the command ask for the name.
     if (!log.file.empty() && !cellwalk::is_later_rank())
       work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
     action(all);

@@ -45,7 +45,7 @@ class Image_reader {
  private:
   void read_header() {
     const auto bytes = image_.bytes;
-    if (!is_compiled(bytes)) refuse("this is no compiled environment");
+    if (!is_compiled(bytes)) refuse("this is no compiled environment: make one, by `cellwalk import`");
     if (bytes.size() < sizeof header_) refuse_image("it is cut short");
     std::memcpy(&header_, bytes.data(), sizeof header_);
     if (header_.byte_order != image_byte_order)

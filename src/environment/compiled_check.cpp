@@ -69,6 +69,13 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
     refuse_image("the index of a cell belongs to another one");
   for (std::size_t v = first; v < first + shape.vertex_count; ++v)
     if (s.vertices_[v] >= s.points_.size()) refuse_image("a cell has a point that is not there");
+  // A walk that leaves through a lane without a facet would follow a loop that is not there.
+  for (std::size_t i = shape.facet_count(); i < 4 * blocks; ++i) {
+    const Plane_block<D>& block_of_lane = s.planes_[block + i / 4];
+    bool is_unused = block_of_lane.offset[i % 4] == -1;
+    for (const Float4& n : block_of_lane.normal) is_unused &= n[i % 4] == 0;
+    if (!is_unused) refuse_image("a plane belongs to no facet");
+  }
   for (std::size_t i = 0; i < 4 * blocks; ++i) {
     const std::uint32_t word = s.links_[4 * std::size_t{block} + i];
     const std::uint32_t link = word & Snapshot<D>::link_mask;

@@ -55,7 +55,9 @@ Loaded_environment load_environment(const std::string& path, Build_options optio
         std::visit([](const auto& known) { return has_simplices_only(known.environment.snapshot()); },
                    compiled);
     if (is_fit)
-      return std::visit([&](auto& known) { return as_loaded(std::move(known), options); }, compiled);
+      return naming(path, [&] {
+        return std::visit([&](auto& known) { return as_loaded(std::move(known), options); }, compiled);
+      });
   }
   io::Mesh_file file = is_compiled ? read_compiled(path) : io::read_mesh(path);
   return naming(path, [&]() -> Loaded_environment {

@@ -27,7 +27,7 @@ void redirect(int descriptor, const fs::path& file) {
 }
 
 pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
-            const fs::path& err, std::size_t largest_file = 0) {
+            const fs::path& err, std::size_t largest_file = 0, int ignored = 0) {
   std::vector<char*> argv{const_cast<char*>("cellwalk")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -37,6 +37,8 @@ pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, c
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
     if (chdir(folder.c_str()) != 0) _exit(126);
+    // Whatever is ignored here, as where tests run in the background.
+    for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, signal == ignored ? SIG_IGN : SIG_DFL);
     if (largest_file != 0) {
       const rlimit limit{largest_file, largest_file};
       if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
@@ -81,10 +83,10 @@ void interrupt_program(const std::vector<std::string>& arguments, const fs::path
 }
 
 Outcome stop_program(const std::vector<std::string>& arguments, const fs::path& folder, int signal,
-                     const std::function<bool()>& is_time, std::size_t largest_file) {
+                     const std::function<bool()>& is_time, std::size_t largest_file, bool is_ignored) {
   const fs::path out = beside(folder, ".out"), err = beside(folder, ".err");
   for (const fs::path& file : {out, err}) write_text(file, "");  // it may be stopped before it opens them
-  const pid_t child = start(arguments, folder, out, err, largest_file);
+  const pid_t child = start(arguments, folder, out, err, largest_file, is_ignored ? signal : 0);
   Outcome outcome;
   int status = 0;
   for (bool is_sent = false;;) {

@@ -27,8 +27,10 @@ void interrupt_program(const std::vector<std::string>& arguments, const std::fil
 
 /// Starts the program, sends it a signal once is_time() is true, and waits for it: it may have ended before.
 /// \param largest_file no file may grow beyond so many bytes, as on a full device; 0: any may
+/// \param is_ignored it is started with the signal ignored; otherwise that is not handed on
 Outcome stop_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                     int signal, const std::function<bool()>& is_time, std::size_t largest_file = 0);
+                     int signal, const std::function<bool()>& is_time, std::size_t largest_file = 0,
+                     bool is_ignored = false);
 
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -2,10 +2,14 @@
 // Compiled environments, as the commands write, read and refuse them.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/program.h"
+#include "environment/images.h"
 
 namespace cellwalk::test {
 namespace {
@@ -141,6 +145,27 @@ TEST_F(Compiled_file, DamagedFilesAreRefused) {
   refused("foreign.cellwalk", "compiled on a machine of another byte order");
   damage("flipped.cellwalk", whole.size() - 8, "\x7f");
   refused("flipped.cellwalk", "a checksum differs");
+}
+
+TEST_F(Compiled_file, ContentThatIsNoneIsFoundWhateverItsChecksums) {
+  make({"squares", "--cells", "3"});
+  const std::string whole = text("env.cellwalk");
+  int tried = 0;
+  constexpr std::size_t cells = 9, lanes = 4, word = 4;
+  for (std::size_t place = 0; place < cells * lanes; ++place)
+    for (std::size_t other = place / lanes * lanes; other < place; ++other) {
+      // Two facets of a cell lead where the other one did.
+      std::string changed = whole;
+      const auto image = std::as_writable_bytes(std::span(changed));
+      const std::span<std::byte> links = section_of(image, "links");
+      std::swap_ranges(&links[place * word], &links[place * word] + word, &links[other * word]);
+      if (changed == whole) continue;  // both are of the boundary
+      seal(image);
+      write("changed.cellwalk", changed);
+      expect_failure(4, {"check", "changed.cellwalk"}, {"changed.cellwalk: facet ("});
+      ++tried;
+    }
+  EXPECT_EQ(tried, 50);  // 6 of each cell, but for those at a corner
 }
 
 }  // namespace

@@ -71,8 +71,40 @@ TEST_F(Log, GoesOnWhereItWas) {
 TEST_F(Log, OverwritesNothing) {
   succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm"});
   const std::string before = text("env.ovm");
-  expect_failure(2, {"check", "env.ovm", "--log", "env.ovm"}, {"env.ovm: exists and is no log"});
+  expect_failure(2, {"generate", "squares", "-o", "e.ovm", "--log", "env.ovm"},
+                 {"env.ovm: exists and is no log"});
   EXPECT_EQ(text("env.ovm"), before);
+}
+
+TEST_F(Log, GoesOnAfterALineThatWasCut) {
+  const auto generate = [this] {
+    succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm", "--log", "log"});
+  };
+  generate();
+  const std::string whole = text("log");
+  for (const std::size_t length : {std::size_t{1}, std::size_t{4}, std::size_t{6}, whole.size() - 1}) {
+    write("log", whole.substr(0, length));
+    generate();
+    const std::string both = text("log");
+    EXPECT_TRUE(both.starts_with(whole.substr(0, length) + "\n{\"at\":")) << both;
+  }
+  write("log", "{\"a ");
+  expect_failure(2, {"check", "env.ovm", "--log", "log"}, {"log: exists and is no log"});
+}
+
+TEST_F(Log, AnIntervalMayBeLong) {
+  succeed({"generate", "squares", "--cells", "2", "-o", "env.ovm", "--log", "log", "--log-interval", "1e6"});
+  for (const json& line : lines("log")) EXPECT_TRUE(line.contains("ended"));
+  expect_failure(2, {"check", "env.ovm", "--log", "log", "--log-interval", "1e12"},
+                 {"takes a number from 0.001 to 1000000, not 1e12"});
+}
+
+TEST_F(Log, WorkGoesOnWithoutItsLog) {
+  const Outcome outcome = run({"generate", "squares", "--cells", "2", "-o", "env.ovm", "--log", "/dev/full",
+                               "--log-interval", "0.001"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "cellwalk: /dev/full: writing failed; the work goes on without a log\n");
+  EXPECT_TRUE(exists("env.ovm"));
 }
 
 }  // namespace

@@ -188,7 +188,41 @@ TEST_F(Outputs, NoneIsAnotherOutput) {
       }
   EXPECT_GE(tried, 12);
   fs::create_symlink("nobody.json", path("link.json"));
+  expect_failure(2, {"query", "env.ovm", "moves.csv", "-o", "nobody.json", "--json", "link.json"},
+                 {"link.json: is named for two outputs"});
   succeed({"query", "env.ovm", "moves.csv", "-o", "/dev/null", "--json", "/dev/null"});
+}
+
+TEST_F(Outputs, TheLogIsOneOfThem) {
+  write("empty", "");
+  int tried = 0;
+  for (const Writing_command& command : commands_) {
+    if (command.arguments[0] == "view") continue;
+    const auto refused = [&](const std::string& log, const std::string& why) {
+      SCOPED_TRACE(command.arguments[0] + " " + log);
+      Arguments all = command.with();
+      all.insert(all.end(), {"--log", log});
+      expect_failure(2, all, {log + ": " + why});
+      ++tried;
+    };
+    for (const auto& [option, name] : command.outputs) {
+      Arguments all = command.with();
+      all.insert(all.end(), {"--log", name});
+      expect_failure(2, all, {name + ": is named for two outputs"});
+    }
+    for (const std::string& input : command.inputs) {
+      const std::string before = text(input);
+      refused(input, "is read by this command");
+      EXPECT_EQ(text(input), before);
+    }
+  }
+  EXPECT_GE(tried, 10);
+  // One to which lines could be appended.
+  expect_failure(2, {"query", "env.ovm", "empty", "-o", "a.csv", "--log", "empty"}, {"empty: is read by"});
+  EXPECT_EQ(text("empty"), "");
+  expect_failure(2, {"run", "file.json", "-o", "out", "--log", "cube.off"}, {"cube.off: is read by"});
+  expect_failure(2, {"run", "s.json", "-o", "first", "--force", "--log", "first/log"},
+                 {"first/log: lies in first"});
 }
 
 TEST_F(Outputs, WhatASceneReadsIsAnInput) {
@@ -211,6 +245,13 @@ TEST_F(Outputs, NoneLiesInTheFolderOfARun) {
   expect_failure(2, {"run", "s.json", "-o", "out", "--json", "out/r.json"}, {"out/r.json: lies in out"});
   expect_failure(2, {"run", "s.json", "-o", "first", "--force", "--record", "first/m.trace"},
                  {"first/m.trace: lies in first"});
+  // With checkpoints it is another one until the end.
+  for (const std::string option : {"--json", "--record", "--log"}) {
+    expect_failure(2, {"run", "s.json", "-o", "./out/", "--checkpoint-every", "1", option, "out.part/r"},
+                   {"out.part/r: lies in ", "/out.part, which appears as a whole"});
+    expect_failure(2, {"run", "s.json", "-o", "out", "--checkpoint-every", "1", option, "out.part"},
+                   {"is named for two outputs"});
+  }
 }
 
 TEST_F(Outputs, AFolderThatALinkLeadsToIsReplaced) {

@@ -74,6 +74,9 @@ TEST_F(View, RefusesWhatIsDamagedOrMissing) {
   with("out/run.json", report.substr(0, report.size() / 2),
        {"out/run.json: is damaged", "run the scene again"});
   with("out/run.json", "{}", {"out/run.json: is damaged"});
+  const std::string deep = std::string(300000, '[') + std::string(300000, ']');
+  with("out/run.json", "{\"deep\": " + deep + "," + report.substr(1),
+       {"out/run.json: more than 64 lists and objects within each other"});
   with("out/motion.gz", motion.substr(0, motion.size() / 2),
        {"out/motion.gz: the gzip stream is damaged or cut short"});
   with("out/motion.gz", contacts, {"out/motion.gz: is no motion"});

@@ -53,7 +53,8 @@ std::vector<std::byte> compile_to_bytes(const Environment<D>& environment, const
 /// Opens an image. Its arrays stay where they are; edits write there.
 ///
 /// Checksums are compared, and it is tested that each index refers to something. That the environment is
-/// certified is taken from the image, whoever made it: check_compiled() and Environment::certify() test it.
+/// certified is taken from the image, whoever made it: Environment::certify() and then check_compiled() test
+/// it. In what is none, motions need not end.
 /// \throw Error(input) for bytes that are no image, damaged, cut short, of another version or byte order
 /// \throw Error(usage) for bytes that do not begin at a multiple of 64
 /// Cost: linear; about 30 ms for 10^6 tetrahedra, of which 10 are for reading each page once.
@@ -64,6 +65,7 @@ Any_compiled_environment open_compiled_copy(std::span<const std::byte> bytes);
 
 /// Tests that the certificates of all cells, their planes and pairs of convex union, are those that compiling
 /// gives.
+/// \pre Environment::certify() throws nothing
 /// \throw Error(not_certified) naming the first cell that has others
 /// Cost: linear, about 0.5 us a tetrahedron; memory of a second snapshot.
 template <int D>

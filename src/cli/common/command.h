@@ -63,12 +63,12 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
 
 constexpr double least_size = std::numeric_limits<double>::denorm_min();  // anything greater than 0
 
-/// A check of an option whose value is a finite number that is not below a bound.
-/// \param bound the bound in words: "of at least 0"
-inline auto number_from(double least, const char* bound) {
-  return [least, bound](const std::string& text) {
+/// A check of an option whose value is a finite number within bounds.
+/// \param bound the bounds in words: "of at least 0"
+inline auto number_from(double least, const char* bound, double most = std::numeric_limits<double>::max()) {
+  return [least, most, bound](const std::string& text) {
     double value = 0;
-    const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= least;
+    const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
     return fits ? std::string{} : "takes a number " + std::string(bound) + ", not " + text;
   };
 }

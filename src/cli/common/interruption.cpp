@@ -13,9 +13,15 @@ void note(int signal) { noted = signal; }
 
 }  // namespace
 
+Signal_handler handle_unless_ignored(int signal, Signal_handler handler) {
+  struct sigaction now;
+  if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) return SIG_IGN;
+  return std::signal(signal, handler);
+}
+
 Interruption::Interruption() {
   noted = 0;
-  for (int i = 0; i < 3; ++i) before_[i] = std::signal(signals[i], note);
+  for (int i = 0; i < 3; ++i) before_[i] = handle_unless_ignored(signals[i], note);
 }
 
 Interruption::~Interruption() {

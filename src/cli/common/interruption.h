@@ -12,7 +12,14 @@ struct Interrupted {
   int signal;
 };
 
-/// Records SIGINT, SIGTERM and SIGHUP during its lifetime instead of ending the program. One at a time.
+using Signal_handler = void (*)(int);
+
+/// Has a signal handled, unless whoever started the program has it ignored: nohup(1) does that with SIGHUP,
+/// and a shell with SIGINT for work in the background. Returns what handled it before.
+Signal_handler handle_unless_ignored(int signal, Signal_handler handler);
+
+/// Records SIGINT, SIGTERM and SIGHUP during its lifetime instead of ending the program, but for
+/// those that are ignored. One at a time.
 class Interruption {
  public:
   Interruption();
@@ -26,8 +33,7 @@ class Interruption {
   void check() const;
 
  private:
-  using Handler = void (*)(int);
-  Handler before_[3];
+  Signal_handler before_[3];
 };
 
 /// Ends the program as the signal would have. Does not return.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "outputs.h"
 
+#include <cellwalk/internal/io/output.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/kernel/error.h>
 
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <utility>
+
+#include "work_log.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -27,8 +30,7 @@ void print(const std::string& text) {
 
 Named_file::Named_file(std::string name) : name_(std::move(name)) {
   std::error_code failure;
-  path_ = fs::weakly_canonical(fs::absolute(name_, failure), failure);
-  if (failure) path_ = fs::absolute(name_, failure);
+  path_ = io::target_of(fs::absolute(name_, failure));
   if (!path_.has_filename()) path_ = path_.parent_path();  // a name that ends in a slash
   struct stat status;
   exists_ = stat(name_.c_str(), &status) == 0;
@@ -53,6 +55,7 @@ bool Named_file::is_within(const Named_file& folder) const {
 Outputs::Outputs(const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs)
     if (!input.empty()) inputs_.emplace_back(input);
+  if (const std::string log = Work_log::name(); !log.empty()) add(Named_file(log));
 }
 
 void Outputs::refuse_pipe(const Named_file& input) const {
@@ -68,9 +71,18 @@ void Outputs::inputs_are_shared() {
 void Outputs::refuse_clash(const Named_file& output, const Named_file& input) const {
   if (!output.keeps_nothing() && output.is_same(input))
     refuse(output.name() + ": is read by this command, and would be replaced; give the output another name");
-  if (&output == folder_name_.get() && input.is_within(output))
-    refuse(output.name() + ": holds " + input.name() +
+}
+
+void Outputs::refuse_replaced(const Named_file& folder, const Named_file& input) const {
+  if (input.is_within(folder))
+    refuse(folder.name() + ": holds " + input.name() +
            ", which is read by this command, and would be replaced; give another folder");
+}
+
+void Outputs::refuse_within(const Named_file& output, const Named_file& folder) const {
+  if (output.is_within(folder))
+    refuse(output.name() + ": lies in " + folder.name() +
+           ", which appears as a whole; give a place outside of it");
 }
 
 void Outputs::add(const Named_file& output) {
@@ -79,9 +91,7 @@ void Outputs::add(const Named_file& output) {
     if (!output.keeps_nothing() && output.is_same(other))
       refuse(output.name() +
              ": is named for two outputs, and one would replace the other; give each its own name");
-  if (folder_name_ && &output != folder_name_.get() && output.is_within(*folder_name_))
-    refuse(output.name() + ": lies in " + folder_name_->name() +
-           ", which appears as a whole; give a place outside of it");
+  for (const Named_file& folder : folder_names_) refuse_within(output, folder);
   outputs_.push_back(output);
 }
 
@@ -89,7 +99,7 @@ void Outputs::also_reads(const std::string& name) {
   const Named_file input(name);
   refuse_pipe(input);
   for (const Named_file& output : outputs_) refuse_clash(output, input);
-  if (folder_name_) refuse_clash(*folder_name_, input);
+  for (const Named_file& folder : folder_names_) refuse_replaced(folder, input);
   inputs_.push_back(input);
 }
 
@@ -100,13 +110,15 @@ io::Atomic_file* Outputs::file(const std::string& name) {
   return files_.back().get();
 }
 
-void Outputs::name_folder(const std::string& name) {
-  folder_name_ = std::make_unique<Named_file>(name);
-  add(*folder_name_);
+void Outputs::name_folder(const Named_file& folder) {
+  add(folder);
+  for (const Named_file& input : inputs_) refuse_replaced(folder, input);
+  for (const Named_file& output : outputs_) refuse_within(output, folder);
+  folder_names_.push_back(folder);
 }
 
 Output_folder& Outputs::folder(const std::string& name, bool replace) {
-  name_folder(name);
+  name_folder(Named_file(name));
   auto folder = std::make_unique<Output_folder>(name, replace);
   Output_folder& made = *folder;
   folder_ = std::move(folder);
@@ -114,7 +126,8 @@ Output_folder& Outputs::folder(const std::string& name, bool replace) {
 }
 
 Working_folder& Outputs::working_folder(const std::string& name, bool replace, bool is_taken_up) {
-  name_folder(name);
+  name_folder(Named_file(name));
+  name_folder(Named_file(Output_folder::place_of(name).string() + ".part"));  // where it is until the end
   auto folder = is_taken_up ? Working_folder::take_up(name) : Working_folder::make(name, replace);
   Working_folder& made = *folder;
   folder_ = std::move(folder);

@@ -45,7 +45,9 @@ class Named_file {
 /// The outputs of one command, opened before it starts its work.
 class Outputs {
  public:
-  /// `inputs` are the files that the command reads; empty names are ignored.
+  /// `inputs` are the files that the command reads; empty names are ignored. The log, if there is one, counts
+  /// as an output.
+  /// \throw Error(usage) if the log is an input
   explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
   explicit Outputs(const std::vector<std::string>& inputs);
 
@@ -75,12 +77,14 @@ class Outputs {
  private:
   void refuse_pipe(const Named_file& input) const;
   void refuse_clash(const Named_file& output, const Named_file& input) const;
+  void refuse_replaced(const Named_file& folder, const Named_file& input) const;
+  void refuse_within(const Named_file& output, const Named_file& folder) const;
   void add(const Named_file& output);
-  void name_folder(const std::string& name);
+  void name_folder(const Named_file& folder);
 
   bool are_inputs_shared_ = false;
   std::vector<Named_file> inputs_, outputs_;
-  std::unique_ptr<Named_file> folder_name_;
+  std::vector<Named_file> folder_names_;  ///< among the outputs
   std::vector<std::unique_ptr<io::Atomic_file>> files_;
   std::unique_ptr<io::Output> folder_;
 };

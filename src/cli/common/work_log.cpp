@@ -12,6 +12,9 @@
 #include <ctime>
 #include <filesystem>
 #include <string_view>
+#include <utility>
+
+#include "printable.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -20,13 +23,19 @@ constexpr std::string_view beginning = R"({"at":")";  // of each line
 
 std::atomic<Work_log*> the_log{nullptr};
 
-void need_log(const std::string& path) {
+/// Whether a log ends within a line, as one does whose writer was killed.
+/// \throw Error(usage) if it is none
+bool is_log_cut(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0) return;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (none || size == 0) return false;
   std::ifstream file(path, std::ios::binary);
-  std::string begins(beginning.size(), '\0');
-  if (!file.read(begins.data(), static_cast<std::streamsize>(begins.size())) || begins != beginning)
+  std::string begins(std::min<std::uintmax_t>(size, beginning.size()), '\0');
+  if (!file.read(begins.data(), static_cast<std::streamsize>(begins.size())) ||
+      !beginning.starts_with(begins))
     throw Error(Error_code::usage, path + ": exists and is no log; give another file");
+  return file.seekg(-1, std::ios::end) && file.get() != '\n';
 }
 
 }  // namespace
@@ -50,10 +59,8 @@ std::uint64_t memory_in_use() {
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-Work_log::Work_log(const std::string& path, std::chrono::duration<double> interval) : interval_(interval) {
-  need_log(path);
-  file_.open(path, std::ios::app);
-  if (!file_) throw Error(Error_code::other, path + ": cannot be written");
+Work_log::Work_log(std::string path, std::chrono::duration<double> interval)
+    : path_(std::move(path)), interval_(std::min(interval.count(), longest_log_interval)) {
   the_log = this;
   writer_ = std::thread([this] { repeat(); });
 }
@@ -68,10 +75,24 @@ Work_log::~Work_log() {
   writer_.join();
 }
 
+std::string Work_log::name() {
+  const Work_log* const log = the_log;
+  return log == nullptr ? std::string{} : log->path_;
+}
+
+/// \pre mutex_ is held
+void Work_log::open() {
+  const bool is_cut = is_log_cut(path_);
+  file_.open(path_, std::ios::app);
+  if (!file_) throw Error(Error_code::other, path_ + ": cannot be written");
+  if (is_cut) file_ << '\n';
+}
+
 void Work_log::begin(const Stage& stage) {
   Work_log* const log = the_log;
   if (log == nullptr) return;
   const std::lock_guard lock(log->mutex_);
+  if (!log->file_.is_open()) log->open();
   log->running_.push_back(&stage);
 }
 
@@ -97,7 +118,11 @@ void Work_log::write(const Stage& stage, bool is_end) {
   line["seconds"] = state.seconds;
   line["memory_bytes"] = memory_in_use();
   if (is_end) line["ended"] = true;
+  if (!file_) return;
   file_ << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
+  // Work of days is not given up for its log.
+  if (!file_)
+    fmt::print(stderr, "cellwalk: {}: writing failed; the work goes on without a log\n", printable(path_));
 }
 
 void Work_log::repeat() {

@@ -37,25 +37,35 @@ Stage_state state_of(const Stage& stage);
 /// Bytes of main memory that this process uses; 0 if the system does not tell.
 std::uint64_t memory_in_use();
 
+/// Seconds: some eleven days. Clocks cannot wait for as long as a double can tell.
+inline constexpr double longest_log_interval = 1e6;
+
 /// While it lives, the stage that runs is written every so often, and each stage once more when it ends. A
 /// process has one at most. Any thread may begin and end stages.
 class Work_log {
  public:
-  /// Goes on with a log that is there already.
-  /// \throw Error(usage) if the file holds something else, Error(other) if it cannot be written
-  Work_log(const std::string& path, std::chrono::duration<double> interval);
+  /// Nothing is opened before the first stage begins: until then the command may refuse the name, and must
+  /// find its inputs as they were.
+  Work_log(std::string path, std::chrono::duration<double> interval);
   ~Work_log();
   Work_log(const Work_log&) = delete;
   Work_log& operator=(const Work_log&) = delete;
 
+  /// The name of the log; empty if there is none.
+  static std::string name();
+
   // Without effect if there is no log.
+  /// Goes on with a log that is there already.
+  /// \throw Error(usage) if the file holds something else, Error(other) if it cannot be opened
   static void begin(const Stage& stage);
   static void end(const Stage& stage);
 
  private:
+  void open();
   void write(const Stage& stage, bool is_end);
   void repeat();
 
+  std::string path_;
   std::ofstream file_;
   std::chrono::duration<double> interval_;
   std::mutex mutex_;  ///< of what follows, and of the file

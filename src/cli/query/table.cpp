@@ -18,6 +18,7 @@
 #include "answers.h"
 #include "cli/common/counts_json.h"
 #include "cli/common/environment_file.h"
+#include "cli/common/printable.h"
 #include "picture.h"
 #include "walk_repro.h"
 
@@ -90,8 +91,9 @@ void report(const Query_options& options, Query_files& files, const Answered& an
   write_json(files.json, {{"motions", motions}, {"status", by_status}, {"counts", counts}});
   files.all.commit(fmt::format("{}: {} motions{}\n", options.output, motions, line));
   if (answered.line != 0)
-    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", options.queries, answered.line,
-               answered.error, answered.tally[static_cast<std::size_t>(Motion_status::invalid)]);
+    fmt::print(stderr, "cellwalk: {}:{}: {}; rows marked invalid: {}\n", printable(options.queries),
+               answered.line, printable(answered.error),
+               answered.tally[static_cast<std::size_t>(Motion_status::invalid)]);
 }
 
 /// The number of the first row of this rank in the whole table.

@@ -13,6 +13,8 @@
 #include <utility>
 #include <variant>
 
+#include "cli/common/printable.h"
+
 namespace cellwalk::cli {
 namespace {
 
@@ -44,7 +46,7 @@ Kept_run read_checkpoint(const fs::path& checkpoints) {
   Kept_run kept;
   kept.checkpoint = io::Checkpoint_folder(checkpoints, program).newest();
   for (const std::string& damage : kept.checkpoint.passed_over)
-    fmt::print(stderr, "cellwalk: {}; going on from the checkpoint before\n", damage);
+    fmt::print(stderr, "cellwalk: {}; going on from the checkpoint before\n", printable(damage));
   kept.rest = detail::Byte_reader(kept.checkpoint.state);
   kept.rest(kept.settings, kept.lengths);
   return kept;

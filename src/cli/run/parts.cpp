@@ -30,9 +30,9 @@ State_times state_times(const Run_input<D>& input, const World<D>& world) {
 }
 
 template <int D>
-Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place,
-                        const std::vector<Body_soup<D>>& shapes, const Groups<D>& groups, bool is_recorded)
-    : world(make_world(input, shapes)),
+Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, World<D>&& made,
+                        const Groups<D>& groups, bool is_recorded)
+    : world(std::move(made)),
       record(is_recorded ? start_trace(input.options.scene, world) : nullptr),
       files(place, input.environment, world, input.scene) {
   const Scene<D>& scene = input.scene;

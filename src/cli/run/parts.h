@@ -51,10 +51,11 @@ State_times state_times(const Run_input<D>& input, const World<D>& world);
 template <int D>
 struct Run_parts {
   /// Of a new run.
+  /// \param made make_world() of the input
   /// \param groups that the file of the environment names
   /// \throw Error as the parts, naming the scene
-  Run_parts(const Run_input<D>& input, Result_files& place, const std::vector<Body_soup<D>>& shapes,
-            const Groups<D>& groups, bool is_recorded);
+  Run_parts(const Run_input<D>& input, Result_files& place, World<D>&& made, const Groups<D>& groups,
+            bool is_recorded);
   /// Of one that goes on from where it was saved.
   /// \throw Error(input) for bytes that are none of this scene and environment
   Run_parts(const Run_input<D>& input, Result_files& place, bool is_recorded, detail::Byte_reader& saved);

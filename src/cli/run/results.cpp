@@ -2,6 +2,7 @@
 #include "results.h"
 
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ ordered_json read_report(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   try {
-    ordered_json report = ordered_json::parse(text);
+    ordered_json report = io::parse_ordered_json(path.string(), text);
     for (const char* key : {"dimension", "steps", "environment", "contacts", "manifest"}) report.at(key);
     for (const char* key : {"cells", "walls"}) report.at("environment").at(key).get<std::uint64_t>();
     for (const char* kind : contact_kind_names) report.at("contacts").at(kind).get<std::uint64_t>();

@@ -24,6 +24,7 @@
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/environment_file.h"
 #include "cli/common/interruption.h"
+#include "cli/common/printable.h"
 #include "cli/common/progress.h"
 #include "options.h"
 #include "parts.h"
@@ -125,8 +126,8 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   if (outputs != nullptr && scene.walls && !scene.walls->motion.empty())
     outputs->all.also_reads(scene.walls->motion);
   if (!reason.empty() && !all.is_alone())
-    fmt::print(stderr, "cellwalk: {}: {}, so the first of {} ranks works alone\n", options.scene, reason,
-               all.size());
+    fmt::print(stderr, "cellwalk: {}: {}, so the first of {} ranks works alone\n", printable(options.scene),
+               reason, all.size());
   Prepared_environment prepared = prepare(scene, options.scene, ranks);
   auto* environment = std::get_if<Environment<D>>(&prepared.environment);
   if (!environment)
@@ -140,9 +141,12 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   Result_files place = outputs->working == nullptr
                            ? Result_files(outputs->folder->path())
                            : Result_files(outputs->working->results(), outputs->working->checkpoints(), {});
+  // There are no results yet: a signal ends the program while bodies are still being placed, which may take
+  // long.
+  World<D> world = make_world(input, bodies.shapes);
   const Interruption interruption;
   const Attentive_wait wait(ranks, interruption);
-  Run_parts<D> parts(input, place, bodies.shapes, groups, outputs->record != nullptr);
+  Run_parts<D> parts(input, place, std::move(world), groups, outputs->record != nullptr);
   Run_sharing<D> sharing(ranks, parts.world, state_times(input, parts.world));
   std::optional<Run_checkpoints<D>> checkpoints;
   if (outputs->working != nullptr)

@@ -64,7 +64,8 @@ Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::
   constexpr mode_t permissions = 0666;  // without the umask of the user
   struct stat old;
   const bool exists = stat(destination_.c_str(), &old) == 0;
-  if (!exists && errno == ENAMETOOLONG) fail("cannot be written");  // the temporary name is shorter
+  // The temporary name is shorter, and a link of a loop is no file to replace.
+  if (!exists && (errno == ENAMETOOLONG || errno == ELOOP)) fail("cannot be written");
   const auto own = own_descriptor(destination_);
   is_direct_ = own || (exists && !S_ISREG(old.st_mode));
   if (is_direct_) {
@@ -74,9 +75,7 @@ Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::
   }
   // A rename would replace a file that its owner has write-protected.
   if (exists && access(destination_.c_str(), W_OK) != 0) fail("cannot be written");
-  std::error_code error;
-  target_ = std::filesystem::weakly_canonical(destination_, error);
-  if (error) target_ = destination_;
+  target_ = target_of(destination_);
   const std::string stem =
       fmt::format(".{}.{}", target_.filename().string().substr(0, repeated_length), getpid());
   for (int attempt = 0; descriptor_ < 0; ++attempt) {

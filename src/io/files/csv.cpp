@@ -91,7 +91,7 @@ Csv_table Csv_table::parse(const std::string& name, std::shared_ptr<Source> sour
   Csv_table table;
   table.name_ = name;
   table.source_ = std::move(source);
-  Line_reader in(name, text, '\0');
+  Line_reader in(name, text, std::nullopt);
   const auto next = [&] {
     while (in.next_line()) {
       if (!in.rest().starts_with('#')) return true;

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/json_file.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "text.h"
+
 namespace cellwalk::io {
+
+nlohmann::ordered_json parse_ordered_json(const std::string& name, std::string_view text) {
+  using nlohmann::ordered_json;
+  const auto watch = [&name](int depth, ordered_json::parse_event_t, ordered_json&) {
+    if (depth > deepest_nesting)
+      fail(name, fmt::format("more than {} lists and objects within each other", deepest_nesting));
+    return true;
+  };
+  return ordered_json::parse(text, watch);
+}
 
 void write_json(Atomic_file& file, const nlohmann::ordered_json& value) {
   // Text that is not UTF-8, such as a file name, must not prevent a report.

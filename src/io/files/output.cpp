@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 
 namespace cellwalk::io {
 namespace {
@@ -89,6 +90,22 @@ void put_in_place(std::span<Output* const> outputs, const std::function<void()>&
     throw;
   }
   for (Output* output : outputs) output->settle();
+}
+
+std::filesystem::path target_of(const std::filesystem::path& name) {
+  namespace fs = std::filesystem;
+  const auto canonical = [](const fs::path& path) {
+    std::error_code failure;
+    fs::path result = fs::weakly_canonical(path, failure);
+    return failure ? path : result;
+  };
+  constexpr int most_links = 40;  // as in Linux
+  fs::path target = canonical(name);
+  std::error_code failure;
+  // Only links that lead nowhere are left.
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(target, failure)); ++i)
+    target = canonical(target.parent_path() / fs::read_symlink(target, failure));
+  return target;
 }
 
 void Unfinished::hold(const std::string& path) {

@@ -89,7 +89,7 @@ void fail(const std::string& file, std::size_t line, const std::string& what) {
   throw Error(Error_code::input, one_line(fmt::format("{}:{}: {}", file, line, what)));
 }
 
-Line_reader::Line_reader(std::string file, std::string_view text, char comment)
+Line_reader::Line_reader(std::string file, std::string_view text, std::optional<char> comment)
     : file_(std::move(file)), text_(text), comment_(comment) {
   if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
 }
@@ -102,8 +102,7 @@ bool Line_reader::next_line() {
     position_ = std::min(end + 1, text_.size());
     rest_ = text_.substr(line_begin_, end - line_begin_);
     if (rest_.ends_with('\r')) rest_.remove_suffix(1);
-    if (const std::size_t hash = rest_.find(comment_); hash != std::string_view::npos)
-      rest_ = rest_.substr(0, hash);
+    if (comment_) rest_ = rest_.substr(0, rest_.find(*comment_));
     if (!at_line_end()) return true;
   }
   if (line_number_ == 0 || (line_begin_ < text_.size() && text_.ends_with('\n'))) ++line_number_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -39,7 +40,7 @@ std::string shown(std::string_view word);
 /// it.
 class Line_reader {
  public:
-  Line_reader(std::string file, std::string_view text, char comment = '#');
+  Line_reader(std::string file, std::string_view text, std::optional<char> comment = '#');
 
   /// Moves to the next line that has words. False at the end of the text.
   bool next_line();
@@ -86,7 +87,7 @@ class Line_reader {
   std::string_view text_;
   std::string_view rest_;
   std::size_t position_ = 0, line_begin_ = 0, line_number_ = 0;
-  char comment_;
+  std::optional<char> comment_;  ///< none: the lines have no comments
 };
 
 /// True if two words are equal up to the case of ASCII letters.

@@ -199,7 +199,7 @@ void check_msh_nodes(const std::string& name, std::string_view bytes, const Msh_
 }
 
 void check_unv_nodes(const std::string& name, std::string_view text) {
-  Line_reader in(name, text, '\0');
+  Line_reader in(name, text, std::nullopt);
   const auto begins_or_ends = [](const Line_reader& line) {
     const std::string_view rest = line.rest();
     return rest.substr(std::min(rest.find_first_not_of(' '), rest.size())) == "-1";

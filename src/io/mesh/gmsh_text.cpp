@@ -25,7 +25,7 @@ std::size_t line_after(std::string_view bytes, std::string_view keyword) {
 /// The word of number `position` on the line that starts at `begin`, as an integer.
 std::optional<std::uint64_t> integer_at(std::string_view bytes, std::size_t begin, int position) {
   if (begin == std::string_view::npos) return std::nullopt;
-  Line_reader in("", bytes.substr(begin, 256), '\0');
+  Line_reader in("", bytes.substr(begin, 256), std::nullopt);
   if (!in.next_line()) return std::nullopt;
   std::string_view w = in.word();
   for (int i = 0; i < position; ++i) w = in.word();
@@ -48,7 +48,7 @@ std::string_view element_keyword(const Msh_header& header) {
 Msh_header read_msh_header(const std::string& name, std::string_view bytes) {
   if (!bytes.starts_with('$'))
     fail(name, 1, "not a mesh of Gmsh: it does not begin with '$MeshFormat' or '$NOD'");
-  Line_reader in(name, bytes, '\0');
+  Line_reader in(name, bytes, std::nullopt);
   in.next_line();
   const std::string_view opening = in.word();
   if (opening == "$NOD" || opening == "$NOE") return {"1", false};
@@ -101,7 +101,7 @@ std::optional<std::string> renumbered_elements(std::string_view text, const Msh_
   if (header.binary || !is_version_1_or_2(header)) return std::nullopt;
   const std::size_t begin = line_after(text, element_keyword(header));
   if (begin == std::string_view::npos) return std::nullopt;
-  Line_reader in("", text.substr(begin), '\0');
+  Line_reader in("", text.substr(begin), std::nullopt);
   in.next_line();  // the count
   std::string renumbered(text.substr(0, begin));
   renumbered.append(in.rest()).append("\n");

@@ -63,7 +63,7 @@ std::optional<std::size_t> Ply_element::find(std::string_view property, bool lis
 
 Ply_header read_ply_header(const std::string& name, std::string_view bytes) {
   Ply_header header;
-  Line_reader in(name, bytes, '\0');
+  Line_reader in(name, bytes, std::nullopt);
   in.need_line("'ply'");
   if (in.rest() != "ply") in.fail("not a PLY file: it does not begin with 'ply'");
   bool has_format = false;

@@ -86,7 +86,7 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
   report.format = "STL";
   Surface_soup soup;
   Merged_points merged(soup.points);
-  Line_reader in(name, bytes, '\0');
+  Line_reader in(name, bytes, std::nullopt);
   std::vector<std::uint32_t> loop;
   std::size_t solids = 0;
   bool in_facet = false;

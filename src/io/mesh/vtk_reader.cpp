@@ -98,7 +98,7 @@ Read_elements from_data_object(const std::string& name, vtkDataObject* data, con
 }
 
 Read_elements parse_legacy(const std::string& name, const std::string& bytes, Read_report& report) {
-  Line_reader in(name, bytes, '\0');
+  Line_reader in(name, bytes, std::nullopt);
   in.next_line();
   const std::string_view first = in.rest(), title = "# vtk DataFile Version ";
   const bool titled = same_word(first.substr(0, title.size()), title);

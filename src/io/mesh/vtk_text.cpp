@@ -64,7 +64,7 @@ void check_legacy(const std::string& name, std::string_view bytes) {
                                                      "TRIANGLE_STRIPS", "POINT_DATA", "CELL_DATA"};
   const double most = static_cast<double>(bytes.size()) * per_byte_plain;
   for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n', end + 1)) {
-    Line_reader line("", bytes.substr(end + 1, 128), '\0');
+    Line_reader line("", bytes.substr(end + 1, 128), std::nullopt);
     const std::string_view first = bytes.substr(end + 1, 1);
     if (first.empty() || std::string_view("PCLVTpclvt").find(first) == std::string_view::npos ||
         !line.next_line())

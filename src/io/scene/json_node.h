@@ -3,6 +3,7 @@
 #ifndef CELLWALK_IO_SCENE_JSON_NODE_H
 #define CELLWALK_IO_SCENE_JSON_NODE_H
 
+#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/kernel/point.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,10 +18,6 @@
 #include <vector>
 
 namespace cellwalk::io::detail {
-
-/// The maximum depth of nested lists and objects, far more than any valid file has. The JSON writer recurses
-/// as deeply.
-inline constexpr int deepest_nesting = 64;
 
 /// Parses JSON; comments (// and /* */) are allowed.
 /// \throw Error(input) naming the line, also for repeated keys and for nesting that is too deep

@@ -73,9 +73,8 @@ std::string change_scene(const std::string& name, std::string_view text,
     if (!is_utf8(change)) refuse("a change", "is not written in UTF-8");
     const std::string value = change.substr(equals + 1);
     const auto watch = [&](int depth, json::parse_event_t, json&) {
-      if (depth > detail::deepest_nesting)
-        refuse(change,
-               fmt::format("more than {} lists and objects within each other", detail::deepest_nesting));
+      if (depth > deepest_nesting)
+        refuse(change, fmt::format("more than {} lists and objects within each other", deepest_nesting));
       return true;
     };
     constexpr bool throws = false;

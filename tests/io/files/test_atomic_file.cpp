@@ -46,6 +46,25 @@ TEST(AtomicFile, ReplacesTheFileBehindALink) {
   EXPECT_EQ(content_of(folder / "real.txt"), "new");
 }
 
+TEST(AtomicFile, MakesTheFileToWhichALinkLeads) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/next.txt", folder / "link.txt");
+  std::filesystem::create_symlink("real.txt", folder / "there" / "next.txt");
+  write_file(folder / "link.txt", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "there" / "next.txt"));
+  EXPECT_EQ(content_of(folder / "there" / "real.txt"), "new");
+  std::filesystem::create_symlink("nowhere/real.txt", folder / "astray.txt");
+  std::filesystem::create_symlink("loop.txt", folder / "loop.txt");
+  for (const char* name : {"astray.txt", "loop.txt"}) {
+    const std::string link = (folder / name).string();
+    EXPECT_TRUE(refusal([&] { write_file(link, "new"); }, Error_code::other)
+                    .starts_with(link + ": cannot be written"));
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+  }
+}
+
 TEST(AtomicFile, WritesDevicesDirectly) {
   write_file("/dev/null", "gone");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));

@@ -29,6 +29,13 @@ TEST(Csv, ColumnsAreFoundByName) {
 }
 
 /// The rows of all parts, one after the other, are those of the whole table, with their lines.
+TEST(Csv, AZeroByteBelongsToItsField) {
+  const Csv_table table = Csv_table::parse("t.csv", std::string("x,y\n1,2\0junk\n\0\0\n", 15));
+  ASSERT_EQ(table.row_count(), 2u);
+  EXPECT_EQ(table.number(0, 1).reason, "y: '2?junk' is not a number that a double can hold");
+  EXPECT_TRUE(table.row_problem(1));
+}
+
 TEST(Csv, PartsTogetherAreTheTable) {
   const std::string texts[] = {"# a comment\nx,y\n", "x,y\n1,2", "x,y\n1,2\n\n# no\n3,4\n5,6,7\n8,9\r\n",
                                "\xef\xbb\xbfx,y\n\n\n\n1,2\n\n\n\n\n\n\n\n3,4\n\n",

@@ -8,8 +8,18 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace cellwalk::io {
+
+/// The maximum depth of nested lists and objects, far more than any valid file has. The JSON writer recurses
+/// as deeply.
+inline constexpr int deepest_nesting = 64;
+
+/// Parses JSON with its keys in their order.
+/// \throw Error(input) for nesting that is too deep; nlohmann::json::exception for what is no JSON
+nlohmann::ordered_json parse_ordered_json(const std::string& name, std::string_view text);
 
 /// Writes JSON, indented, keys in the order of insertion. Numbers read back the same; those that are not
 /// finite become null. The file appears complete or not at all.

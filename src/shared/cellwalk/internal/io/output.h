@@ -92,6 +92,10 @@ bool exchange_in_steps(const std::filesystem::path& a, const std::filesystem::pa
 
 }  // namespace detail
 
+/// The file to which a name refers, followed through links, even where there is no such file yet. Relative
+/// names may stay relative.
+std::filesystem::path target_of(const std::filesystem::path& name);
+
 /// Removes everything that is Unfinished, such as the temporary files of uncommitted Atomic_files. Safe to
 /// call from a signal handler, for programs that leave nothing behind when they are interrupted.
 void discard_unfinished_files() noexcept;
