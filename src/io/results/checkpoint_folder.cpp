@@ -64,15 +64,15 @@ Checkpoint unsealed(const fs::path& file, const std::string& program) {
   const auto head = in.next<Sealed>();
   if (head.magic != magic || head.byte_order != byte_order)
     throw Damage{"it is no checkpoint of this machine"};
+  const auto content = bytes.subspan(head_size);
+  if (head.bytes != content.size()) throw Damage{"it is cut short"};
+  if (head.checksum != checksum_of(head, content)) throw Damage{"its checksum differs"};
   if (head.version != version)
     throw Error(
         Error_code::input,
         fmt::format("{}: was written in version {} of the format, and this program reads version {}: go "
                     "on with the program that began the run",
                     file.string(), head.version, version));
-  const auto content = bytes.subspan(head_size);
-  if (head.bytes != content.size()) throw Damage{"it is cut short"};
-  if (head.checksum != checksum_of(head, content)) throw Damage{"its checksum differs"};
   cellwalk::detail::Byte_reader body(content);
   if (const auto writer = body.next<std::string>(); writer != program)
     throw Error(Error_code::input,
@@ -96,7 +96,7 @@ std::vector<std::uint64_t> Checkpoint_folder::steps() const {
   for (fs::directory_iterator entry(folder_, failure); !failure && entry != fs::directory_iterator();
        entry.increment(failure)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(suffix)) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(suffix) || !entry->is_regular_file(failure)) continue;
     const char* const begin = name.data() + prefix.size();
     const char* const end = name.data() + name.size() - suffix.size();
     std::uint64_t step = 0;
