@@ -2,12 +2,14 @@
 #include "files.h"
 
 #include <cellwalk/io/atomic_file.h>
+#include <cellwalk/kernel/error.h>
 
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <system_error>
 
 #include "cli/common/contact_kind_names.h"
 #include "grids.h"
@@ -30,8 +32,15 @@ Run_files<D>::Run_files(Result_files& place, const Environment<D>& environment, 
       walls_change_(scene.walls.has_value() || !scene.changes.list.empty()),
       table_(place.table("contacts.csv", {"step", "particle", "time", "x", "y", "z", "kind", "nx", "ny", "nz",
                                           "cell", "body", "vertex", "feature", "number"})) {
-  if (every_ == 0 || place.is_continued()) return;
-  std::filesystem::create_directory(place.folder() / "frames");
+  if (every_ == 0) return;
+  const std::filesystem::path frames = place.folder() / "frames";
+  if (place.is_continued()) {
+    if (std::error_code ignored; !std::filesystem::is_directory(frames, ignored))
+      throw Error(Error_code::input,
+                  frames.string() + ": is missing, and was there at the checkpoint: begin the run again");
+    return;
+  }
+  std::filesystem::create_directory(frames);
   if (!walls_change_) {
     io::write_vtu(place.folder() / "walls.vtu", io::vtu_of_walls(environment_.soup()));
     place.note("walls.vtu");

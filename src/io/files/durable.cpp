@@ -125,6 +125,9 @@ Growing_file::Growing_file(fs::path path, std::uint64_t length) : path_(std::mov
   constexpr mode_t permissions = 0666;
   const int mode = O_WRONLY | O_CLOEXEC | (length == 0 ? O_CREAT | O_TRUNC : 0);
   descriptor_ = open(path_.c_str(), mode, permissions);
+  if (descriptor_ < 0 && length > 0 && errno == ENOENT)
+    throw Error(Error_code::input,
+                path_.string() + ": is missing, and was there at the checkpoint: begin the run again");
   if (descriptor_ < 0) fail("cannot be written");
   struct stat status;
   if (fstat(descriptor_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) < length) {

@@ -35,7 +35,7 @@ void remove_abandoned(const std::filesystem::path& destination);
 class Growing_file final : public Byte_sink {
  public:
   /// \param length that is kept of what is there; 0 makes a new file
-  /// \throw Error(other) if it cannot be written; Error(input) if it is shorter than that
+  /// \throw Error(other) if it cannot be written; Error(input) if it is missing, or shorter than that
   explicit Growing_file(std::filesystem::path path, std::uint64_t length = 0);
   ~Growing_file() override;
 
