@@ -232,10 +232,10 @@ TEST_F(Outputs, WhatASceneReadsIsAnInput) {
                    {std::string(input) + ": is read by this command"});
     EXPECT_EQ(text(input), before);
   }
-  fs::copy_file(path("env.ovm"), path("first/env.ovm"));
-  write("inside.json", R"({"environment": "first/env.ovm", "particles": [{"count": 1}], "steps": 1})");
+  fs::copy_file(path("env.ovm"), path("first/walls.vtu"), fs::copy_options::overwrite_existing);
+  write("inside.json", R"({"environment": "first/walls.vtu", "particles": [{"count": 1}], "steps": 1})");
   expect_failure(2, {"run", "inside.json", "-o", "first", "--force"},
-                 {"first: holds first/env.ovm, which is read"});
+                 {"first: holds first/walls.vtu, which is read"});
   fs::copy_file(path("s.json"), path("first/s.json"));
   expect_failure(2, {"run", "first/s.json", "-o", "./first/", "--force"},
                  {"./first/: holds first/s.json, which is read"});

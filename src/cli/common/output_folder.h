@@ -21,6 +21,7 @@ class Output_folder final : public io::Output {
   const std::filesystem::path& path() const { return temporary_; }
 
   void prepare() override {}
+  /// \throw Error(other) as Output; if the destination was taken meanwhile, the results stay beside it
   void put() override;
   void take_back() noexcept override;
   void settle() noexcept override;
@@ -28,11 +29,17 @@ class Output_folder final : public io::Output {
 
   /// The target of a name, absolute and without a slash at its end.
   static std::filesystem::path place_of(const std::filesystem::path& name);
+  /// True if nothing is there or, with `replace`, an earlier run.
+  static bool is_replaceable(const std::filesystem::path& destination, bool replace);
   /// \throw Error(usage) as the constructor
   static void check_destination(const std::filesystem::path& destination, bool replace);
 
  private:
+  void keep_beside();
+
   std::filesystem::path name_, destination_, temporary_;  ///< the given name, its target, the new folder
+  bool replaces_;
+  int lock_ = -1;  ///< tells other processes that this one runs
   io::Unfinished unfinished_;
   io::Replacement replacement_;
 };

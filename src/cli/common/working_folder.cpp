@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -51,8 +52,24 @@ bool has_checkpoint(const fs::path& folder) {
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure); !failure && entry != fs::directory_iterator();
        entry.increment(failure))
-    if (entry->path().extension() == ".checkpoint") return true;
-  return static_cast<bool>(failure);  // there may be one
+    if (entry->path().extension() == ".checkpoint" && entry->is_regular_file(failure)) return true;
+  return failure && failure != std::errc::no_such_file_or_directory;  // there may be one
+}
+
+/// True of what a process made here, even if it was killed at once, and of what one left that was killed
+/// while it removed this.
+bool is_of_a_run(const fs::path& folder) {
+  std::error_code failure;
+  if (fs::is_regular_file(folder / "lock", failure)) return true;
+  const fs::directory_iterator entries(folder, failure);
+  return !failure && std::all_of(begin(entries), end(entries),
+                                 [](const auto& entry) { return entry.path().filename() == "ended"; });
+}
+
+bool is_same_file(int descriptor, const fs::path& file) {
+  struct stat opened, named;
+  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 void remove_unfinished_files(const fs::path& folder) {
@@ -74,24 +91,24 @@ Working_folder::Working_folder(const fs::path& destination)
 std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination, bool replace) {
   Output_folder::check_destination(destination, replace);
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
+  folder->replaces_ = replace;
   std::error_code ignored;
-  if (fs::exists(folder->path_, ignored)) {
-    // What ended before its first checkpoint is of no use.
-    const bool is_ours = fs::is_directory(folder->checkpoints(), ignored);
-    if (!is_ours || (!replace && has_checkpoint(folder->checkpoints())))
-      throw Error(
-          Error_code::usage,
-          fmt::format("{}.part: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
-                      "or remove it",
-                      destination.string(), destination.string()));
-    folder->lock();
-    fs::remove_all(folder->results(), ignored);
-    fs::remove_all(folder->checkpoints(), ignored);
-    fs::remove(folder->path_ / "ended", ignored);
-  } else {
+  if (!fs::exists(folder->path_, ignored))
     make_folder(folder->path_);
-    folder->lock();
-  }
+  else if (!is_of_a_run(folder->path_))
+    throw Error(Error_code::usage,
+                destination.string() + ".part: was not made by a run: remove it, or give another folder");
+  folder->lock();
+  if (!replace && has_checkpoint(folder->checkpoints()))
+    throw Error(
+        Error_code::usage,
+        fmt::format("{}.part: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
+                    "or remove it",
+                    destination.string(), destination.string()));
+  // What ended before its first checkpoint is of no use, and so is a checkpoint without results.
+  fs::remove_all(folder->checkpoints(), ignored);
+  fs::remove_all(folder->results(), ignored);
+  fs::remove(folder->path_ / "ended", ignored);
   make_folder(folder->results());
   make_folder(folder->checkpoints());
   return folder;
@@ -99,8 +116,7 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
 
 std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destination) {
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
-  std::error_code ignored;
-  if (!fs::is_directory(folder->checkpoints(), ignored))
+  if (!is_of_a_run(folder->path_))
     throw Error(Error_code::usage,
                 fmt::format("{}.part: is no folder of a run that did not end: only one with "
                             "--checkpoint-every leaves it",
@@ -115,22 +131,48 @@ std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destinat
 bool Working_folder::has_ended(const fs::path& destination) {
   const Working_folder folder(destination);
   std::error_code ignored;
-  return !fs::exists(folder.path_, ignored) && fs::is_regular_file(folder.destination_ / "run.json", ignored);
+  // An empty one was about to be removed.
+  return (!fs::exists(folder.path_, ignored) || fs::is_empty(folder.path_, ignored)) &&
+         fs::is_regular_file(folder.destination_ / "run.json", ignored);
+}
+
+void Working_folder::allow_replacing(bool replaces) {
+  replaces_ = replaces;
+  if (!Output_folder::is_replaceable(destination_, replaces_)) refuse_destination(Error_code::usage);
+}
+
+void Working_folder::refuse_destination(Error_code code) const {
+  throw Error(code, fmt::format("{}: is there, and this run is not to replace it: move it away, and go on by "
+                                "`cellwalk run --resume {}`",
+                                name_.string(), name_.string()));
 }
 
 void Working_folder::lock() {
   constexpr mode_t permissions = 0666;
-  lock_ = open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);
+  const fs::path file = path_ / "lock";
+  lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);
   if (lock_ < 0) fail_at(path_, "cannot be written", std::error_code(errno, std::generic_category()));
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  // The other process may have removed the file that was opened.
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && is_same_file(lock_, file)) return;
+  close(std::exchange(lock_, -1));  // what is here belongs to the other one
   throw Error(Error_code::usage,
               fmt::format("{}.part: another process runs there: wait until it ends", name_.string()));
 }
 
 Working_folder::~Working_folder() {
-  std::error_code ignored;
-  if (!is_done_ && lock_ >= 0 && !has_checkpoint(checkpoints())) fs::remove_all(path_, ignored);
+  if (!is_done_ && lock_ >= 0 && !has_checkpoint(checkpoints())) clear();
   if (lock_ >= 0) close(lock_);
+}
+
+/// Removes what runs leave here. What tells that one has ended goes last: whoever finds it removes the rest.
+void Working_folder::clear() noexcept {
+  std::error_code failure;
+  for (const fs::path& folder : {results(), checkpoints()}) {
+    fs::remove_all(folder, failure);
+    if (failure) return;
+  }
+  for (const char* file : {"ended.tmp", "lock", "ended"}) fs::remove(path_ / file, failure);
+  fs::remove(path_, failure);
 }
 
 void Working_folder::prepare() {
@@ -141,22 +183,23 @@ void Working_folder::prepare() {
 }
 
 void Working_folder::put() {
-  if (!replacement_.put(results(), destination_))
-    fail_at(name_, "cannot be put in place", std::error_code(errno, std::generic_category()));
+  if (!Output_folder::is_replaceable(destination_, replaces_)) refuse_destination(Error_code::other);
+  if (replacement_.put(results(), destination_, replaces_)) return;
+  if (errno == EEXIST) refuse_destination(Error_code::other);
+  fail_at(name_, "cannot be put in place", std::error_code(errno, std::generic_category()));
 }
 
 void Working_folder::take_back() noexcept { replacement_.take_back(results(), destination_); }
 
 /// The new names are on the device before what they could be made from is gone.
 void Working_folder::settle() noexcept {
-  std::error_code ignored;
   try {
     io::sync(destination_.parent_path());
   } catch (const Error&) {
     return;  // all is there: a second try removes it
   }
   is_done_ = true;
-  fs::remove_all(path_, ignored);
+  clear();
 }
 
 }  // namespace cellwalk::cli

@@ -5,6 +5,7 @@
 #define CELLWALK_CLI_COMMON_WORKING_FOLDER_H
 
 #include <cellwalk/internal/io/output.h>
+#include <cellwalk/kernel/error.h>
 
 #include <filesystem>
 #include <memory>
@@ -22,7 +23,7 @@ class Working_folder final : public io::Output {
   /// \throw Error(usage) if there is none, or another process uses it
   static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
 
-  /// True if there is none, but results of a run.
+  /// True if there is none, or an empty one, but results of a run.
   static bool has_ended(const std::filesystem::path& destination);
 
   ~Working_folder() override;
@@ -31,6 +32,10 @@ class Working_folder final : public io::Output {
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
   /// True if the results were put in place before, and only what is here could not be removed.
   bool is_done() const { return is_done_; }
+
+  /// Of one that was taken up: whether it was begun to replace an earlier run.
+  /// \throw Error(usage) if the destination is there, and is not to be replaced
+  void allow_replacing(bool replaces);
 
   void prepare() override;
   void put() override;
@@ -41,11 +46,13 @@ class Working_folder final : public io::Output {
  private:
   explicit Working_folder(const std::filesystem::path& destination);
   void lock();
+  void clear() noexcept;
+  [[noreturn]] void refuse_destination(Error_code code) const;
 
   std::filesystem::path name_, destination_, path_;  ///< the given name, its target, that with .part
   io::Replacement replacement_;
   int lock_ = -1;
-  bool is_done_ = false;
+  bool replaces_ = false, is_done_ = false;
 };
 
 }  // namespace cellwalk::cli

@@ -32,13 +32,13 @@ std::string absolute_path(const std::string& name) {
 Run_settings::Run_settings(const Run_options& options, std::vector<std::string> notes_of_bodies)
     : scene(options.scene),
       scene_text(options.scene_text),
-      folder(options.folder),
       record(options.record),
       json(options.json),
       record_path(absolute_path(options.record)),
       json_path(absolute_path(options.json)),
       steps(options.steps),
       every(options.checkpoint_every),
+      force(options.force),
       sweep(options.body.sweep.sweep),
       notes(std::move(notes_of_bodies)) {}
 

@@ -24,9 +24,10 @@ namespace cellwalk::cli {
 
 /// What was asked for when the run began.
 struct Run_settings {
-  std::string scene, scene_text, folder, record, json;
+  std::string scene, scene_text, record, json;
   std::string record_path, json_path;  ///< wherever the program is called
   std::uint32_t steps = 0, every = 0;
+  bool force = false;
   Sweep sweep = Sweep::triangle;
   std::vector<std::string> notes;  ///< on the files of bodies
 
@@ -35,7 +36,7 @@ struct Run_settings {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(scene, scene_text, folder, record, json, record_path, json_path, steps, every, sweep, notes);
+    a(scene, scene_text, record, json, record_path, json_path, steps, every, force, sweep, notes);
   }
 };
 

@@ -210,6 +210,7 @@ void resume(Run_options options, const Asked& asked) {
   }
   Kept_run kept = read_checkpoint(outputs.working->checkpoints());
   const Run_settings& settings = kept.settings;
+  outputs.working->allow_replacing(settings.force);
   const Any_scene scene = io::parse_scene(settings.scene, settings.scene_text,
                                           std::filesystem::path(settings.scene).parent_path());
   const std::uint32_t steps =
@@ -218,7 +219,7 @@ void resume(Run_options options, const Asked& asked) {
   outputs.open(settings.record_path, settings.json_path);
   options.scene = settings.scene;
   options.scene_text = settings.scene_text;
-  options.folder = settings.folder;
+  options.folder = options.resume;
   options.record = settings.record;
   options.json = settings.json;
   options.steps = settings.steps;

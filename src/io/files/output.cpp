@@ -56,6 +56,11 @@ bool exchange(const std::filesystem::path& a, const std::filesystem::path& b) no
   return (errno == EINVAL || errno == ENOSYS) && detail::exchange_in_steps(a, b);
 }
 
+bool move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) noexcept {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  return (errno == EINVAL || errno == ENOSYS) && detail::move_in_steps(from, to);
+}
+
 }  // namespace
 
 bool detail::exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept {
@@ -69,6 +74,13 @@ bool detail::exchange_in_steps(const std::filesystem::path& a, const std::filesy
   else
     std::rename(aside.c_str(), b.c_str());
   errno = why;
+  return false;
+}
+
+bool detail::move_in_steps(const std::filesystem::path& from, const std::filesystem::path& to) noexcept {
+  struct stat status;
+  if (lstat(to.c_str(), &status) != 0) return std::rename(from.c_str(), to.c_str()) == 0;
+  errno = EEXIST;
   return false;
 }
 
@@ -126,7 +138,9 @@ void Unfinished::release() noexcept {
   slot_ = -1;
 }
 
-bool Replacement::put(const std::filesystem::path& from, const std::filesystem::path& to) {
+bool Replacement::put(const std::filesystem::path& from, const std::filesystem::path& to, bool may_replace) {
+  had_old_ = false;
+  if (!may_replace) return move_to_free_name(from, to);
   struct stat status;
   had_old_ = lstat(to.c_str(), &status) == 0;
   return had_old_ ? exchange(from, to) : std::rename(from.c_str(), to.c_str()) == 0;

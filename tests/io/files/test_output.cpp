@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <functional>
 #include <stdexcept>
 
 #include "io/io_fixture.h"
@@ -120,6 +121,33 @@ TEST(Output, NamesAreExchangedInStepsWhereTheyCannotBeAtOnce) {
   EXPECT_EQ(errno, ENOENT);
   EXPECT_EQ(content_of(folder / "b"), "A");
   EXPECT_EQ(folder.file_count(), 4u);
+}
+
+TEST(Output, WhatIsThereStaysIfItIsNotToBeReplaced) {
+  const auto put = [](const fs::path& from, const fs::path& to) {
+    return Replacement().put(from, to, false);
+  };
+  const auto put_in_steps = [](const fs::path& from, const fs::path& to) {
+    return detail::move_in_steps(from, to);
+  };
+  for (const auto& move : {std::function<bool(const fs::path&, const fs::path&)>(put), {put_in_steps}}) {
+    const Folder folder;
+    fs::create_directory(folder / "new");
+    folder.write("new/file", "new");
+    fs::create_directory(folder / "empty");
+    folder.write("file", "old");
+    fs::create_symlink("nowhere", folder / "link");
+    for (const char* taken : {"empty", "file", "link"}) {
+      errno = 0;
+      EXPECT_FALSE(move(folder / "new", folder / taken)) << taken;
+      EXPECT_EQ(errno, EEXIST);
+    }
+    EXPECT_EQ(content_of(folder / "new/file"), "new");
+    EXPECT_EQ(content_of(folder / "file"), "old");
+    EXPECT_TRUE(move(folder / "new", folder / "free"));
+    EXPECT_EQ(content_of(folder / "free/file"), "new");
+    EXPECT_FALSE(fs::exists(folder / "new"));
+  }
 }
 
 TEST(Output, MoreThanAHandlerCanRemoveAreWrittenAllTheSame) {

@@ -71,11 +71,11 @@ class Unfinished {
   int slot_ = -1;
 };
 
-/// Exchanges the names of two files or directories.
+/// Moves a file or directory to a name, and what has that name to the old one.
 class Replacement {
  public:
-  /// Returns false and sets errno if the system refuses.
-  bool put(const std::filesystem::path& from, const std::filesystem::path& to);
+  /// Returns false and sets errno if the system refuses: to EEXIST if something is there that must stay.
+  bool put(const std::filesystem::path& from, const std::filesystem::path& to, bool may_replace = true);
   /// Undoes the exchange.
   void take_back(const std::filesystem::path& from, const std::filesystem::path& to) const noexcept;
 
@@ -89,6 +89,11 @@ namespace detail {
 /// second name, a directory does not for an instant. Returns false and sets errno if the system refuses; then
 /// nothing has changed.
 bool exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept;
+
+/// Moves a directory to a name that nothing has, on a file system that cannot refuse names which are taken.
+/// What takes the name at the same moment stays, unless it is an empty directory. Returns false, and sets
+/// errno, if the system refuses.
+bool move_in_steps(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
 
 }  // namespace detail
 
