@@ -128,9 +128,8 @@ Output_folder::Output_folder(const fs::path& destination, bool replace)
   temporary_ = destination_;
   temporary_ += fmt::format(".tmp-{}", getpid());  // a name that no other process of this system uses
   std::error_code failure;
-  if (!fs::create_directory(temporary_, failure))
+  if (!unfinished_.make(temporary_.string(), [&] { return fs::create_directory(temporary_, failure); }))
     fail(name_, "cannot be made", failure ? failure : std::make_error_code(std::errc::file_exists));
-  unfinished_.hold(temporary_.string());
   lock_ = lock_folder(temporary_);
 }
 

@@ -80,13 +80,15 @@ Atomic_file::Atomic_file(std::filesystem::path destination) : destination_(std::
       fmt::format(".{}.{}", target_.filename().string().substr(0, repeated_length), getpid());
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = (target_.parent_path() / fmt::format("{}.{}.tmp", stem, attempt)).string();
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-    if (descriptor_ < 0 && errno != EEXIST) {
+    const bool is_made = unfinished_.make(temporary_, [&] {
+      descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+      return descriptor_ >= 0;
+    });
+    if (!is_made && errno != EEXIST) {
       temporary_.clear();
       fail("cannot be written: check that its directory exists and may be written");
     }
   }
-  unfinished_.hold(temporary_);
   constexpr mode_t permission_bits = 0777;
   if (exists) fchmod(descriptor_, old.st_mode & permission_bits);
 }

@@ -133,6 +133,13 @@ void Unfinished::hold(const std::string& path) {
   }
 }
 
+bool Unfinished::make(const std::string& path, const std::function<bool()>& make) {
+  const Hold_signals held;
+  if (!make()) return false;
+  hold(path);
+  return true;
+}
+
 void Unfinished::release() noexcept {
   if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state.store(0);
   slot_ = -1;

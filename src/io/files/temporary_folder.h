@@ -19,9 +19,8 @@ namespace cellwalk::io {
 class Temporary_folder {
  public:
   Temporary_folder() : path_((std::filesystem::temp_directory_path() / "cellwalk-XXXXXX").string()) {
-    if (!mkdtemp(path_.data()))
+    if (!unfinished_.make(path_, [this] { return mkdtemp(path_.data()) != nullptr; }))
       throw Error(Error_code::other, path_ + ": no temporary folder can be made: set TMPDIR");
-    unfinished_.hold(path_);
   }
   ~Temporary_folder() {
     std::error_code ignored;

@@ -65,6 +65,8 @@ class Unfinished {
 
   /// Registers a name. Some tens of names can be registered at a time; others are not removed.
   void hold(const std::string& path);
+  /// Makes and registers it, with no signal in between; returns false if `make` does.
+  bool make(const std::string& path, const std::function<bool()>& make);
   void release() noexcept;
 
  private:
