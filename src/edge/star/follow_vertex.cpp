@@ -22,101 +22,110 @@ class Vertex_search {
 
   Followed_vertex run(std::size_t choice) {
     Followed_vertex result;
-    std::vector<Reached> now{{p_.cell, 0}};
-    for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-      const std::vector<Reached> linked = linked_at(now, times_[k]);
-      const Fraction middle = time_between(times_[k], times_[k + 1]);
-      now.clear();
-      for (const Reached& there : linked)
-        if (clock_.holds(there.cell, p_.position, middle)) now.push_back(there);
-      if (now.empty()) {
-        result.block = block(linked, times_[k]);
-        result.cells = way_to(linked.front());
+    layers_.push_back({Cell_class{{p_.cell}, {}}});
+    std::size_t most = 1;
+    for (std::size_t k = 0; k < times_.size(); ++k) {
+      const bool is_end = k + 1 == times_.size();
+      std::vector<Cell_class> next =
+          continued(times_[k], is_end ? times_[k] : time_between(times_[k], times_[k + 1]));
+      if (next.empty()) {
+        result.block = block(times_[k]);
+        result.cells = way(choice);
         return result;
       }
-      layers_.push_back(now);
+      most = std::max(most, next.size());
+      layers_.push_back(std::move(next));
     }
-    const std::vector<std::vector<Reached>> ends = classes_of(linked_at(now, Fraction(1)));
-    const std::vector<Reached>& chosen = ends[choice % ends.size()];
-    const auto same = std::ranges::find(chosen, p_.cell, &Reached::cell);
     result.is_free = true;
-    result.choices = ends.size();
-    result.cells = way_to(same != chosen.end() ? *same : chosen.front());
+    result.choices = most;
+    result.cells = way(choice);
     return result;
   }
 
  private:
-  /// A cell and, by number, the one in the interval before from which it was reached.
-  struct Reached {
-    Cell cell;
-    std::size_t parent;
+  /// Linked cells that hold the particle in an interval of time, or at the end.
+  struct Cell_class {
+    std::vector<Cell> cells;
+    std::vector<std::size_t> parents;  ///< by number, those in the interval before that it continues
   };
 
-  /// All cells linked at a time with some of those in the interval before it, and these first.
-  std::vector<Reached> linked_at(const std::vector<Reached>& before, const Fraction& time) const {
-    std::vector<Reached> result;
-    for (std::size_t k = 0; k < before.size(); ++k) result.push_back({before[k].cell, k});
-    for (std::size_t k = 0; k < result.size(); ++k) {
-      const Reached here = result[k];
-      const Cell_view<D> cell = snapshot_.view(here.cell);
+  /// Some cells and all that are linked with them at a time.
+  std::vector<Cell> linked_at(std::vector<Cell> cells, const Fraction& time) const {
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const Cell here = cells[k];
+      const Cell_view<D> cell = snapshot_.view(here);
       for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-        const Half_facet f = Snapshot<D>::half_facet(here.cell, i);
+        const Half_facet f = Snapshot<D>::half_facet(here, i);
         if (snapshot_.is_impassable(f)) continue;
         const Cell next = snapshot_.neighbour(f);
-        if (std::ranges::find(result, next, &Reached::cell) != result.end()) continue;
-        if (clock_.holds_in_facet(cell, i, p_.position, time)) result.push_back({next, here.parent});
+        if (std::ranges::find(cells, next) != cells.end()) continue;
+        if (clock_.holds_in_facet(cell, i, p_.position, time)) cells.push_back(next);
       }
     }
-    return result;
+    return cells;
   }
 
-  /// Cells after the move by which of them are linked; first those that hold the displaced particle.
-  std::vector<std::vector<Reached>> classes_of(const std::vector<Reached>& ends) const {
-    std::vector<std::vector<Reached>> classes;
-    for (const Reached& end : ends) {
-      if (std::ranges::any_of(classes, [&](const auto& known) {
-            return std::ranges::find(known, end.cell, &Reached::cell) != known.end();
-          }))
-        continue;
-      std::vector<Reached> linked = linked_at({end}, Fraction(1));
-      for (Reached& there : linked) there.parent = end.parent;
-      const bool is_displaced =
-          std::ranges::any_of(linked, [&](const Reached& there) { return holds_displaced(there.cell); });
-      classes.insert(is_displaced ? classes.begin() : classes.end(), std::move(linked));
-    }
+  /// The classes that continue the last ones at a time, and hold the particle at a time inside the interval
+  /// that follows; first those that hold the displaced particle.
+  std::vector<Cell_class> continued(const Fraction& time, const Fraction& inside) const {
+    std::vector<Cell_class> classes;
+    for (std::size_t parent = 0; parent < layers_.back().size(); ++parent)
+      for (const Cell c : linked_at(layers_.back()[parent].cells, time)) {
+        const auto has_cell = [&](const Cell_class& known) {
+          return std::ranges::find(known.cells, c) != known.cells.end();
+        };
+        auto at = std::ranges::find_if(classes, has_cell);
+        if (at == classes.end()) {
+          if (!clock_.holds(c, p_.position, inside)) continue;
+          at = classes.insert(at, {linked_at({c}, inside), {}});
+        }
+        if (at->parents.empty() || at->parents.back() != parent) at->parents.push_back(parent);
+      }
+    if (classes.size() > 1)
+      std::ranges::stable_partition(classes, [&](const Cell_class& one) {
+        return std::ranges::any_of(one.cells, [&](Cell c) { return holds_displaced(c, inside); });
+      });
     return classes;
   }
 
-  bool holds_displaced(Cell c) const {
+  bool holds_displaced(Cell c, const Fraction& time) const {
     const Cell_view<D> cell = snapshot_.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      const int at = clock_.side(cell, i, p_.position, Fraction(1));
+      const int at = clock_.side(cell, i, p_.position, time);
       if (at > 0 || (at == 0 && displaced_side(cell, i) > 0)) return false;
     }
     return true;
   }
 
-  Cells_of_vertex way_to(const Reached& end) const {
+  /// A way through the layers found so far: where there are several classes, that with a number, modulo
+  /// theirs.
+  Cells_of_vertex way(std::size_t choice) const {
     Cells_of_vertex cells;
-    cells.end = end.cell;
-    std::size_t number = end.parent;
-    for (std::size_t k = layers_.size(); k-- > 0;) {
-      const Reached& here = layers_[k][number];
-      cells.stays.push_back({here.cell, times_[k + 1]});
-      number = here.parent;
+    std::size_t number = choice % layers_.back().size();
+    for (std::size_t k = layers_.size(); k-- > 1;) {
+      const Cell_class& here = layers_[k][number];
+      const bool has_own = std::ranges::find(here.cells, p_.cell) != here.cells.end();
+      const Cell cell = has_own ? p_.cell : here.cells.front();
+      if (k == times_.size())
+        cells.end = cell;
+      else
+        cells.stays.push_back({cell, times_[k]});
+      number = here.parents[choice % here.parents.size()];
     }
     std::ranges::reverse(cells.stays);
     return cells;
   }
 
   /// The wall that holds the particle at a time with its lowest feature.
-  std::optional<Star_block> block(const std::vector<Reached>& linked, const Fraction& time) const {
+  std::optional<Star_block> block(const Fraction& time) const {
     const Moving_star<D>& star = clock_.star();
+    std::vector<Cell> last;
+    for (const Cell_class& one : layers_.back()) last.insert(last.end(), one.cells.begin(), one.cells.end());
     std::optional<Star_block> first;
-    for (const Reached& there : linked) {
-      const Cell_view<D> cell = snapshot_.view(there.cell);
+    for (const Cell c : linked_at(std::move(last), time)) {
+      const Cell_view<D> cell = snapshot_.view(c);
       for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-        const Half_facet f = Snapshot<D>::half_facet(there.cell, i);
+        const Half_facet f = Snapshot<D>::half_facet(c, i);
         if (!snapshot_.is_impassable(f) || !has_point(cell, i, star.vertex())) continue;
         if (!clock_.holds_in_facet(cell, i, p_.position, time)) continue;
         const std::size_t wall = star.wall_of(f);
@@ -131,7 +140,7 @@ class Vertex_search {
   const Star_clock<D> clock_;
   const Particle<D>& p_;
   std::vector<Fraction> times_;
-  std::vector<std::vector<Reached>> layers_;  ///< of each interval between times
+  std::vector<std::vector<Cell_class>> layers_;  ///< before the start, in each interval, and at the end
 };
 
 }  // namespace

@@ -3,42 +3,91 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace cellwalk::detail {
 
+/// Bodies do not depend on each other: each has choices of its own.
 template <int D>
 Obstruction Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
   any_ = any;
   groups_.find(cells, vertices_, edges_);
+  find_groups_near(star);
+  clear();
+  near_ = certified_ = 0;
+  Obstruction first;
+  for (const std::uint32_t group : groups_near_) {
+    note(first, try_group(star, group));
+    if (any && first.meeting != Encounter::apart) break;
+  }
+  return first;
+}
+
+template <int D>
+void Vertex_trial<D>::find_groups_near(const Moving_star<D>& star) {
+  groups_near_.clear();
+  const auto add = [&](std::uint32_t group) {
+    if (groups_near_.empty() || groups_near_.back() != group) groups_near_.push_back(group);
+  };
+  for (const Member v : vertices_) add(v.group);
+  for (const Member e : edges_) add(e.group);
+  if (D == 3 && !star.walls().empty())
+    for (std::uint32_t g = 0; g < groups_.all().size(); ++g)
+      if (has_faces_near(star, g)) add(g);
+  std::ranges::sort(groups_near_);
+  const auto rest = std::ranges::unique(groups_near_);
+  groups_near_.erase(rest.begin(), rest.end());
+}
+
+template <int D>
+Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group) {
   const Reshape_counts before = counts_;
-  std::optional<Obstruction> first;
+  const auto members = [group](const std::vector<Member>& all) {
+    return std::span<const Member>(std::ranges::equal_range(all, group, {}, &Member::group));
+  };
+  const auto moved = moved_.size(), chains = chains_.size(), rests = rests_.size();
+  const auto shorten = [](auto& list, std::size_t size) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
+  };
+  Obstruction first;
+  follows_all_ = false;
   for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
     obstruction_ = {};
-    clear();
-    const bool goes_on = try_vertices(star) && try_edges(star);
-    if (D == 3 && goes_on && !star.walls().empty()) try_faces(star);
+    shorten(moved_, moved);
+    shorten(chains_, chains);
+    shorten(rests_, rests);
+    if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
     if (choice_ == 0) note_first_choice(before);
     if (obstruction_.meeting == Encounter::apart) return {};
-    if (!first) first = std::move(obstruction_);
+    if (choice_ == 0) first = std::move(obstruction_);
   }
-  return std::move(*first);
+  return first;
 }
 
 template <int D>
 void Vertex_trial<D>::note_first_choice(const Reshape_counts& before) {
   const auto grew = [&](std::uint64_t Reshape_counts::*count) { return counts_.*count - before.*count; };
-  near_ = grew(&Reshape_counts::vertices) + grew(&Reshape_counts::edges) + grew(&Reshape_counts::faces);
-  certified_ =
+  near_ += grew(&Reshape_counts::vertices) + grew(&Reshape_counts::edges) + grew(&Reshape_counts::faces);
+  certified_ +=
       grew(&Reshape_counts::same_cell) + grew(&Reshape_counts::same_chain) + grew(&Reshape_counts::apart);
+}
+
+/// Of what is in the way, the first is kept.
+template <int D>
+void Vertex_trial<D>::note(Obstruction& first, Obstruction next) {
+  first.meeting = std::max(first.meeting, next.meeting);
+  if (!next.hit || (first.hit && !is_before(*next.hit, *first.hit))) return;
+  next.meeting = first.meeting;
+  first = std::move(next);
 }
 
 /// False if nothing else needs to be looked at.
 template <int D>
-bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star) {
-  for (const Member v : vertices_) {
+bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star, std::span<const Member> vertices) {
+  for (const Member v : vertices) {
     ++counts_.vertices;
     const Particle<D>& p = groups_.particle(v);
-    const bool keeps_cell = star.keeps_cell(p);
+    const bool keeps_cell = !follows_all_ && star.keeps_cell(p);
     counts_.same_cell += keeps_cell;
     Moved_vertex moved{v, p, {}, keeps_cell, true};
     if (keeps_cell)
@@ -49,6 +98,23 @@ bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star) {
     moved_.push_back(std::move(moved));
   }
   return true;
+}
+
+/// Where something is not free because of its sides of walls: a vertex of it that keeps its cell may take
+/// another side than that of the cell. Then all vertices of the body are followed by the choices to come.
+template <int D>
+void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
+                                  std::initializer_list<const Moved_vertex*> vertices) {
+  if (follows_all_) return;
+  for (const Moved_vertex* moved : vertices) {
+    if (!moved || !moved->keeps_cell) continue;
+    const Particle<D>& p = groups_.particle(moved->member);
+    if (!star.meet(std::span<const Point<D>>(&p.position, 1), false).touches) continue;
+    const std::size_t sides = follow_vertex(star, p).choices;
+    if (sides == 1) continue;
+    follows_all_ = true;
+    choices_ = std::max(choices_, choice_ + 1 + sides);
+  }
 }
 
 /// True if a vertex that does not keep its cell is free; then it is registered.
@@ -88,8 +154,8 @@ void Vertex_trial<D>::take(std::optional<Star_block>& block, Star_meeting& met) 
 }
 
 template <int D>
-bool Vertex_trial<D>::try_edges(const Moving_star<D>& star) {
-  for (const Member e : edges_)
+bool Vertex_trial<D>::try_edges(const Moving_star<D>& star, std::span<const Member> edges) {
+  for (const Member e : edges)
     if (!try_edge(star, e) && any_) return false;
   return true;
 }
@@ -166,81 +232,8 @@ Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, c
   };
   Followed_edge followed = follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge), choice_);
   choices_ = std::max(choices_, followed.choices);
+  if (!followed.is_free) follow_kept(star, {moved_p, moved_q});
   return followed;
-}
-
-/// A wall that is apart from a face is none of those that it rests on, and changes no side.
-template <int D>
-bool Vertex_trial<D>::try_faces(const Moving_star<D>& star) {
-  const auto& groups = groups_.all();
-  for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    const Resident_group<D>& group = groups[g];
-    if (!group.is_open || !group.body || !group.reach.meets(star.box()) || !group.body->keeps_faces())
-      continue;
-    for (std::uint32_t f = 0; f < group.faces.size(); ++f) {
-      std::array<Point<D>, 3> corners;
-      Box<D> box;
-      for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] = group.particles[group.faces[f][k]].position;
-        box.extend(corners[k]);
-      }
-      if (!box.meets(star.box())) continue;
-      ++counts_.faces;
-      if (!try_face(star, {g, f}, corners) && any_) return false;
-    }
-  }
-  return true;
-}
-
-/// True if a face is free; then what it rests on is kept, or found.
-template <int D>
-bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points) {
-  Star_meeting met = star.meet(points, !any_);
-  if (met.meeting == Encounter::apart) {
-    ++counts_.apart;
-    return true;
-  }
-  if (met.meeting == Encounter::touch) {
-    Face_at_star result = after(star, face, points);
-    if (result.is_free) {
-      ++counts_.rested;
-      rests_.emplace_back(face, std::move(result.supporting_walls));
-      return true;
-    }
-    // Once something is in the way, all that matters is what else is hit.
-    if (!result.block && obstruction_.meeting != Encounter::apart) return false;
-    take(result.block, met);
-  }
-  block(std::move(met), face, Body_feature::face);
-  return false;
-}
-
-/// A face that walls touch. If something is in the way already, its corners or edges need not be free, and
-/// what rests on walls is not asked.
-template <int D>
-Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face,
-                                    std::span<const Point<D>> points) {
-  if constexpr (D == 3) {
-    if (auto block = face_passed_by_vertex(star, {points[0], points[1], points[2]}))
-      return {false, std::move(block), {}};
-    if (obstruction_.meeting != Encounter::apart) return {};
-    const Resident_group<3>& group = groups_.all()[face.group];
-    const auto& at = group.faces[face.number];
-    const auto& sides = group.body->sides(face.number);
-    const auto corner = [&](std::size_t k) {
-      const Moved_vertex* moved = find({face.group, at[k]});
-      return moved ? moved->now : group.particles[at[k]];
-    };
-    const auto side = [&](std::size_t k) -> Side_chain {
-      const Member edge{face.group, sides[k]};
-      const auto relinked = std::ranges::find(chains_, edge, &std::pair<Member, Chain>::first);
-      return {relinked != chains_.end() ? &relinked->second : &groups_.chain(edge), at[k] > at[(k + 1) % 3]};
-    };
-    return face_at_star(star, {corner(0), corner(1), corner(2)}, {side(0), side(1), side(2)},
-                        group.body->supporting_walls(face.number));
-  } else {
-    return {true, {}, {}};  // in the plane walls come in over edges only
-  }
 }
 
 /// False if no wall meets a set, or all that do leave it at once.
@@ -265,12 +258,7 @@ bool Vertex_trial<D>::meets(const Moving_star<D>& star, std::span<const Point<D>
 template <int D>
 void Vertex_trial<D>::block(Star_meeting met, Member member, Body_feature feature) {
   ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
-  obstruction_.meeting = std::max(obstruction_.meeting, met.meeting);
-  if (!met.hit || (obstruction_.hit && !is_before(*met.hit, *obstruction_.hit))) return;
-  obstruction_.hit = std::move(met.hit);
-  obstruction_.wall = met.wall;
-  obstruction_.member = member;
-  obstruction_.feature = feature;
+  note(obstruction_, {met.meeting, met.wall, std::move(met.hit), member, feature});
 }
 
 template <int D>

@@ -10,6 +10,7 @@
 #include <cellwalk/reshape/move.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <utility>
@@ -59,11 +60,16 @@ class Vertex_trial {
     Cells_of_vertex cells;  ///< if it was followed
     bool keeps_cell, is_free;
   };
+  void find_groups_near(const Moving_star<D>& star);
+  Obstruction try_group(const Moving_star<D>& star, std::uint32_t group);
   void note_first_choice(const Reshape_counts& before);
-  bool try_vertices(const Moving_star<D>& star);
+  static void note(Obstruction& first, Obstruction next);
+  bool try_vertices(const Moving_star<D>& star, std::span<const Member> vertices);
   bool try_vertex(const Moving_star<D>& star, Moved_vertex& vertex);
-  bool try_edges(const Moving_star<D>& star);
-  bool try_faces(const Moving_star<D>& star);
+  void follow_kept(const Moving_star<D>& star, std::initializer_list<const Moved_vertex*> vertices);
+  bool try_edges(const Moving_star<D>& star, std::span<const Member> edges);
+  bool has_faces_near(const Moving_star<D>& star, std::uint32_t number) const;
+  void try_faces(const Moving_star<D>& star, std::uint32_t number);
   bool try_edge(const Moving_star<D>& star, Member edge);
   Followed_edge follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
                        const Moved_vertex* moved_q);
@@ -78,14 +84,16 @@ class Vertex_trial {
 
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
-  /// Where vertices and edges may end on several sides of walls, so many choices are tried, each for all of
-  /// them.
+  /// Where vertices and edges of a body may be on several sides of walls, so many choices are tried, each for
+  /// all of them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
+  bool follows_all_ = false;  ///< also what keeps its cell
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
   Obstruction obstruction_;
   std::vector<Member> vertices_, edges_;
+  std::vector<std::uint32_t> groups_near_;
   Chain in_star_;                    ///< facets of a chain that have the vertex
   std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
   std::vector<std::pair<Member, Chain>> chains_;

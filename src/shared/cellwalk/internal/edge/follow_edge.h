@@ -37,13 +37,13 @@ struct Cells_of_vertex {
 
 struct Followed_vertex {
   bool is_free = false;
-  std::size_t choices = 0;  ///< if it is free: sides on which it may be after the move
+  std::size_t choices = 0;  ///< if it is free: the most sides on which it may be at one time
   Cells_of_vertex cells;
   std::optional<Star_block> block;  ///< if it is not free
 };
 
 /// Follows a particle through all times at which its side of a wall may change, and all cells in which it may
-/// be. If it may end on several sides of walls, those at whose rims it passed, one of them is chosen.
+/// be. If it may be on several sides of walls, those whose rims pass it, one of them is chosen, at each time.
 /// \param choice the number of that side, modulo theirs; the first is that of the particle displaced by (e,
 ///        e^2, e^3), e small
 /// Cost: exact numbers for each facet at the vertex of the environment.

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What lies on the rim of a wall, or is passed by it, takes the side that its edges need, whatever cell it is
+// registered in: by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "reshape/star_scene.h"
+
+namespace cellwalk {
+namespace {
+
+using test::at;
+
+template <class Dimension>
+class RimSides : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+struct Name_of_dimension {
+  template <class Dimension>
+  static std::string GetName(int) {
+    return std::to_string(Dimension::value) + "D";
+  }
+};
+TYPED_TEST_SUITE(RimSides, Dimensions, Name_of_dimension);
+
+/// Four triangles around point 0; a wall from there to the left ends there.
+template <int D>
+Cell_soup<D> tip() {
+  test::Flat_soup<D> flat{{0, 0}, {4, 0}, {0, 4}, {-4, 0}, {0, -4}};
+  flat.add_fan(4);
+  flat.add_wall(0, 3);
+  return flat.soup;
+}
+
+/// Adds an edge from the tip to a place above or below the wall. Its first vertex came from another place: it
+/// keeps a cell that is there.
+template <int D>
+void add_edge_at_tip(test::Star_scene<D>& scene, const Point<D>& start, double height) {
+  Body<D>& body = scene.add_body({start, at<D>(1, 0.25, 0.125)});
+  Body_counts counts;
+  EXPECT_FALSE(body.move_vertex(0, at<D>(0, 0), {}, counts));
+  EXPECT_FALSE(body.move_vertex(1, at<D>(-1, height, 0.125), {}, counts));
+}
+
+TYPED_TEST(RimSides, AVertexOnTheRimGoesToTheSideOfItsEdge) {
+  constexpr int D = TypeParam::value;
+  for (const Point<D>& start : {at<D>(0.5, 1), at<D>(-0.5, 1), at<D>(-0.5, -1), at<D>(0.5, -1)})
+    for (const double height : {1.0, -1.0}) {
+      test::Star_scene<D> scene(tip<D>());
+      add_edge_at_tip(scene, start, height);
+      EXPECT_EQ(scene.end_of(at<D>(1, 0)), Move_end::reached) << start[0] << " " << start[1] << " " << height;
+      scene.expect_hit(at<D>(1, 0.125 * height), 0, 1);
+      EXPECT_EQ(scene.end_of(at<D>(1, -0.125 * height)), Move_end::reached);
+    }
+}
+
+TYPED_TEST(RimSides, EachBodyTakesItsOwn) {
+  constexpr int D = TypeParam::value;
+  for (const Point<D>& start : {at<D>(0.5, 1), at<D>(-0.5, -1)}) {
+    test::Star_scene<D> scene(tip<D>());
+    for (const double height : {1.0, -1.0}) {
+      add_edge_at_tip(scene, start, height);
+      scene.add_body({at<D>(0.5, 0), at<D>(-1, height, 0.125)});
+    }
+    EXPECT_EQ(scene.end_of(at<D>(1, 0)), Move_end::reached);
+  }
+}
+
+TYPED_TEST(RimSides, AnEdgeAroundTheRimIsInItsWay) {
+  constexpr int D = TypeParam::value;
+  test::Star_scene<D> scene(tip<D>());
+  Body<D>& body = scene.add_body({at<D>(-1, 1), at<D>(0.5, 0.25), at<D>(-1, -1)});
+  Body_counts counts;
+  EXPECT_FALSE(body.move_vertex(1, at<D>(0, 0), {}, counts));
+  scene.expect_hit(at<D>(1, 0), 0, 1);
+}
+
+/// One triangle upright in the plane of x and z is a wall. Its corner, point 0, moves in that plane.
+Cell_soup<3> flap(const Point<3>& corner) {
+  test::Flat_soup<3> flat{{0, 0}, {8, 0}, {0, 8}, {-8, 0}, {0, -8}};
+  flat.soup.points[0] = corner;
+  flat.add_fan(4);
+  for (std::size_t f = 0; f < flat.soup.facet_count(); ++f) {
+    const auto loop = flat.soup.facet(f);
+    const auto has = [&](std::uint32_t p) { return std::ranges::find(loop, p) != loop.end(); };
+    if (has(0) && has(1) && has(flat.pole(0))) flat.soup.impassable[f] = 1;
+  }
+  return flat.soup;
+}
+
+TEST(RimSides, AWallThatCoversAVertexForAWhileIsOnTheSideThatItsEdgeNeeds) {
+  for (const double depth : {1.0, -1.0})
+    for (const double start : {1.0, -1.0}) {
+      test::Star_scene<3> scene(flap({2, 0, -2}));
+      Body<3>& body = scene.add_body({{1, start, 1}, {-1, depth, 1}});
+      Body_counts counts;
+      EXPECT_FALSE(body.move_vertex(0, {1, 0, 1}, {}, counts));
+      EXPECT_FALSE(body.move_vertex(1, {1, depth, 1}, {}, counts));
+      EXPECT_EQ(scene.end_of({-2, 0, 2}), Move_end::reached) << depth << " " << start;
+      EXPECT_EQ(scene.end_of({0, 0, 0}), Move_end::reached) << "it covers the vertex again";
+      scene.expect_hit({0, 0.25 * depth, 0}, 0, 1);
+      EXPECT_EQ(scene.end_of({0, -0.25 * depth, 0}), Move_end::reached);
+    }
+}
+
+/// The wall lies in the face, and their corners coincide. The face is on one side, by the edge across the
+/// wall; its corner keeps a cell that may be on the other side.
+TEST(RimSides, ACornerOnTheRimGoesToTheSideOfItsFace) {
+  for (const double depth : {1.0, -1.0}) {
+    test::Star_scene<3> scene(flap({0, 0, 0}));
+    const Body_soup<3> soup{
+        {{0, 0, 0}, {3, depth, -1}, {-1, depth, 3}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
+    scene.bodies.push_back(std::make_unique<Body<3>>(scene.snapshot, Locator<3>(scene.snapshot), soup));
+    Body<3>& body = *scene.bodies.back();
+    Body_counts counts;
+    const Body_options options{.sweep = {.sweep = Sweep::faces}};
+    EXPECT_FALSE(body.move_vertex(1, {3, 0, -1}, options, counts));
+    EXPECT_FALSE(body.move_vertex(2, {-1, 0, 3}, options, counts));
+    EXPECT_EQ(scene.end_of({-1, 0, -1}), Move_end::reached) << depth;
+    scene.expect_hit({-1, 0.25 * depth, -1}, 0, 1);
+    EXPECT_EQ(scene.end_of({-1, -0.25 * depth, -1}), Move_end::reached);
+  }
+}
+
+}  // namespace
+}  // namespace cellwalk
