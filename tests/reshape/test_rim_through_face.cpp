@@ -10,17 +10,21 @@
 #include <array>
 #include <vector>
 
+#include "edge/relisted.h"
 #include "reshape/grids.h"
+#include "reshape/octahedron.h"
 
 namespace cellwalk {
 namespace {
 
-/// A grid of unit cubes with one wall, (2,2,2) (2,2,1) (1,2,1), and a body that is a face.
+/// A grid of unit cubes with walls, (2,2,2) (2,2,1) (1,2,1) or (2,2,2) (2,2,3) (3,2,3), and a body that is a
+/// face.
 struct Flap {
   /// \param points three corners, and then the ends of edges of their own
-  explicit Flap(const std::vector<Point<3>>& points, bool has_second = false)
+  /// \param has_first, has_second which walls
+  explicit Flap(const std::vector<Point<3>>& points, bool has_first = true, bool has_second = false)
       : environment(test::simplex_grid<3>(4)),
-        body((add_walls(has_second), environment.snapshot()), Locator<3>(environment.snapshot()),
+        body((add_walls(has_first, has_second), environment.snapshot()), Locator<3>(environment.snapshot()),
              soup_of(points)) {}
 
   static Body_soup<3> soup_of(const std::vector<Point<3>>& points) {
@@ -28,8 +32,8 @@ struct Flap {
     for (std::uint32_t k = 3; k < points.size(); k += 2) soup.edges.push_back({k, k + 1});
     return soup;
   }
-  void add_walls(bool has_second) {
-    add_wall({Point<3>{2, 2, 2}, Point<3>{2, 2, 1}, Point<3>{1, 2, 1}});
+  void add_walls(bool has_first, bool has_second) {
+    if (has_first) add_wall({Point<3>{2, 2, 2}, Point<3>{2, 2, 1}, Point<3>{1, 2, 1}});
     if (has_second) add_wall({Point<3>{2, 2, 2}, Point<3>{2, 2, 3}, Point<3>{3, 2, 3}});
   }
   void add_wall(const std::array<Point<3>, 3>& corners) {
@@ -121,7 +125,7 @@ TEST(RimThroughFace, IsTheFirstOfAllHits) {
 TEST(RimThroughFace, IsThatOfTheWallDrawnThrough) {
   std::vector<Point<3>> level = above;
   for (Point<3>& x : level) x[2] = 2;
-  Flap flap(level, true);
+  Flap flap(level, true, true);
   for (const double height : {2.5, 1.5}) {
     const auto result = flap.move({2, 2, 2}, {2, 2, height});
     expect_time(result, 0, 1);
@@ -142,6 +146,38 @@ TEST(RimThroughFace, OverItsEdge) {
   EXPECT_EQ(result.hit->resident_weights, (std::array<double, 3>{0.5, 0.5, 0}));
   EXPECT_EQ(flap.move({2, 2, 1}, {2.5, 2, 1.5}).end, Move_end::reached) << "it may end there";
   expect_time(flap.move({2.5, 2, 1.5}, {2.75, 2, 1.75}), 0, 1);
+}
+
+// The tip leaves a corner of the face at once; later the wall hits an edge of the face as well.
+TEST(RimThroughFace, OverItsCornerBeforeAnEdgeIsHit) {
+  for (std::uint64_t order = 0; order < 6; ++order)
+    for (const double sense : {1., -1.}) {
+      Cell_soup<3> soup = test::octahedron({0, 3, 6});
+      soup.points[0] = {0, 3, 7};
+      // Mirrored: the wall lies in the plane of the mirror.
+      const std::vector<Point<3>> face{{0, 3, 7}, {-10 * sense, 1, 3}, {8 * sense, 1, -2}};
+      std::uint32_t vertex = 0;
+      if (order != 0) {
+        auto other = test::relisted(soup, order);
+        soup = std::move(other.soup);
+        vertex = other.new_point[0];
+      }
+      auto environment = Environment<3>::build(soup);
+      Body<3> body(environment.snapshot(), Locator<3>(environment.snapshot()), Flap::soup_of(face));
+      Reshaping<3> reshaping(environment, {{&body}, {}}, {.at_contact = At_contact::hold});
+      for (const Point<3>& to : {Point<3>{0, -2, 5}, {0, 2, 7}, {0, 2, 6}})
+        expect_time(reshaping.move(vertex, to), 0, 1);
+    }
+}
+
+// The corner behind the face, (2,2,3), lies on the way of the tip, and (3,2,3) in the plane of the face:
+// towards that one the wall is drawn into the face. Later it hits an edge.
+TEST(RimThroughFace, TowardsACornerInItsPlane) {
+  Flap flap(
+      {{2, 1.25, 1.75}, {2, 2.75, 1.75}, {3.25, 2, 3.3125}, {2.0625, 1.5, 1.6875}, {2.0625, 2.5, 1.6875}},
+      false, true);
+  expect_time(flap.move({2, 2, 2}, {2, 2, 1.5}), 1, 2);
+  EXPECT_EQ(flap.move({2, 2, 2}, {2, 2, 1.75}).end, Move_end::reached) << "it may end there";
 }
 
 }  // namespace

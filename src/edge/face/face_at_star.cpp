@@ -77,29 +77,21 @@ class Passing_vertex {
       : star_(star), corners_(corners), to_side_(side(star.to())) {
     if (to_side_ == 0 || side(star.from()) * to_side_ > 0) return;
     // Barycentric coordinates of the place, but for a common factor.
-    int least = 1, most = -1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int s = Exact::orientation(star.counts().predicates, star.from(), star.to(), corners[(k + 1) % 3],
-                                       corners[(k + 2) % 3]);
-      least = std::min(least, s);
-      most = std::max(most, s);
-    }
+    for (std::size_t k = 0; k < 3; ++k) weights_[k] = turn(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    const auto [least, most] = std::ranges::minmax(weights_);
     is_in_closed_ = least * most >= 0;
-    is_inside_ = least * most > 0;
   }
 
-  /// Whether that place is an inner point of the face.
-  bool is_inside() const { return is_inside_; }
-  /// Whether it is one of its points.
-  bool is_in_closed() const { return is_in_closed_; }
-
-  /// Whether a wall goes through the place as soon as the vertex has passed it.
+  /// Whether the vertex, as soon as it has passed the place, draws a wall into the face there.
   bool draws(const Moving_wall<3>& wall) const {
-    const auto& still = wall.swept.corners();
-    return wall.swept.is_flat() && (side(still[2]) * to_side_ < 0 || side(still[3]) * to_side_ < 0);
+    if (!is_in_closed_ || !wall.swept.is_flat()) return false;
+    const auto& [from, to, a, b] = wall.swept.corners();
+    const int at_a = side(a) * to_side_, at_b = side(b) * to_side_;
+    if (at_a >= 0 && at_b >= 0) return false;
+    return (at_a <= 0 && is_inwards(a)) || (at_b <= 0 && is_inwards(b));
   }
 
-  /// \pre is_in_closed()
+  /// \pre draws(wall)
   Star_block block(std::size_t wall) const {
     const auto& [p, q, r] = corners_;
     const Ring before = Exact_value::orientation(p, q, r, star_.from());
@@ -116,10 +108,26 @@ class Passing_vertex {
     return Exact::orientation(star_.counts().predicates, corners_[0], corners_[1], corners_[2], x);
   }
 
+  /// The turn of two points around the way of the vertex.
+  int turn(const Point<3>& x, const Point<3>& y) const {
+    return Exact::orientation(star_.counts().predicates, star_.from(), star_.to(), x, y);
+  }
+  /// Whether a corner of a wall lies, seen along the way, on the inner side of each edge with the place.
+  bool is_inwards(const Point<3>& x) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (weights_[k] != 0) continue;
+      // Seen against the way, the corners turn as to_side_ says. The place may be one of the two.
+      const int inner = turn(x, corners_[(k + 1) % 3]) + turn(corners_[(k + 2) % 3], x);
+      if (inner * to_side_ <= 0) return false;
+    }
+    return true;
+  }
+
   const Moving_star<3>& star_;
   const std::array<Point<3>, 3>& corners_;
   int to_side_;
-  bool is_inside_ = false, is_in_closed_ = false;
+  std::array<int, 3> weights_{};
+  bool is_in_closed_ = false;
 };
 
 }  // namespace
@@ -127,7 +135,6 @@ class Passing_vertex {
 std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
                                                 const std::array<Point<3>, 3>& corners) {
   const Passing_vertex vertex(star, corners);
-  if (!vertex.is_inside()) return {};
   for (std::size_t w = 0; w < star.walls().size(); ++w)
     if (vertex.draws(star.walls()[w])) return vertex.block(w);
   return {};
@@ -147,12 +154,7 @@ Face_at_star face_at_star(const Moving_star<3>& star, const std::array<Particle<
   const Face_registration found =
       stand_face(star.snapshot(), p, q, r, chains, face.walls(), Known::binding, counts);
   star.counts() += counts.walk;
-  if (found.piercing != Half_facet::none) {
-    const std::size_t wall = star.wall_of(found.piercing);
-    const Passing_vertex vertex(star, points);
-    if (wall == star.walls().size() || !vertex.is_in_closed() || !vertex.draws(star.walls()[wall])) return {};
-    return {false, vertex.block(wall), {}};
-  }
+  if (found.piercing != Half_facet::none) return {};
   return {true, {}, found.supporting_walls};
 }
 

@@ -20,10 +20,11 @@ struct Face_at_star {
   Supporting_walls supporting_walls;  ///< if it is free
 };
 
-/// Where the vertex itself passes an inner point of a face that no wall hits: all its walls that go through
-/// the face move in their own planes. None if it does not.
-/// \pre the face is registered; the corners are not collinear
-/// Cost: up to five signs; exact numbers if it does.
+/// Where the vertex itself passes a point of a face that no wall hits, and draws a wall into the face there:
+/// all its walls that go through the face move in their own planes. None if it does not.
+/// \pre the face is registered
+/// Cost: up to five signs, and some for each wall in its own plane if it passes a point of the face; exact
+/// numbers if it draws a wall.
 std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
                                                 const std::array<Point<3>, 3>& corners);
 
@@ -31,7 +32,7 @@ std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
 /// \param corners registered as they are after the move
 /// \param chains of its edges, after the move
 /// \param before its supporting walls before the move
-/// \pre no wall of the star hits it, and its corners and edges are free
+/// \pre no wall of the star hits it, face_passed_by_vertex() finds none, and its corners and edges are free
 /// Cost: some us; up to milliseconds if it lies in the plane of walls.
 Face_at_star face_at_star(const Moving_star<3>& star, const std::array<Particle<3>, 3>& corners,
                           const Face_chains& chains, const Supporting_walls& before);
