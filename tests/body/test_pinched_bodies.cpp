@@ -127,8 +127,8 @@ struct Bare_edge {
   Point<3> end, landed_from;
 };
 
-// Such an edge is where the vertex passes, whatever the wall in its half-plane would allow: so says its chain,
-// which was followed from there.
+// Such an edge is where the vertex passes, whatever the wall in its half-plane would allow: its chain was
+// followed from there.
 TEST(PinchedBodies, ABareEdgeIsWhereTheVertexPasses) {
   const auto room = with_walls({behind, below});
   const auto [q, r] = face_in(below_behind);
