@@ -269,10 +269,13 @@ class Ridge_trial {
     }
     return state;
   }
-  /// One that is linked with that of p, and with that of the end.
+  /// One that is linked with that of p, and with that of the end: if possible one of these themselves, since
+  /// others may be linked with both around a wall on which the edge lies.
   std::size_t common_cell(std::size_t of_p, std::size_t of_end, const Place& end) const {
     const auto at_p = world_.linked(of_p, Xyz<int>{x_, 0, 0}),
                at_end = world_.linked(of_end, world_.point(end));
+    if (at_end[of_p]) return of_p;
+    if (at_p[of_end]) return of_end;
     for (std::size_t c = 0; c < at_p.size(); ++c)
       if (at_p[c] && at_end[c]) return c;
     ADD_FAILURE() << "an edge without a chain passes through several cells";
