@@ -94,7 +94,7 @@ void gather_files(const fs::path& folder, const std::string& prefix) {
   own(files.size());
   for (const fs::path& file : files) own(file.filename().string(), text_of(file));
   ranks().gather(own.message(), [&](const std::string& bytes) {
-    detail::Byte_reader reader{std::string_view(bytes)};
+    detail::Byte_reader reader(bytes);
     for (auto left = reader.next<std::size_t>(); left > 0; --left) {
       const auto name = reader.next<std::string>();
       io::write_file(folder / name, reader.next<std::string>());

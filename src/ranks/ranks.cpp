@@ -73,7 +73,7 @@ void Ranks::gather(std::string bytes, const std::function<void(std::string)>& us
   for (std::size_t from = 1; from < size(); ++from) {
     Message message = transport_->receive(from);
     if (message.kind == Message_kind::failure) {
-      detail::Byte_reader failure{std::string_view(message.bytes)};
+      detail::Byte_reader failure(message.bytes);
       const auto code = failure.next<Error_code>();
       throw Error(code, failure.next<std::string>());
     }

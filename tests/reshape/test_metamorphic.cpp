@@ -192,7 +192,7 @@ void ask_in_images(bool generic, std::size_t worlds, const Map& map, double shar
     }
   }
   EXPECT_EQ(different, 0);
-  EXPECT_GT(contacts, asked / 80);
+  EXPECT_GT(contacts, asked / 40);
   EXPECT_GT(kept, share_of_all * bodies);
 }
 
@@ -246,7 +246,7 @@ template <int D>
 void turn(bool generic, std::size_t worlds) {
   ask_in_images<D>(
       generic, worlds, [](const Cell_soup<D>& soup, std::uint64_t) { return same_lists<D>(soup, turned<D>); },
-      0.1);
+      0.3);
 }
 
 TEST(Metamorphic, TurnedWorldsGiveTheSameAnswers) {
@@ -266,14 +266,14 @@ void list_again(bool generic, std::size_t worlds) {
                        [](const Point<D>& x) { return x; }};
         return image;
       },
-      0.1);
+      0.3);
 }
 
 TEST(Metamorphic, WorldsListedInAnotherOrderGiveTheSameAnswers) {
-  list_again<2>(true, 18);
-  list_again<2>(false, 18);
-  list_again<3>(true, 12);
-  list_again<3>(false, 12);
+  list_again<2>(true, 6);
+  list_again<2>(false, 6);
+  list_again<3>(true, 4);
+  list_again<3>(false, 4);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ struct Rounds {
 
  private:
   void take(std::string_view of_rank) {
-    detail::Byte_reader bytes{std::string_view(of_rank)};
+    detail::Byte_reader bytes(of_rank);
     const auto slower = [](std::vector<double>& times, const std::vector<double>& others) {
       for (std::size_t i = 0; i < times.size() && i < others.size(); ++i)
         times[i] = std::max(times[i], others[i]);
