@@ -51,6 +51,10 @@ PREDICATE = re.compile(
     r"CGAL::(orientation|coplanar|collinear|coplanar_orientation|left_turn|right_turn|side_of_\w+|do_intersect)\b"
     r"|\borientation_[23]_object\b"
     r"|(?<![\w:])orientation\s*\(")
+# What makes a std::ranges::subrange, which clang 14 cannot compile with GCC's library.
+SUBRANGE = re.compile(
+    r"std::ranges::(subrange|unique|equal_range|search(_n)?|find_(end|last\w*)|(stable_)?partition|remove(_if)?|rotate|shift_(left|right))\b"
+    r"|std::(ranges::)?views\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
@@ -260,7 +264,11 @@ def check_form(root):
                 yield f"{name}:{MAX_LINES + 1}: has {len(lines)} lines: name its parts and split it"
             if not any("SPDX-License-Identifier: " in line for line in lines[:2]):
                 yield f"{name}:1: lacks its SPDX-License-Identifier"
-            for number, line in enumerate(lines if path.suffix in SOURCES else [], 1):
+            if path.suffix not in SOURCES:
+                continue
+            for number, line in enumerate(lines, 1):
+                if found := SUBRANGE.search(line):
+                    yield f"{name}:{number}: clang 14 cannot compile {found[0]}: take the function of std, or a bound"
                 if len(line) > MAX_COLUMNS:
                     yield f"{name}:{number}: has {len(line)} columns, more than the {MAX_COLUMNS} of .clang-format: break it"
 

@@ -239,6 +239,11 @@ class Planted(unittest.TestCase):
         self.write("tests/walk/wide.cpp", f"{SPDX}{widest}\n{widest}x\n")
         self.assert_caught("tests/walk/wide.cpp:3", f"has {check_layers.MAX_COLUMNS + 1} columns")
 
+    def test_what_clang_cannot_compile(self):
+        for call in ("std::ranges::unique(v)", "std::ranges::stable_partition(v, f)", "v | std::views::reverse"):
+            self.write("tests/walk/order.cpp", f"{SPDX}auto r = {call};\nauto i = std::ranges::find(v, 1);\n")
+            self.assert_caught("tests/walk/order.cpp:2", "clang 14 cannot compile")
+
     def test_missing_licence_line(self):
         self.write("scripts/run.sh", "#!/bin/sh\necho\n")
         self.assert_caught("scripts/run.sh:1", "SPDX")

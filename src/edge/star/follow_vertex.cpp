@@ -82,7 +82,7 @@ class Vertex_search {
         if (at->parents.empty() || at->parents.back() != parent) at->parents.push_back(parent);
       }
     if (classes.size() > 1)
-      std::ranges::stable_partition(classes, [&](const Cell_class& one) {
+      std::stable_partition(classes.begin(), classes.end(), [&](const Cell_class& one) {
         return std::ranges::any_of(one.cells, [&](Cell c) { return holds_displaced(c, inside); });
       });
     return classes;

@@ -35,15 +35,16 @@ void Vertex_trial<D>::find_groups_near(const Moving_star<D>& star) {
     for (std::uint32_t g = 0; g < groups_.all().size(); ++g)
       if (has_faces_near(star, g)) add(g);
   std::ranges::sort(groups_near_);
-  const auto rest = std::ranges::unique(groups_near_);
-  groups_near_.erase(rest.begin(), rest.end());
+  groups_near_.erase(std::unique(groups_near_.begin(), groups_near_.end()), groups_near_.end());
 }
 
 template <int D>
 Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group) {
   const Reshape_counts before = counts_;
   const auto members = [group](const std::vector<Member>& all) {
-    return std::span<const Member>(std::ranges::equal_range(all, group, {}, &Member::group));
+    const auto first = std::ranges::lower_bound(all, group, {}, &Member::group);
+    const auto last = std::ranges::upper_bound(all, group, {}, &Member::group);
+    return std::span<const Member>(first, last);
   };
   const auto moved = moved_.size(), chains = chains_.size(), rests = rests_.size();
   const auto shorten = [](auto& list, std::size_t size) {
