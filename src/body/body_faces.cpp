@@ -117,11 +117,11 @@ void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::ui
     first->feature = star.names[found.face];
     return;
   }
-  const auto& names = star.names;
   for (const auto& [number, supporting_walls] : found.supporting_walls) {
-    std::erase_if(scratch.supporting_walls, [&](const auto& entry) { return entry.first == names[number]; });
-    if (!supporting_walls.empty() || !body.supporting_walls[names[number]].empty())
-      scratch.supporting_walls.emplace_back(names[number], supporting_walls);
+    const auto face = star.names[number];
+    std::erase_if(scratch.supporting_walls, [&](const auto& entry) { return entry.first == face; });
+    if (!supporting_walls.empty() || !body.supporting_walls[face].empty())
+      scratch.supporting_walls.emplace_back(face, supporting_walls);
   }
 }
 

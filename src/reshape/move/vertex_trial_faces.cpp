@@ -87,9 +87,14 @@ Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face,
   }
 }
 
+// Each member by itself: the class is instantiated in vertex_trial.cpp, without those that are defined here.
 template bool Vertex_trial<2>::has_faces_near(const Moving_star<2>&, std::uint32_t) const;
 template bool Vertex_trial<3>::has_faces_near(const Moving_star<3>&, std::uint32_t) const;
 template void Vertex_trial<2>::try_faces(const Moving_star<2>&, std::uint32_t);
 template void Vertex_trial<3>::try_faces(const Moving_star<3>&, std::uint32_t);
+template bool Vertex_trial<2>::try_face(const Moving_star<2>&, Member, std::span<const Point<2>>);
+template bool Vertex_trial<3>::try_face(const Moving_star<3>&, Member, std::span<const Point<3>>);
+template Face_at_star Vertex_trial<2>::after(const Moving_star<2>&, Member, std::span<const Point<2>>);
+template Face_at_star Vertex_trial<3>::after(const Moving_star<3>&, Member, std::span<const Point<3>>);
 
 }  // namespace cellwalk::detail
