@@ -63,9 +63,10 @@ class Image_reader {
     const std::size_t room = (image_.bytes.size() - sizeof header_) / sizeof(Image_section);
     if (header_.sections > room) refuse_image("it is cut short");
     table_.resize(header_.sections);
-    std::memcpy(table_.data(), image_.bytes.data() + sizeof header_, table_.size() * sizeof table_[0]);
+    const std::span<std::byte> table = std::as_writable_bytes(std::span(table_));
+    std::ranges::copy(image_.bytes.subspan(sizeof header_, table.size()), table.begin());
     if (checksum(header_, table_) != header_.checksum) refuse_image("a checksum differs");
-    std::size_t end = sizeof header_ + table_.size() * sizeof table_[0];
+    std::size_t end = sizeof header_ + table.size();
     for (const Image_section& section : table_) {
       if (section.offset != aligned(end) || section.offset > header_.bytes ||
           section.bytes > header_.bytes - section.offset)

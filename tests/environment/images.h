@@ -6,6 +6,7 @@
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/internal/environment/image_format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -20,7 +21,8 @@ inline std::vector<detail::Image_section> table_of(std::span<const std::byte> im
   detail::Image_header header;
   std::memcpy(&header, image.data(), sizeof header);
   std::vector<detail::Image_section> table(header.sections);
-  std::memcpy(table.data(), image.data() + sizeof header, table.size() * sizeof table[0]);
+  const std::span<std::byte> bytes = std::as_writable_bytes(std::span(table));
+  std::ranges::copy(image.subspan(sizeof header, bytes.size()), bytes.begin());
   return table;
 }
 
@@ -40,7 +42,7 @@ inline void seal(std::span<std::byte> image) {
     section.checksum = detail::checksum(image.subspan(section.offset, section.bytes));
   header.checksum = detail::checksum(header, table);
   std::memcpy(image.data(), &header, sizeof header);
-  std::memcpy(image.data() + sizeof header, table.data(), table.size() * sizeof table[0]);
+  std::ranges::copy(std::as_bytes(std::span(table)), image.begin() + sizeof header);
 }
 
 }  // namespace cellwalk::test
