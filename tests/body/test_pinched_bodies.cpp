@@ -179,6 +179,20 @@ TEST(PinchedBodies, MembranesSideBySideHoldAllOnOneSide) {
       }
 }
 
+// A corner comes to the line, in the plane of one of the two walls: the edge at it passes that wall on a fixed side,
+// and may come out of the quarter in which the face stays.
+TEST(PinchedBodies, NoWallComesBetweenAFaceAndItsOwnEdge) {
+  const auto room = with_walls({below, behind});
+  for (const bool is_upright : {false, true})
+    for (const Quarter& q : quarters) {
+      SCOPED_TRACE(testing::Message() << is_upright << " " << q.y << " " << q.z);
+      const Point<3> level = at(is_upright ? 7.5 : 9, 4 * q.y, 0),
+                     upright = at(is_upright ? 9 : 7.5, 0, 5 * q.z);
+      Moving face(room.snapshot(), {start, level, upright}, {{0, 1, 2}});
+      EXPECT_EQ(face.move(is_upright ? 2 : 1, target).has_value(), q.y < 0 && q.z < 0);
+    }
+}
+
 // A wall stands on the ridge of a membrane, or hangs from it. A flap below the membrane and one before that
 // wall can move on in the one case, and not in the other one.
 TEST(PinchedBodies, AWallOnTheRidgeOfAMembranePartsItsSides) {

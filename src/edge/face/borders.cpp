@@ -15,8 +15,13 @@ namespace {
 /// An edge of a face and the corner opposite to it, towards which the face extends from the edge.
 class Border {
  public:
-  Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite, Walk_counts& counts)
-      : snapshot_(snapshot), side_(side), opposite_(opposite), counts_(counts) {}
+  Border(const Snapshot<3>& snapshot, const Face_side& side, const Point<3>& opposite,
+         const Supporting_walls& supporting_walls, Walk_counts& counts)
+      : snapshot_(snapshot),
+        side_(side),
+        opposite_(opposite),
+        supporting_walls_(supporting_walls),
+        counts_(counts) {}
 
   Half_facet wall_between(const Candidate_walls& candidates) {
     boost::container::small_vector<Half_facet, 4> holding;
@@ -56,12 +61,17 @@ class Border {
         const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
         // The point lies in the plane of f: the face is on the side of the opposite corner. If the face lies
-        // in a wall, its supporting walls determine the side, and they agree with the chain.
-        holds_face = side(f, opposite_) <= 0;
+        // in a wall, its supporting walls determine the side.
+        const int of_face = side(f, opposite_);
+        holds_face = of_face < 0 || (of_face == 0 && (!snapshot_.is_impassable(f) || is_supporting(f)));
       }
       if (holds_face) return true;
     }
     return false;
+  }
+
+  bool is_supporting(Half_facet f) const {
+    return std::find(supporting_walls_.begin(), supporting_walls_.end(), f) != supporting_walls_.end();
   }
 
   /// The side of a wall on which the face lies.
@@ -73,6 +83,7 @@ class Border {
   const Snapshot<3>& snapshot_;
   const Face_side& side_;
   const Point<3>& opposite_;
+  const Supporting_walls& supporting_walls_;
   std::optional<Exact_edge> edge_;  ///< made only if a wall contains it, which is rare
   Walk_counts& counts_;
 };
@@ -80,11 +91,13 @@ class Border {
 }  // namespace
 
 Half_facet wall_at_border(const Snapshot<3>& snapshot, const std::array<Face_side, 3>& sides,
-                          const Candidate_walls& candidates, Walk_counts& counts) {
+                          const Candidate_walls& candidates, const Supporting_walls& supporting_walls,
+                          Walk_counts& counts) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Face_side& next = sides[(k + 1) % 3];
     const Point<3>& opposite = next.chain.is_reversed ? next.from : next.to;
-    const Half_facet wall = Border(snapshot, sides[k], opposite, counts).wall_between(candidates);
+    const Half_facet wall =
+        Border(snapshot, sides[k], opposite, supporting_walls, counts).wall_between(candidates);
     if (wall != Half_facet::none) return wall;
   }
   return Half_facet::none;

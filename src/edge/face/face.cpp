@@ -161,8 +161,8 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
     result.supporting_walls = sweep.supporting_walls_at_end(candidates);
   }
   if (are_collinear(corners[1], corners[2], corners[3])) return result;
-  const Half_facet wall =
-      detail::wall_at_border(snapshot, detail::sides_of(chains, path.to, q, r), candidates, counts.walk);
+  const Half_facet wall = detail::wall_at_border(snapshot, detail::sides_of(chains, path.to, q, r),
+                                                 candidates, result.supporting_walls, counts.walk);
   if (wall == Half_facet::none) return result;
   return {{}, detail::contact_at_start(snapshot, wall, corners[0]), true, true};
 }
@@ -187,7 +187,8 @@ Face_registration stand_face(const Snapshot<3>& snapshot, const Particle<3>& p, 
     if (triangle.is_pierced_by(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall)))
       result.piercing = wall;
   if (result.piercing == Half_facet::none)
-    result.piercing = wall_at_border(snapshot, sides_of(chains, p, q, r), candidates, counts.walk);
+    result.piercing =
+        wall_at_border(snapshot, sides_of(chains, p, q, r), candidates, result.supporting_walls, counts.walk);
   return result;
 }
 
