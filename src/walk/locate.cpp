@@ -129,10 +129,7 @@ std::vector<Side_rank<D>> ordered_sides(const Snapshot<D>& s, const std::vector<
     const Cell_view<D> cell = s.view(x.cell);
     rank->is_displaced |= std::all_of(x.facets.begin(), x.facets.end(),
                                       [&](std::size_t f) { return detail::displaced_side(cell, f) < 0; });
-    std::vector<Point<D>> corners;
-    for (std::size_t v = 0; v < cell.vertex_count(); ++v) corners.push_back(cell.point(v));
-    std::sort(corners.begin(), corners.end());
-    if (rank->corners.empty() || corners < rank->corners) rank->corners = std::move(corners);
+    detail::take_least(cell, rank->corners);
   }
   std::sort(ranks.begin(), ranks.end());
   return ranks;

@@ -9,13 +9,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 
 namespace cellwalk::test {
 
 /// Points 1 and 2 are (16,0,0) and (-16,0,0), 3 and 4 the same along y, 5 and 6 along z.
-/// \param wall the corners of its only wall
-inline Cell_soup<3> octahedron(const std::array<std::uint32_t, 3>& wall) {
+/// \param walls the corners of its walls
+inline Cell_soup<3> octahedron(std::initializer_list<std::array<std::uint32_t, 3>> walls) {
   Cell_soup<3> soup;
   soup.points = {{0, 0, 0}, {16, 0, 0}, {-16, 0, 0}, {0, 16, 0}, {0, -16, 0}, {0, 0, 16}, {0, 0, -16}};
   for (std::uint32_t octant = 0; octant < 8; ++octant) {
@@ -25,7 +26,8 @@ inline Cell_soup<3> octahedron(const std::array<std::uint32_t, 3>& wall) {
     add_tetrahedron(soup, 0, a, b, c);
   }
   for (std::size_t f = 0; f < soup.facet_count(); ++f)
-    if (std::ranges::is_permutation(soup.facet(f), wall)) soup.impassable[f] = 1;
+    for (const auto& wall : walls)
+      if (std::ranges::is_permutation(soup.facet(f), wall)) soup.impassable[f] = 1;
   return soup;
 }
 

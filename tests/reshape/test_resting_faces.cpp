@@ -3,6 +3,7 @@
 // vertex floats in a grid, strictly inside a large face.
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/records/cell_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>
@@ -151,6 +152,42 @@ TEST(RestingFaces, AnEdgeKeepsItsSideOfWallsThatMoveInTheirPlane) {
       EXPECT_EQ(tent.move(body, x).end, Move_end::reached);
     EXPECT_EQ(tent.move(body, {3, 3, 3 - 0.125 * side}).end, Move_end::contact);
     EXPECT_EQ(tent.move(body, {3, 3, 3 + 0.125 * side}).end, Move_end::reached);
+  }
+}
+
+/// An octahedron around point 0 that is slit in the half plane of y = 0 and x > 0: points 1 and 7 coincide.
+Cell_soup<3> slit_octahedron(const Point<3>& middle) {
+  Cell_soup<3> soup;
+  soup.points = {middle, {8, 0, 0}, {-8, 0, 0}, {0, 8, 0}, {0, -8, 0}, {0, 0, 8}, {0, 0, -8}, {8, 0, 0}};
+  add_tetrahedron(soup, 0, 1, 3, 5);
+  add_tetrahedron(soup, 0, 3, 2, 5);
+  add_tetrahedron(soup, 0, 2, 4, 5);
+  add_tetrahedron(soup, 0, 4, 7, 5);
+  add_tetrahedron(soup, 0, 3, 1, 6);
+  add_tetrahedron(soup, 0, 2, 3, 6);
+  add_tetrahedron(soup, 0, 4, 2, 6);
+  add_tetrahedron(soup, 0, 7, 4, 6);
+  return soup;
+}
+
+/// Both walls of the slit land, one with its only free space where the face is not.
+TEST(RestingFaces, ASlitThatLandsOnAFaceLeavesItOnItsSide) {
+  for (const double side : {2.0, -2.0}) {
+    auto environment =
+        Environment<3>::build(slit_octahedron({0, side, 0}), {.duplicates = Duplicate_vertices::keep});
+    const std::uint32_t vertex = test::point_at<3>(environment, {0, side, 0});
+    Body<3> body(environment.snapshot(), Locator<3>(environment.snapshot()),
+                 {{{1, 0, 1}, {4, 0, 1}, {1, 0, 4}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}});
+    Reshaping<3> reshaping(environment, {{&body}, {}}, hold);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(reshaping.move(vertex, {0, 0, 0}).end, Move_end::reached) << "it lands";
+      const auto through = reshaping.move(vertex, {0, -side, 0});
+      ASSERT_EQ(through.end, Move_end::contact) << "it must not pass";
+      EXPECT_EQ(through.hit->time, Exact_time());
+      EXPECT_EQ(reshaping.move(vertex, {0, side, 0}).end, Move_end::reached) << "back where it came from";
+    }
+    reshaping.close();
+    EXPECT_NO_THROW(body.validate());
   }
 }
 

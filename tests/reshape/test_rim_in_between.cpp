@@ -17,7 +17,7 @@ namespace {
 /// \param heights of the two ends of the body
 /// \param order of the lists; 0 if as they are
 Vertex_result<3> pass(const std::array<double, 2>& heights, std::uint64_t order) {
-  Cell_soup<3> soup = test::octahedron({0, 1, 3});
+  Cell_soup<3> soup = test::octahedron({{0, 1, 3}});
   soup.points[0] = {0, -8, 0};
   std::uint32_t vertex = 0;
   if (order != 0) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "reshape/octahedron.h"
 #include "reshape/star_scene.h"
 
 namespace cellwalk {
@@ -76,6 +77,22 @@ TYPED_TEST(RimSides, AnEdgeAroundTheRimIsInItsWay) {
   Body_counts counts;
   EXPECT_FALSE(body.move_vertex(1, at<D>(0, 0), {}, counts));
   scene.expect_hit(at<D>(1, 0), 0, 1);
+}
+
+/// Walls part what is below point 0 into three, and what is above it into two. The edge is above it, where two
+/// facets without walls meet: the edge is in both cells, and each end keeps that in which it came.
+TEST(RimSides, BothEndsOfAnEdgeTakeTheSameSideWhateverTheirCells) {
+  constexpr double far = 0.5;
+  for (const double y : {far, -far})
+    for (const double first : {far, -far})
+      for (const double second : {far, -far}) {
+        test::Star_scene<3> scene(test::octahedron({{0, 1, 5}, {0, 1, 6}, {0, 2, 5}, {0, 2, 6}, {0, 4, 6}}));
+        Body<3>& body = scene.add_body({{first, y, 2}, {second, y, 4}});
+        Body_counts counts;
+        EXPECT_FALSE(body.move_vertex(0, {0, 0, 2}, {}, counts));
+        EXPECT_FALSE(body.move_vertex(1, {0, 0, 4}, {}, counts));
+        EXPECT_EQ(scene.end_of({0, 0, 8}), Move_end::reached) << y << " " << first << " " << second;
+      }
 }
 
 /// One triangle upright in the plane of x and z is a wall. Its corner, point 0, moves in that plane.

@@ -152,7 +152,7 @@ TEST(RimThroughFace, OverItsEdge) {
 TEST(RimThroughFace, OverItsCornerBeforeAnEdgeIsHit) {
   for (std::uint64_t order = 0; order < 6; ++order)
     for (const double sense : {1., -1.}) {
-      Cell_soup<3> soup = test::octahedron({0, 3, 6});
+      Cell_soup<3> soup = test::octahedron({{0, 3, 6}});
       soup.points[0] = {0, 3, 7};
       // Mirrored: the wall lies in the plane of the mirror.
       const std::vector<Point<3>> face{{0, 3, 7}, {-10 * sense, 1, 3}, {8 * sense, 1, -2}};

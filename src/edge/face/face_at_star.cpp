@@ -62,7 +62,8 @@ class Resting_face {
       walls_.push_back(half);
       return true;
     }
-    return false;
+    // The free space of the wall is behind it only: the face will be on a wall that coincides with it.
+    return true;
   }
 
   const Snapshot<3>& snapshot_;

@@ -6,7 +6,6 @@
 #include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <utility>
 
@@ -94,10 +93,11 @@ class Edge_search {
     }
     if (end < Fraction(1)) return result;
     // On a side of walls first, and then on others, as for vertices.
-    std::vector<std::pair<std::vector<bool>, Chain>> ends;
+    std::vector<std::pair<Order, Chain>> ends;
     for (const Chain_class& state : states)
-      if (Chain word; find_word(here->cut, state, word)) ends.emplace_back(displaced(here->cut, state), word);
-    std::ranges::stable_sort(ends, std::greater<>(), &std::pair<std::vector<bool>, Chain>::first);
+      if (Chain word; find_word(here->cut, state, word))
+        ends.emplace_back(states.size() > 1 ? order_of(here->cut, state) : Order{}, word);
+    std::ranges::sort(ends, {}, &std::pair<Order, Chain>::first);
     result.choices = ends.size();
     result.is_free = !ends.empty();
     if (result.is_free) result.chain = ends[choice % ends.size()].second;
@@ -237,8 +237,11 @@ class Edge_search {
     return true;
   }
 
-  /// For each piece whether the displaced edge passes it in one of the cells of its class.
-  std::vector<bool> displaced(const Star_cut<D>& cut, const Chain_class& state) const {
+  /// The key of the order of ends: for each piece whether the displaced edge passes it in other cells than those
+  /// of its class, then the least corners of these.
+  using Order = std::pair<std::vector<bool>, std::vector<std::vector<Point<D>>>>;
+
+  Order order_of(const Star_cut<D>& cut, const Chain_class& state) const {
     const auto holds = [&](Cell c) {
       const Cell_view<D> cell = snapshot_.view(c);
       for (std::size_t i = 0; i < cell.facet_count(); ++i)
@@ -247,14 +250,19 @@ class Edge_search {
           return false;
       return true;
     };
-    std::vector<bool> result;
+    Order order;
     for (std::size_t piece = 0; piece < state.size(); ++piece) {
-      bool is_displaced = false;
-      for (std::size_t c = 0; c < cut.cell_count(); ++c)
-        is_displaced |= cut.along(piece)[c] == state[piece] && holds(cut.cell(c));
-      result.push_back(is_displaced);
+      bool is_elsewhere = true;
+      std::vector<Point<D>> corners;
+      for (std::size_t c = 0; c < cut.cell_count(); ++c) {
+        if (cut.along(piece)[c] != state[piece]) continue;
+        is_elsewhere &= !holds(cut.cell(c));
+        take_least(snapshot_.view(cut.cell(c)), corners);
+      }
+      order.first.push_back(is_elsewhere);
+      order.second.push_back(std::move(corners));
     }
-    return result;
+    return order;
   }
 
   /// The wall at the vertex that meets the edge at a time with the lowest features.

@@ -66,7 +66,7 @@ class Vertex_search {
   }
 
   /// The classes that continue the last ones at a time, and hold the particle at a time inside the interval
-  /// that follows; first those that hold the displaced particle.
+  /// that follows; first those that hold the displaced particle, then those of the least corners.
   std::vector<Cell_class> continued(const Fraction& time, const Fraction& inside) const {
     std::vector<Cell_class> classes;
     for (std::size_t parent = 0; parent < layers_.back().size(); ++parent)
@@ -82,10 +82,17 @@ class Vertex_search {
         if (at->parents.empty() || at->parents.back() != parent) at->parents.push_back(parent);
       }
     if (classes.size() > 1)
-      std::stable_partition(classes.begin(), classes.end(), [&](const Cell_class& one) {
-        return std::ranges::any_of(one.cells, [&](Cell c) { return holds_displaced(c, inside); });
-      });
+      std::ranges::sort(classes, {}, [&](const Cell_class& one) { return order_of(one, inside); });
     return classes;
+  }
+
+  /// The key of the order of classes, the same for all particles at a place: whether the displaced particle is
+  /// elsewhere, and the least corners.
+  std::pair<bool, std::vector<Point<D>>> order_of(const Cell_class& one, const Fraction& inside) const {
+    const auto holds = [&](Cell c) { return holds_displaced(c, inside); };
+    std::pair<bool, std::vector<Point<D>>> order{std::ranges::none_of(one.cells, holds), {}};
+    for (const Cell c : one.cells) take_least(snapshot_.view(c), order.second);
+    return order;
   }
 
   bool holds_displaced(Cell c, const Fraction& time) const {

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace cellwalk::detail {
 
@@ -298,6 +300,16 @@ class Star_search {
   Half_facet wall_ = Half_facet::none;
   double steepest_ = 0;
 };
+
+/// Takes the corners of a cell, in increasing order, if they are less than the least so far, or the first. Sides
+/// in the order of their least corners do not depend on lists of cells, nor on which cell stands for a side.
+template <int D>
+void take_least(const Cell_view<D>& cell, std::vector<Point<D>>& least) {
+  std::vector<Point<D>> corners;
+  for (std::size_t v = 0; v < cell.vertex_count(); ++v) corners.push_back(cell.point(v));
+  std::ranges::sort(corners);
+  if (least.empty() || corners < least) least = std::move(corners);
+}
 
 }  // namespace cellwalk::detail
 
