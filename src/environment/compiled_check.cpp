@@ -180,8 +180,12 @@ void Environment_image<D>::check(const Snapshot<D>& s) {
   check_shapes(s);
   check_blocks(s);
   check_free(s);
+  const bool has_frame = !std::isnan(s.frame_.scale);
   for_each_parallel(s.points_.size(), [&](std::size_t p) {
     if (!is_finite(s.points_[p])) refuse_image("a point is not finite");
+    // Planes are compared on the assumption that all corners of cells lie where their bounds hold.
+    if (Float_point<D> mapped; has_frame && !s.frame_.map(s.points_[p], mapped))
+      refuse_image("a point lies outside its frame");
   });
 }
 

@@ -310,6 +310,14 @@ TEST(Compiled, FramesInWhichNoBoundHoldsAreRefused) {
   }
 }
 
+TEST(Compiled, PointsOutsideTheFrameAreRefused) {
+  Bytes other = bytes_of(Environment<3>::build(tetrahedral_grid({.cells = {2, 2, 2}})));
+  constexpr double centre = 4.5;
+  std::memcpy(test::section_of(other, "state").data() + sizeof centre, &centre, sizeof centre);
+  test::seal(other);
+  EXPECT_NE(refusal(other).find("a point lies outside its frame"), std::string::npos);
+}
+
 TEST(Compiled, EditsLeaveTheBytesOfOthersAlone) {
   const Bytes bytes = small_image();
   Bytes copy = bytes;
