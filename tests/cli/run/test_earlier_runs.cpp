@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What an earlier process left of a run stays until there is something better, and is taken for what it is.
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "cli/run/stopped_boxes.h"
+
+namespace cellwalk::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Earlier_runs : public Stopped_boxes {
+ protected:
+  void stop_at(std::int64_t step, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = begin(20);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Stopped_boxes::stop_at(step, arguments);
+  }
+  /// Runs another scene to its end, with more frames.
+  void run_another(const fs::path& folder) const {
+    const Outcome another = run_program(
+        {"run", "../scene.json", "-o", folder.string(), "--set", "time_step=0.03", "--steps", "200"},
+        parts());
+    ASSERT_EQ(another.exit_code, 0) << another.err;
+  }
+};
+
+TEST_F(Earlier_runs, OneStaysWhereAForcedRunCannotBegin) {
+  stop_at(40);
+  const std::vector<std::string> names = names_below(part());
+  const auto forced = [](const std::string& file, const std::string& change) {
+    return std::vector<std::string>{"run", file,      "-o",    "out", "--checkpoint-every",
+                                    "20",  "--force", "--set", change};
+  };
+  expect_refusal(forced("typo.json", "steps=4"), 3,
+                 "typo.json: cannot be opened: check that it exists and may be read");
+  // Changes are looked at when there are files already.
+  expect_refusal(
+      forced("../scene.json", R"(changes=[{"step":1,"open":"valve"}])"), 3,
+      "../scene.json: changes[0].open: there is no such group: name it in \"groups\", or in the file "
+      "of the environment");
+  EXPECT_EQ(names_below(part()), names);
+  expect_same(run_program(resume(), parts()));
+}
+
+TEST_F(Earlier_runs, OneIsBroughtBackWhereAForcedRunIsKilledAtOnce) {
+  for (const bool has_both : {false, true}) {
+    fs::remove_all(parts());
+    fs::create_directory(parts());
+    stop_at(40);
+    fs::rename(part() / "checkpoints", part() / "checkpoints.before");
+    if (has_both) {
+      fs::rename(part() / "results", part() / "results.before");
+      for (const char* name : {"checkpoints", "results"}) fs::create_directory(part() / name);
+      write_text(part() / "results" / "contacts.csv", "step");
+    }
+    const Outcome refused = run_program(begin(20), parts());
+    EXPECT_NE(refused.err.find("out.part: holds a run that did not end"), std::string::npos) << refused.err;
+    expect_same(run_program(resume(), parts()));
+  }
+}
+
+TEST_F(Earlier_runs, OneIsGoneOnceAForcedRunHasACheckpoint) {
+  for (const char* folder : {"checkpoints", "results"}) fs::create_directories(part() / folder);
+  write_text(part() / "lock", "");
+  write_text(part() / "checkpoints" / "step-0000000001.checkpoint", "of another run");
+  stop_at(40, {"--force"});
+  for (const std::string& name : names_below(part()))
+    EXPECT_EQ(name.find(".before"), std::string::npos) << name;
+  fs::create_directory(part() / "checkpoints.before");  // it was killed on the way
+  expect_same(run_program(resume(), parts()));
+}
+
+TEST_F(Earlier_runs, ResultsWithoutCheckpointsStay) {
+  stop_at(40);
+  fs::rename(part() / "checkpoints", path("aside"));
+  const std::vector<std::string> names = names_below(part());
+  expect_refusal(
+      resume(), 3,
+      (fs::canonical(part()) / "checkpoints").string() + ": holds no checkpoint: begin the run again");
+  EXPECT_EQ(names_below(part()), names);
+  fs::rename(path("aside"), part() / "checkpoints");
+  expect_same(run_program(resume(), parts()));
+}
+
+/// What a forced run leaves that is killed once it has replaced another one. Both folders are copies, as on
+/// another machine.
+TEST_F(Earlier_runs, TheResultsOfOneAreNotGoneOnWith) {
+  stop_at(40, {"--force"});
+  fs::remove_all(part() / "results");
+  run_another("out.part/results");
+  fs::copy(path("whole") / "out", out(), fs::copy_options::recursive);
+  fs::copy(out() / "run.json", part() / "ended");
+  const Outcome last = run_program(resume(), parts());
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(last.out, "out: the run had ended, and its results are there\n");
+  expect_same_files(parts(), path("whole"));
+}
+
+/// The same, if another one began after it, and could not go on.
+TEST_F(Earlier_runs, NothingComesBackOfOneThatHasEnded) {
+  stop_at(40, {"--force"});
+  fs::remove_all(part() / "results");
+  run_another("out.part/results");
+  fs::copy(path("whole") / "out", out(), fs::copy_options::recursive);
+  fs::copy(out() / "run.json", part() / "ended");
+  const Outcome failed = run_program({"run", "../scene.json", "-o", "out", "--checkpoint-every", "20",
+                                      "--force", "--set", R"(changes=[{"step":1,"open":"valve"}])"},
+                                     parts());
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  expect_same_files(parts(), path("whole"));
+}
+
+/// It was killed before it replaced another run that had the same results.
+TEST_F(Earlier_runs, TheSameResultsAreNotTakenForTheEnd) {
+  stop_at(40, {"--force"});
+  fs::copy(path("whole") / "out" / "run.json", part() / "ended");
+  fs::copy(path("whole") / "out" / "run.json", part() / "results" / "run.json");
+  fs::copy(path("whole") / "out", out(), fs::copy_options::recursive);
+  fs::remove(out() / "contacts.csv");
+  expect_same(run_program(resume(), parts()));
+}
+
+TEST_F(Earlier_runs, MessagesNameTheFolder) {
+  const std::string none =
+      ": is no folder of a run that did not end: only one with --checkpoint-every leaves it";
+  for (const char* name : {"out", "out/", "out//"})
+    expect_refusal({"run", "--resume", name}, 2, "out.part" + none);
+  const std::string here = fs::canonical(parts()).string() + ".part";
+  for (const char* name : {".", "./", "../parts/."})
+    expect_refusal({"run", "--resume", name}, 2, here + none);
+}
+
+}  // namespace
+}  // namespace cellwalk::test
