@@ -123,6 +123,33 @@ TEST_F(Earlier_runs, TheSameResultsAreNotTakenForTheEnd) {
   expect_same(run_program(resume(), parts()));
 }
 
+TEST_F(Earlier_runs, FramesThatWereChangedAreNoticed) {
+  stop_at(100);
+  ASSERT_TRUE(fs::exists(part() / "results" / "frames" / "bodies_00002.vtu"));
+  for (const char* name :
+       {"frames/bodies_00000.vtu", "frames/bodies_00002.vtu", "frames/contacts_00001.vtu", "walls.vtu"}) {
+    const fs::path file = part() / "results" / name;
+    const std::string where = (fs::canonical(part()) / "results" / name).string();
+    fs::rename(file, path("aside"));
+    expect_refusal(resume(), 3, where + ": is missing, and was there at the checkpoint: begin the run again");
+    fs::copy(path("aside"), file);
+    fs::resize_file(file, 10);
+    expect_refusal(resume(), 3, where + ": has another length than at the checkpoint: it was changed");
+    fs::rename(path("aside"), file);
+  }
+  // Also by the next process but one.
+  const auto resumed = stop_program(resume(), parts(), SIGKILL, [&] { return newest_step(parts()) >= 120; });
+  if (resumed.exit_code == -1) {
+    const fs::path file = part() / "results" / "frames" / "bodies_00001.vtu";
+    fs::rename(file, path("aside"));
+    EXPECT_EQ(run_program(resume(), parts()).exit_code, 3);
+    fs::rename(path("aside"), file);
+    expect_same(run_program(resume(), parts()));
+  } else {
+    expect_same(resumed);
+  }
+}
+
 TEST_F(Earlier_runs, MessagesNameTheFolder) {
   const std::string none =
       ": is no folder of a run that did not end: only one with --checkpoint-every leaves it";
