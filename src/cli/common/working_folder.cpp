@@ -180,8 +180,8 @@ bool Working_folder::has_ended(const fs::path& destination) {
          fs::is_regular_file(folder.destination_ / "run.json", ignored);
 }
 
-void Working_folder::allow_replacing(bool replaces) {
-  replaces_ = replaces;
+void Working_folder::allow_replacing(const std::string& name) {
+  replaces_ = destination_.filename() == name;
   if (!Output_folder::is_replaceable(destination_, replaces_)) refuse_destination(Error_code::usage);
 }
 
@@ -224,10 +224,11 @@ Working_folder::~Working_folder() {
 void Working_folder::clear() noexcept {
   std::error_code failure;
   fs::remove(results() / "run.json", failure);  // what is half removed is not taken for results
-  for (const fs::path& folder : {results(), checkpoints()}) {
-    fs::remove_all(folder, failure);
-    if (failure) return;
-  }
+  for (const char* name : {folders[1], folders[0]})
+    for (const fs::path& folder : {path_ / name, earlier(name)}) {
+      fs::remove_all(folder, failure);
+      if (failure) return;
+    }
   for (const char* file : {"ended.tmp", "lock", "ended"}) fs::remove(path_ / file, failure);
   fs::remove(path_, failure);
 }

@@ -42,9 +42,9 @@ class Working_folder final : public io::Output {
   /// True if the results were put in place before, and only what is here could not be removed.
   bool is_done() const { return is_done_; }
 
-  /// Of one that was taken up: whether it was begun to replace an earlier run.
+  /// Of one that was taken up: it was begun to replace an earlier run of that name. A copy replaces none.
   /// \throw Error(usage) if the destination is there, and is not to be replaced
-  void allow_replacing(bool replaces);
+  void allow_replacing(const std::string& name);
 
   void prepare() override;
   void put() override;

@@ -214,7 +214,7 @@ void resume(Run_options options, const Asked& asked) {
   }
   Kept_run kept = read_checkpoint(outputs.working->checkpoints());
   const Run_settings& settings = kept.settings;
-  outputs.working->allow_replacing(settings.force);
+  outputs.working->allow_replacing(settings.replaced);
   const Any_scene scene = io::parse_scene(settings.scene, settings.scene_text,
                                           std::filesystem::path(settings.scene).parent_path());
   const std::uint32_t steps =

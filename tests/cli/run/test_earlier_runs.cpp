@@ -69,7 +69,7 @@ TEST_F(Earlier_runs, OneIsGoneOnceAForcedRunHasACheckpoint) {
   stop_at(40, {"--force"});
   for (const std::string& name : names_below(part()))
     EXPECT_EQ(name.find(".before"), std::string::npos) << name;
-  fs::create_directory(part() / "checkpoints.before");  // it was killed on the way
+  fs::create_directory(part() / "results.before");  // it could not be removed
   expect_same(run_program(resume(), parts()));
 }
 
@@ -120,6 +120,21 @@ TEST_F(Earlier_runs, TheSameResultsAreNotTakenForTheEnd) {
   fs::copy(path("whole") / "out" / "run.json", part() / "results" / "run.json");
   fs::copy(path("whole") / "out", out(), fs::copy_options::recursive);
   fs::remove(out() / "contacts.csv");
+  expect_same(run_program(resume(), parts()));
+}
+
+TEST_F(Earlier_runs, ACopyOfAForcedRunReplacesNone) {
+  run_another("copy");
+  const std::string before = read_text(parts() / "copy" / "run.json");
+  run_another("out");
+  stop_at(40, {"--force"});
+  fs::copy(part(), parts() / "copy.part", fs::copy_options::recursive);
+  expect_refusal(
+      {"run", "--resume", "copy"}, 2,
+      "copy: is there, and this run is not to replace it: move it away, and go on by `cellwalk run "
+      "--resume copy`");
+  EXPECT_EQ(read_text(parts() / "copy" / "run.json"), before);
+  for (const char* name : {"copy", "copy.part"}) fs::remove_all(parts() / name);
   expect_same(run_program(resume(), parts()));
 }
 
