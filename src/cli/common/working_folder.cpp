@@ -27,6 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Those of a run.
+constexpr std::array<const char*, 2> folders{"checkpoints", "results"};
+
 [[noreturn]] void fail_at(const fs::path& path, const char* what, const std::error_code& reason) {
   throw Error(Error_code::other, path.string() + ": " + what + ": " + reason.message());
 }
@@ -36,17 +39,17 @@ void make_folder(const fs::path& path) {
   if (!fs::create_directory(path, failure)) fail_at(path, "cannot be made", failure);
 }
 
-/// What tells a folder from all others of its file system, whatever its name.
-std::string identity(const fs::path& folder) {
-  struct stat status;
-  if (stat(folder.c_str(), &status) != 0) return {};
-  return fmt::format("{} {}\n", status.st_dev, status.st_ino);
-}
-
+/// Empty if there is no such file.
 std::string content(const fs::path& file) {
+  std::error_code failure;
+  if (!fs::is_regular_file(file, failure)) return {};
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
+
+/// What tells the results of a run from those of others, also where they were copied to, or are seen from
+/// another machine.
+std::string identity(const fs::path& folder) { return content(folder / "run.json"); }
 
 bool has_checkpoint(const fs::path& folder) {
   std::error_code failure;
@@ -93,39 +96,80 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
   folder->replaces_ = replace;
   std::error_code ignored;
-  if (!fs::exists(folder->path_, ignored))
+  if (!fs::exists(folder->path_, ignored)) {
     make_folder(folder->path_);
-  else if (!is_of_a_run(folder->path_))
+    folder->is_own_ = true;
+  } else if (!is_of_a_run(folder->path_)) {
     throw Error(Error_code::usage,
-                destination.string() + ".part: was not made by a run: remove it, or give another folder");
+                folder->shown() + ": was not made by a run: remove it, or give another folder");
+  }
   folder->lock();
+  folder->sort_out_earlier();
   if (!replace && has_checkpoint(folder->checkpoints()))
-    throw Error(
-        Error_code::usage,
-        fmt::format("{}.part: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
-                    "or remove it",
-                    destination.string(), destination.string()));
-  // What ended before its first checkpoint is of no use, and so is a checkpoint without results.
-  fs::remove_all(folder->checkpoints(), ignored);
-  fs::remove_all(folder->results(), ignored);
-  fs::remove(folder->path_ / "ended", ignored);
-  make_folder(folder->results());
-  make_folder(folder->checkpoints());
+    throw Error(Error_code::usage,
+                fmt::format("{}: holds a run that did not end: go on with it by `cellwalk run --resume {}`, "
+                            "or remove it",
+                            folder->shown(), destination.string()));
   return folder;
+}
+
+void Working_folder::begin() {
+  std::error_code failure, ignored;
+  if (has_checkpoint(checkpoints()) && !are_results_in_place())
+    for (const char* name : folders) {
+      fs::rename(path_ / name, earlier(name), failure);
+      if (failure) fail_at(path_, "cannot be written", failure);
+    }
+  // What ended before its first checkpoint is of no use.
+  for (const char* name : folders) fs::remove_all(path_ / name, ignored);
+  fs::remove(path_ / "ended", ignored);
+  is_own_ = true;
+  make_folder(results());
+  make_folder(checkpoints());
+}
+
+void Working_folder::forget_earlier() noexcept {
+  std::error_code ignored;
+  for (const char* name : {folders[1], folders[0]}) fs::remove_all(earlier(name), ignored);
+}
+
+/// What was put aside first comes back last: until then a process that is killed leaves it to the next one.
+void Working_folder::bring_earlier_back() noexcept {
+  std::error_code failure;
+  for (const char* name : {folders[1], folders[0]}) {
+    if (!fs::exists(earlier(name), failure)) continue;
+    fs::remove_all(path_ / name, failure);
+    if (!failure) fs::rename(earlier(name), path_ / name, failure);
+    if (failure) return;
+  }
+}
+
+/// After a process was killed that began anew.
+void Working_folder::sort_out_earlier() {
+  if (std::error_code ignored; !fs::exists(earlier(folders[0]), ignored)) return;
+  if (has_checkpoint(checkpoints()))
+    forget_earlier();
+  else
+    bring_earlier_back();
 }
 
 std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destination) {
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
   if (!is_of_a_run(folder->path_))
     throw Error(Error_code::usage,
-                fmt::format("{}.part: is no folder of a run that did not end: only one with "
-                            "--checkpoint-every leaves it",
-                            destination.string()));
+                folder->shown() +
+                    ": is no folder of a run that did not end: only one with --checkpoint-every leaves it");
   folder->lock();
-  const std::string ended = content(folder->path_ / "ended");
-  folder->is_done_ = !ended.empty() && ended == identity(folder->destination_);
+  folder->sort_out_earlier();
+  folder->is_done_ = folder->are_results_in_place();
   if (!folder->is_done_) remove_unfinished_files(folder->path_);
   return folder;
+}
+
+bool Working_folder::are_results_in_place() const {
+  const std::string ended = content(path_ / "ended");
+  // The results of an earlier run may be the same.
+  return !ended.empty() && ended == identity(destination_) && ended != identity(results());
 }
 
 bool Working_folder::has_ended(const fs::path& destination) {
@@ -136,8 +180,8 @@ bool Working_folder::has_ended(const fs::path& destination) {
          fs::is_regular_file(folder.destination_ / "run.json", ignored);
 }
 
-void Working_folder::allow_replacing(bool replaces) {
-  replaces_ = replaces;
+void Working_folder::allow_replacing(const std::string& name) {
+  replaces_ = destination_.filename() == name;
   if (!Output_folder::is_replaceable(destination_, replaces_)) refuse_destination(Error_code::usage);
 }
 
@@ -155,22 +199,36 @@ void Working_folder::lock() {
   // The other process may have removed the file that was opened.
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && is_same_file(lock_, file)) return;
   close(std::exchange(lock_, -1));  // what is here belongs to the other one
-  throw Error(Error_code::usage,
-              fmt::format("{}.part: another process runs there: wait until it ends", name_.string()));
+  throw Error(Error_code::usage, shown() + ": another process runs there: wait until it ends");
+}
+
+/// Its name as that of the destination was given, for messages.
+std::string Working_folder::shown() const {
+  const fs::path given = name_.has_filename() ? name_ : name_.parent_path();
+  const fs::path last = given.filename();
+  return last == "." || last == ".." ? path_.string() : given.string() + ".part";
 }
 
 Working_folder::~Working_folder() {
-  if (!is_done_ && lock_ >= 0 && !has_checkpoint(checkpoints())) clear();
+  std::error_code ignored;
+  if (lock_ < 0 && is_own_)
+    fs::remove(path_, ignored);  // unless another process is in it by now
+  else if (is_own_ && !is_done_ && !has_checkpoint(checkpoints()) && fs::exists(earlier(folders[0]), ignored))
+    bring_earlier_back();
+  else if (is_own_ && !is_done_ && !has_checkpoint(checkpoints()))
+    clear();
   if (lock_ >= 0) close(lock_);
 }
 
 /// Removes what runs leave here. What tells that one has ended goes last: whoever finds it removes the rest.
 void Working_folder::clear() noexcept {
   std::error_code failure;
-  for (const fs::path& folder : {results(), checkpoints()}) {
-    fs::remove_all(folder, failure);
-    if (failure) return;
-  }
+  fs::remove(results() / "run.json", failure);  // what is half removed is not taken for results
+  for (const char* name : {folders[1], folders[0]})
+    for (const fs::path& folder : {path_ / name, earlier(name)}) {
+      fs::remove_all(folder, failure);
+      if (failure) return;
+    }
   for (const char* file : {"ended.tmp", "lock", "ended"}) fs::remove(path_ / file, failure);
   fs::remove(path_, failure);
 }

@@ -9,19 +9,28 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace cellwalk::cli {
 
 /// OUT.part, with the folders `results`, which becomes OUT, and `checkpoints`. One process uses it at a time.
 class Working_folder final : public io::Output {
  public:
-  /// Makes it. Without a checkpoint, the destructor removes it.
+  /// Makes it, or takes one that an earlier run left: what is in that stays until begin().
   /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(other)
   ///        if it cannot be made
   static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
-  /// Takes up what an earlier process left: unfinished files in it are removed.
+  /// Takes up what an earlier process left: unfinished files in it are removed, and nothing else before
+  /// settle().
   /// \throw Error(usage) if there is none, or another process uses it
   static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
+
+  /// Of one that was made: puts what an earlier run left aside, and makes the folders of this one. Without a
+  /// checkpoint, the destructor then removes them, and brings the earlier run back.
+  /// \throw Error(other) if they cannot be made
+  void begin();
+  /// Once there is a checkpoint: removes what an earlier run left.
+  void forget_earlier() noexcept;
 
   /// True if there is none, or an empty one, but results of a run.
   static bool has_ended(const std::filesystem::path& destination);
@@ -33,9 +42,9 @@ class Working_folder final : public io::Output {
   /// True if the results were put in place before, and only what is here could not be removed.
   bool is_done() const { return is_done_; }
 
-  /// Of one that was taken up: whether it was begun to replace an earlier run.
+  /// Of one that was taken up: it was begun to replace an earlier run of that name. A copy replaces none.
   /// \throw Error(usage) if the destination is there, and is not to be replaced
-  void allow_replacing(bool replaces);
+  void allow_replacing(const std::string& name);
 
   void prepare() override;
   void put() override;
@@ -46,6 +55,11 @@ class Working_folder final : public io::Output {
  private:
   explicit Working_folder(const std::filesystem::path& destination);
   void lock();
+  std::string shown() const;
+  bool are_results_in_place() const;
+  std::filesystem::path earlier(const char* name) const { return path_ / (std::string(name) + ".before"); }
+  void sort_out_earlier();
+  void bring_earlier_back() noexcept;
   void clear() noexcept;
   [[noreturn]] void refuse_destination(Error_code code) const;
 
@@ -53,6 +67,7 @@ class Working_folder final : public io::Output {
   io::Replacement replacement_;
   int lock_ = -1;
   bool replaces_ = false, is_done_ = false;
+  bool is_own_ = false;  ///< holds nothing of an earlier process
 };
 
 }  // namespace cellwalk::cli

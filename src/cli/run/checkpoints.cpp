@@ -13,6 +13,7 @@
 #include <utility>
 #include <variant>
 
+#include "cli/common/output_folder.h"
 #include "cli/common/printable.h"
 
 namespace cellwalk::cli {
@@ -38,7 +39,7 @@ Run_settings::Run_settings(const Run_options& options, std::vector<std::string> 
       json_path(absolute_path(options.json)),
       steps(options.steps),
       every(options.checkpoint_every),
-      force(options.force),
+      replaced(options.force ? Output_folder::place_of(options.folder).filename().string() : ""),
       sweep(options.body.sweep.sweep),
       notes(std::move(notes_of_bodies)) {}
 

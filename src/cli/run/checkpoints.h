@@ -27,7 +27,7 @@ struct Run_settings {
   std::string scene, scene_text, record, json;
   std::string record_path, json_path;  ///< wherever the program is called
   std::uint32_t steps = 0, every = 0;
-  bool force = false;
+  std::string replaced;  ///< the name of the folder that --force replaces, without its place; empty: none
   Sweep sweep = Sweep::triangle;
   std::vector<std::string> notes;  ///< on the files of bodies
 
@@ -36,7 +36,7 @@ struct Run_settings {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(scene, scene_text, record, json, record_path, json_path, steps, every, force, sweep, notes);
+    a(scene, scene_text, record, json, record_path, json_path, steps, every, replaced, sweep, notes);
   }
 };
 

@@ -67,6 +67,7 @@ Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, bool is_
     saved(*picture);
   }
   saved.expect_end();
+  place.check_complete();
 }
 
 template <int D>

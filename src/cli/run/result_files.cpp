@@ -2,9 +2,11 @@
 #include "result_files.h"
 
 #include <cellwalk/internal/io/gzip.h>
+#include <cellwalk/kernel/error.h>
 
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace cellwalk::cli {
@@ -43,6 +45,7 @@ std::shared_ptr<io::Growing_file> Result_files::growing(const std::string& name,
   std::uint64_t length = 0;
   if (lengths_)
     if (const auto known = lengths_->find(name); known != lengths_->end()) length = known->second;
+  complete_lengths_.erase(name);
   return growing_[name] = std::make_shared<io::Growing_file>(path, length);
 }
 
@@ -61,17 +64,32 @@ std::unique_ptr<io::Byte_sink> Result_files::aside(const std::string& name) {
 }
 
 void Result_files::note(const std::string& name) {
-  if (aside_) complete_.push_back(folder_ / name);
+  if (aside_) complete_.push_back(name);
+}
+
+void Result_files::check_complete() const {
+  for (const auto& [name, length] : complete_lengths_) {
+    const std::filesystem::path file = folder_ / name;
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(file, failure))
+      throw Error(Error_code::input,
+                  file.string() + ": is missing, and was there at the checkpoint: begin the run again");
+    if (std::filesystem::file_size(file, failure) != length)
+      throw Error(Error_code::input,
+                  file.string() + ": has another length than at the checkpoint: it was changed");
+  }
 }
 
 Result_files::Lengths Result_files::sync() {
-  Lengths lengths;
-  for (const auto& [name, file] : growing_) lengths[name] = file->sync();
   std::set<std::filesystem::path> folders{folder_, *aside_};
-  for (const std::filesystem::path& file : complete_) {
+  for (const std::string& name : complete_) {
+    const std::filesystem::path file = folder_ / name;
     io::sync(file);
+    complete_lengths_[name] = std::filesystem::file_size(file);
     folders.insert(file.parent_path());
   }
+  Lengths lengths = complete_lengths_;
+  for (const auto& [name, file] : growing_) lengths[name] = file->sync();
   for (const std::filesystem::path& folder : folders) io::sync(folder);
   complete_.clear();
   return lengths;

@@ -19,7 +19,7 @@ namespace cellwalk::cli {
 
 class Result_files {
  public:
-  /// How long each file that grows is, by name.
+  /// How long each file is, by name: those that grow, and those that are complete.
   using Lengths = std::map<std::string, std::uint64_t>;
 
   /// Each file is complete or not there.
@@ -28,7 +28,10 @@ class Result_files {
   /// \param aside for what is not to be seen among the results
   /// \param lengths at the checkpoint from which the run goes on; none: it begins
   Result_files(std::filesystem::path folder, std::filesystem::path aside, std::optional<Lengths> lengths)
-      : folder_(std::move(folder)), aside_(std::move(aside)), lengths_(std::move(lengths)) {}
+      : folder_(std::move(folder)),
+        aside_(std::move(aside)),
+        lengths_(std::move(lengths)),
+        complete_lengths_(lengths_.value_or(Lengths{})) {}
 
   const std::filesystem::path& folder() const { return folder_; }
   /// True if files grow where they are.
@@ -45,9 +48,12 @@ class Result_files {
   std::unique_ptr<io::Byte_sink> aside(const std::string& name);
   std::filesystem::path aside_path(const std::string& name) const { return *aside_ / name; }
 
+  /// \throw Error(input) if a file that was complete at the checkpoint is missing, or has another length
+  /// \pre is_continued(), and all files that grow were opened
+  void check_complete() const;
   /// Notes a file among the results that is complete.
   void note(const std::string& name);
-  /// Waits until all that was written is on the device.
+  /// Waits until all that was written is on the device, and returns the lengths for a checkpoint.
   /// \pre files grow where they are
   Lengths sync();
 
@@ -56,9 +62,10 @@ class Result_files {
 
   std::filesystem::path folder_;
   std::optional<std::filesystem::path> aside_;
-  std::optional<Lengths> lengths_;
+  std::optional<Lengths> lengths_;  ///< at the checkpoint from which the run goes on
+  Lengths complete_lengths_;        ///< of files that are complete, as soon as those that grow were opened
   std::map<std::string, std::shared_ptr<io::Growing_file>> growing_;
-  std::vector<std::filesystem::path> complete_;  ///< since the last checkpoint
+  std::vector<std::string> complete_;  ///< since the last checkpoint
 };
 
 }  // namespace cellwalk::cli

@@ -59,14 +59,17 @@ void draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::files
 /// Runs the steps that are left.
 template <int D>
 void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing,
-               Run_checkpoints<D>* checkpoints, const Interruption& interruption) {
+               Run_checkpoints<D>* checkpoints, Working_folder* working, const Interruption& interruption) {
   Progress progress("running " + input.options.scene, input.steps());
   const auto keep = [&](std::uint32_t step) {
     checkpoints->keep(step, input.environment, input.certificate,
                       [&](detail::Byte_writer& out) { parts.save(out); });
   };
   std::uint32_t i = parts.world.steps_done();
-  if (checkpoints != nullptr && i == 0) keep(0);
+  if (checkpoints != nullptr && i == 0) {
+    keep(0);
+    working->forget_earlier();
+  }
   while (i++ < input.steps()) {
     parts.step(sharing, i == input.steps());
     if (checkpoints != nullptr && (checkpoints->is_due(i) || interruption.has_come())) keep(i);
@@ -145,6 +148,7 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   // long.
   World<D> world = make_world(input, bodies.shapes);
   const Interruption interruption;
+  if (outputs->working != nullptr) outputs->working->begin();
   const Attentive_wait wait(ranks, interruption);
   Run_parts<D> parts(input, place, std::move(world), groups, outputs->record != nullptr);
   Run_sharing<D> sharing(ranks, parts.world, state_times(input, parts.world));
@@ -152,7 +156,7 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   if (outputs->working != nullptr)
     checkpoints.emplace(outputs->working->checkpoints(), place, Run_settings(options, bodies.notes),
                         changes_environment(scene));
-  run_steps(input, parts, sharing, checkpoints ? &*checkpoints : nullptr, interruption);
+  run_steps(input, parts, sharing, checkpoints ? &*checkpoints : nullptr, outputs->working, interruption);
   finish(input, parts, sharing, *outputs, place.folder());
   interruption.check();
   outputs->all.commit(summary(input, parts));
@@ -176,7 +180,7 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
   Run_checkpoints<D> checkpoints(folder, place, std::move(settings), changes_environment(scene));
   Ranks alone;
   Run_sharing<D> sharing(alone, parts.world, state_times(input, parts.world));
-  run_steps(input, parts, sharing, &checkpoints, interruption);
+  run_steps(input, parts, sharing, &checkpoints, outputs.working, interruption);
   finish(input, parts, sharing, outputs, place.folder());
   interruption.check();
   outputs.all.commit(summary(input, parts));
@@ -210,7 +214,7 @@ void resume(Run_options options, const Asked& asked) {
   }
   Kept_run kept = read_checkpoint(outputs.working->checkpoints());
   const Run_settings& settings = kept.settings;
-  outputs.working->allow_replacing(settings.force);
+  outputs.working->allow_replacing(settings.replaced);
   const Any_scene scene = io::parse_scene(settings.scene, settings.scene_text,
                                           std::filesystem::path(settings.scene).parent_path());
   const std::uint32_t steps =

@@ -2,7 +2,6 @@
 // cellwalk run --checkpoint-every and --resume: what is left where, what is refused, and what goes wrong.
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -199,9 +198,7 @@ TEST_F(Checkpoints, ARunThatHadEndedSaysSo) {
   // As if it had been killed before its checkpoints were removed.
   fs::rename(path("copy"), part());
   fs::remove_all(part() / "results");
-  struct stat status;
-  ASSERT_EQ(stat((parts() / "out").c_str(), &status), 0);
-  write_text(part() / "ended", std::to_string(status.st_dev) + " " + std::to_string(status.st_ino) + "\n");
+  fs::copy(parts() / "out" / "run.json", part() / "ended");
   for (int k = 0; k < 2; ++k) {
     const Outcome again = go_on();
     EXPECT_EQ(again.exit_code, 0) << again.err;
