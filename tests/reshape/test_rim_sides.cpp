@@ -79,8 +79,8 @@ TYPED_TEST(RimSides, AnEdgeAroundTheRimIsInItsWay) {
   scene.expect_hit(at<D>(1, 0), 0, 1);
 }
 
-/// Walls part what is below point 0 into three, and what is above it into two. The edge is above it, where two
-/// facets without walls meet: the edge is in both cells, and each end keeps that in which it came.
+/// Walls part what is below point 0 into three, and what is above it into two. The edge is above it, where
+/// two facets without walls meet: it is in both cells, and each end keeps that in which it came.
 TEST(RimSides, BothEndsOfAnEdgeTakeTheSameSideWhateverTheirCells) {
   constexpr double far = 0.5;
   for (const double y : {far, -far})

@@ -237,8 +237,8 @@ class Edge_search {
     return true;
   }
 
-  /// The key of the order of ends: for each piece whether the displaced edge passes it in other cells than those
-  /// of its class, then the least corners of these.
+  /// The key of the order of ends: for each piece whether the displaced edge passes it in other cells than
+  /// those of its class, then the least corners of these.
   using Order = std::pair<std::vector<bool>, std::vector<std::vector<Point<D>>>>;
 
   Order order_of(const Star_cut<D>& cut, const Chain_class& state) const {

@@ -86,8 +86,8 @@ class Vertex_search {
     return classes;
   }
 
-  /// The key of the order of classes, the same for all particles at a place: whether the displaced particle is
-  /// elsewhere, and the least corners.
+  /// The key of the order of classes, the same for all particles at a place: whether the displaced particle
+  /// is elsewhere, and the least corners.
   std::pair<bool, std::vector<Point<D>>> order_of(const Cell_class& one, const Fraction& inside) const {
     const auto holds = [&](Cell c) { return holds_displaced(c, inside); };
     std::pair<bool, std::vector<Point<D>>> order{std::ranges::none_of(one.cells, holds), {}};

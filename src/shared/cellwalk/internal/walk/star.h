@@ -301,8 +301,9 @@ class Star_search {
   double steepest_ = 0;
 };
 
-/// Takes the corners of a cell, in increasing order, if they are less than the least so far, or the first. Sides
-/// in the order of their least corners do not depend on lists of cells, nor on which cell stands for a side.
+/// Takes the corners of a cell, in increasing order, if they are less than the least so far, or the first.
+/// Sides in the order of their least corners do not depend on lists of cells, nor on which cell stands for a
+/// side.
 template <int D>
 void take_least(const Cell_view<D>& cell, std::vector<Point<D>>& least) {
   std::vector<Point<D>> corners;
