@@ -179,8 +179,8 @@ TEST(PinchedBodies, MembranesSideBySideHoldAllOnOneSide) {
       }
 }
 
-// A corner comes to the line, in the plane of one of the two walls: the edge at it passes that wall on a fixed
-// side, and may come out of the quarter in which the face stays.
+// A corner comes to the line, in the plane of one of the two walls: the edge at it passes that wall on a
+// fixed side, and may come out of the quarter in which the face stays.
 TEST(PinchedBodies, NoWallComesBetweenAFaceAndItsOwnEdge) {
   const auto room = with_walls({below, behind});
   for (const bool is_upright : {false, true})
