@@ -40,7 +40,7 @@ void check_rule(const Body_options& options, const detail::Body_topology& topolo
 template <int D>
 std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, const Locator<D>& locator,
                                                   const Body_soup<D>& soup,
-                                                  std::span<const Particle<D>> before,
+                                                  const detail::Registered_before<D>& before,
                                                   const detail::Body_certificates& certificates) {
   auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before, certificates);
   if constexpr (D == 3) {
@@ -78,7 +78,13 @@ template <int D>
 void Body<D>::register_again(const Locator<D>& locator) {
   const detail::Body_state<D>& now = *state_;
   const Body_soup<D> soup{now.positions, now.topology.edges(), now.topology.faces()};
-  state_ = registered<D>(*now.snapshot, locator, soup, now.particles, now.certificates);
+  try {
+    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, now.chains}, now.certificates);
+  } catch (const Error& error) {
+    // A wall may have come between a face and an edge whose chain was kept: another chain may pass it.
+    if (error.code() != Error_code::outside || now.topology.faces().empty()) throw;
+    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, {}}, now.certificates);
+  }
 }
 
 template <int D>

@@ -3,13 +3,11 @@
 
 #include <utility>
 
-#include "registration.h"
-
 namespace cellwalk::detail {
 
 template <int D>
 Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-                          std::span<const Particle<D>> before, const Body_certificates& of_body)
+                          const Registered_before<D>& before, const Body_certificates& of_body)
     : Body_state(of_snapshot, soup.points,
                  Body_topology(soup.points.size(), soup.edges,
                                D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),

@@ -18,6 +18,7 @@
 #include "free_moves.h"
 #include "region_cache.h"
 #include "region_pool.h"
+#include "registration.h"
 
 namespace cellwalk::detail {
 
@@ -46,7 +47,7 @@ struct Body_state {
   /// Registers a body; faces are left.
   /// \throw Error(outside) as Body does
   Body_state(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-             std::span<const Particle<D>> before, const Body_certificates& of_body);
+             const Registered_before<D>& before, const Body_certificates& of_body);
   /// A body of a snapshot that is not registered anywhere yet.
   Body_state(const Snapshot<D>& snapshot, std::vector<Point<D>> points, Body_topology joined,
              const Body_certificates& of_body);

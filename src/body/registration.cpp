@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -18,10 +17,14 @@ template <int D>
 class Registration {
  public:
   Registration(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-               std::span<const Particle<D>> before)
-      : snapshot_(snapshot), soup_(soup), sides_(soup.points.size()), edges_at_(soup.points.size()) {
-    for (std::uint32_t v = 0; v < soup.points.size(); ++v)
-      sides_[v] = sides(v, locator, before.empty() ? Cell::none : before[v].cell);
+               const Registered_before<D>& before)
+      : snapshot_(snapshot),
+        soup_(soup),
+        before_(before),
+        sides_(soup.points.size()),
+        edges_at_(soup.points.size()) {
+    for (std::uint32_t v = 0; v < soup.points.size(); ++v) sides_[v] = sides(v, locator, cell_before(v));
+    for (std::uint32_t e = 0; e < before.chains.size(); ++e) keeps_chain_[e] = is_chain_before(e);
     for (std::uint32_t e = 0; e < soup.edges.size(); ++e)
       for (const std::uint32_t v : soup.edges[e]) edges_at_[v].push_back(e);
   }
@@ -29,13 +32,15 @@ class Registration {
   Registered<D> run() {
     for (std::uint32_t e = 0; e < soup_.edges.size(); ++e) narrow_all(e);
     // What is left agrees edge by edge. A vertex with a choice takes one side, and its neighbours follow.
-    for (std::uint32_t v = 0; v < sides_.size(); ++v)
-      if (sides_[v].size() > 1) choose(v);
+    // Those that can stay where they were go first, so that none that cannot makes them leave.
+    for (const bool can_stay : {true, false})
+      for (std::uint32_t v = 0; v < sides_.size(); ++v)
+        if (sides_[v].size() > 1 && is_as_before(v, sides_[v].front()) == can_stay) choose(v);
     Registered<D> result;
     for (const auto& sides : sides_) result.particles.push_back(sides.front());
-    for (const auto& [u, v] : soup_.edges) {
-      const auto found = find_any_chain(snapshot_, sides_[u].front(), sides_[v].front(), counts_);
-      result.chains.push_back(found.chain);
+    for (std::uint32_t e = 0; e < soup_.edges.size(); ++e) {
+      const auto [u, v] = soup_.edges[e];
+      result.chains.push_back(chain(e, sides_[u].front(), sides_[v].front()).chain);
     }
     return result;
   }
@@ -45,7 +50,30 @@ class Registration {
 
   std::string place(std::uint32_t v) const { return fmt::format("({})", fmt::join(soup_.points[v], ", ")); }
 
-  /// A particle for each side of the walls at a vertex. If `first` holds the vertex, its side comes first.
+  Cell cell_before(std::uint32_t v) const {
+    return before_.particles.empty() ? Cell::none : before_.particles[v].cell;
+  }
+  bool is_as_before(std::uint32_t v, const Particle<D>& side) const { return side.cell == cell_before(v); }
+
+  /// True if an edge has the chain that it had, from cell to cell. Names of facets may be gone since.
+  bool is_chain_before(std::uint32_t e) {
+    const auto [u, v] = soup_.edges[e];
+    const Particle<D>&p = sides_[u].front(), &q = sides_[v].front();
+    const auto is_facet = [&](Half_facet f) { return to_index(f) < snapshot_.half_facet_slots(); };
+    const Chain& chain = before_.chains[e];
+    return is_as_before(u, p) && is_as_before(v, q) && std::ranges::all_of(chain, is_facet) &&
+           is_chain(snapshot_, p, q, chain, counts_);
+  }
+
+  /// A chain between sides of the ends of an edge: that which it had, if it still holds. Faces may need it.
+  Chain_result<D> chain(std::uint32_t e, const Particle<D>& p, const Particle<D>& q) {
+    const auto [u, v] = soup_.edges[e];
+    if (keeps_chain_[e] && is_as_before(u, p) && is_as_before(v, q)) return {before_.chains[e], {}};
+    return find_any_chain(snapshot_, p, q, counts_);
+  }
+
+  /// A particle for each side of the walls at a vertex. If `first` holds the vertex, its side comes first, in
+  /// that cell.
   Sides sides(std::uint32_t v, const Locator<D>& locator, Cell first) {
     Location<D> here = locator.locate(soup_.points[v]);
     if (here.sides.empty())
@@ -57,6 +85,7 @@ class Registration {
       const auto side =
           here.sides.begin() + here.side_of_cell[static_cast<std::size_t>(kept - here.cells.begin())];
       std::rotate(here.sides.begin(), side, side + 1);
+      here.sides.front().cell = first;
     }
     return std::move(here.sides);
   }
@@ -69,7 +98,7 @@ class Registration {
     std::vector<bool> keep_u(of_u.size()), keep_v(of_v.size());
     for (std::size_t i = 0; i < of_u.size(); ++i)
       for (std::size_t j = 0; j < of_v.size(); ++j) {
-        const auto found = find_any_chain(snapshot_, of_u[i], of_v[j], counts_);
+        const auto found = chain(e, of_u[i], of_v[j]);
         if (found.contact) {
           if (!contact) contact = found.contact;
           continue;
@@ -154,12 +183,14 @@ class Registration {
 
   const Snapshot<D>& snapshot_;
   const Body_soup<D>& soup_;
+  const Registered_before<D>& before_;
   std::vector<Sides> sides_;
   std::vector<std::vector<std::uint32_t>> edges_at_;
   /// Sides of vertices before some were dropped, in order.
   std::vector<std::pair<std::uint32_t, Sides>> dropped_;
   std::vector<std::uint32_t> checked_;  ///< edges checked in the same time
   std::vector<bool> is_checked_ = std::vector<bool>(soup_.edges.size());
+  std::vector<bool> keeps_chain_ = std::vector<bool>(soup_.edges.size());  ///< from the sides before
   Walk_counts counts_;
 };
 
@@ -167,13 +198,13 @@ class Registration {
 
 template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-                            std::span<const Particle<D>> before) {
+                            const Registered_before<D>& before) {
   return Registration<D>(snapshot, locator, soup, before).run();
 }
 
 template Registered<2> register_body<2>(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&,
-                                        std::span<const Particle<2>>);
+                                        const Registered_before<2>&);
 template Registered<3> register_body<3>(const Snapshot<3>&, const Locator<3>&, const Body_soup<3>&,
-                                        std::span<const Particle<3>>);
+                                        const Registered_before<3>&);
 
 }  // namespace cellwalk::detail

@@ -18,12 +18,19 @@ struct Registered {
   std::vector<Chain> chains;  ///< of the edges, from their first end to their second
 };
 
-/// `before`, if not empty, says for each vertex where it was registered last: on walls it takes the same side
-/// if it can.
+/// How a body was registered before, by particles and chains that may be out of date. Empty if it was not.
+template <int D>
+struct Registered_before {
+  std::span<const Particle<D>> particles;
+  std::span<const Chain> chains;  ///< may be empty alone: then all are found anew
+};
+
+/// What `before` says is kept where it still holds: the cell of a vertex, and so its side of walls, and the
+/// chain of an edge.
 /// \throw Error(outside) as Body does
 template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
-                            std::span<const Particle<D>> before = {});
+                            const Registered_before<D>& before = {});
 
 }  // namespace cellwalk::detail
 

@@ -44,8 +44,9 @@ template <int D>
 class Body {
  public:
   /// Registers a body where it stands. A vertex on a wall with free space on several sides gets one from
-  /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. Faces in
-  /// the plane are not looked at.
+  /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. So is the
+  /// way of an edge that may pass walls on several sides: if one of its faces lies on another side of them,
+  /// the body is refused, although another way would do. Faces in the plane are not looked at.
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
   ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
@@ -56,14 +57,16 @@ class Body {
   Body& operator=(Body&& other) noexcept;
   ~Body();
 
-  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex in a
-  /// wall keeps the side on which it was, if the cell that it was registered in is there still and holds it,
-  /// and all its edges can be passed from there; else any side will do, as in the constructor. Faces in the
-  /// plane of a wall take their sides anew. Gives a region free of walls up.
-  /// \throw Error(outside) as the constructor, where a wall came to lie in the way: then the body is as it
-  ///        was, and may be tried again after another edit. Error(usage) for a locator made before points
-  ///        were moved or cells replaced
-  /// Cost: that of the constructor.
+  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex keeps
+  /// the cell that it was registered in, and so its side of a wall, if that is there still and holds it, and
+  /// all its edges can be passed from there. An edge keeps its chain, if that leads from end to end still,
+  /// unless a face is pierced then. Else any will do, as in the constructor. Faces in the plane of a wall
+  /// take their sides anew. Gives a region free of walls up.
+  /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or
+  ///        perhaps where cells of a vertex or an edge were replaced: then the body is as it was, and may be
+  ///        tried again after another edit. Error(usage) for a locator made before points were moved or cells
+  ///        replaced
+  /// Cost: that of the constructor; twice that if a face is pierced.
   void register_again(const Locator<D>& locator);
 
   std::size_t vertex_count() const { return positions().size(); }
