@@ -44,6 +44,7 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
                                                   const detail::Body_certificates& certificates) {
   auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before, certificates);
   if constexpr (D == 3) {
+    std::ranges::copy(before.supporting_walls, state->supporting_walls.begin());
     Face_counts counts;
     detail::register_faces(*state, Error_code::outside, counts);
   }
@@ -78,12 +79,14 @@ template <int D>
 void Body<D>::register_again(const Locator<D>& locator) {
   const detail::Body_state<D>& now = *state_;
   const Body_soup<D> soup{now.positions, now.topology.edges(), now.topology.faces()};
+  detail::Registered_before<D> before{now.particles, now.chains, {}};
+  if (now.are_faces_swept) before.supporting_walls = now.supporting_walls;
   try {
-    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, now.chains}, now.certificates);
+    state_ = registered<D>(*now.snapshot, locator, soup, before, now.certificates);
   } catch (const Error& error) {
     // A wall may have come between a face and an edge whose chain was kept: another chain may pass it.
     if (error.code() != Error_code::outside || now.topology.faces().empty()) throw;
-    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, {}}, now.certificates);
+    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, {}, {}}, now.certificates);
   }
 }
 

@@ -4,6 +4,7 @@
 #define CELLWALK_BODY_REGISTRATION_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/face.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
@@ -18,11 +19,13 @@ struct Registered {
   std::vector<Chain> chains;  ///< of the edges, from their first end to their second
 };
 
-/// How a body was registered before, by particles and chains that may be out of date. Empty if it was not.
+/// How a body was registered before, which may be out of date. Empty if it was not.
 template <int D>
 struct Registered_before {
   std::span<const Particle<D>> particles;
-  std::span<const Chain> chains;  ///< may be empty alone: then all are found anew
+  /// May be empty alone: then all are found anew. So may those of faces, which body_faces.h registers.
+  std::span<const Chain> chains;
+  std::span<const Supporting_walls> supporting_walls;
 };
 
 /// What `before` says is kept where it still holds: the cell of a vertex, and so its side of walls, and the

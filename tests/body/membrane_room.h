@@ -71,6 +71,8 @@ class Moving {
     return true;
   }
 
+  void register_again(const Snapshot<3>& snapshot) { body_.register_again(Locator<3>(snapshot)); }
+
   std::span<const Point<3>> positions() const { return body_.positions(); }
 
  private:

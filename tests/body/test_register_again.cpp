@@ -13,6 +13,8 @@
 #include <functional>
 #include <vector>
 
+#include "body/membrane_room.h"
+
 namespace cellwalk::test {
 namespace {
 
@@ -162,6 +164,20 @@ TEST(RegisterAgain, AVertexWhoseCellIsGoneFollowsItsNeighbour) {
         EXPECT_FALSE(body.move_vertex(v, {1 + 0.25 * side, y}, {}, counts)) << "off it";
       }
     }
+}
+
+// Membranes lie strictly inside of a face that was lowered or lifted to them: no edge knows its side.
+TEST(RegisterAgain, AFaceStaysOnItsSideOfWhatLiesInIt) {
+  for (const double start : {0.5, 1.5}) {
+    auto environment = with_membranes({6.9, 3.9, 0.9}, {9.1, 6.1, 1.1});
+    const Snapshot<3>& snapshot = environment.snapshot();
+    Moving face(snapshot, {{1, 1, start}, {20, 1, start}, {8, 11, start}}, {{0, 1, 2}});
+    ASSERT_TRUE(face.lift(1));
+    environment.set_impassable(facet_at(snapshot, {20.5, 11.5, 1}), true);
+    face.register_again(snapshot);
+    EXPECT_FALSE(face.lift(2 - start)) << "through the membranes";
+    EXPECT_TRUE(face.lift(start)) << "off them";
+  }
 }
 
 // Compaction renames cells. A name may be that of another cell at the vertex then, and names of facets may be

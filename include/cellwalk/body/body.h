@@ -60,8 +60,8 @@ class Body {
   /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex keeps
   /// the cell that it was registered in, and so its side of a wall, if that is there still and holds it, and
   /// all its edges can be passed from there. An edge keeps its chain, if that leads from end to end still,
-  /// unless a face is pierced then. Else any will do, as in the constructor. Faces in the plane of a wall
-  /// take their sides anew. Gives a region free of walls up.
+  /// and a face its side of walls in its plane, if it was last moved with faces swept, unless a face is
+  /// pierced then. Else any will do, as in the constructor. Gives a region free of walls up.
   /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or
   ///        perhaps where cells of a vertex or an edge were replaced: then the body is as it was, and may be
   ///        tried again after another edit. Error(usage) for a locator made before points were moved or cells
