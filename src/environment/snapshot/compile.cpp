@@ -95,6 +95,7 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
     for (std::size_t k = 0; k < cell.facets.size(); ++k)
       slot[cell.facets[k]] = half_facet(Cell{first_block[c]}, k);
   });
+  if (s.shapes_.size() > 1) compiler.number_shapes();
   std::atomic<std::size_t> uncertified{0};
   for_each_parallel(cells, [&](std::size_t i) {
     const std::uint32_t c = order[i];

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "plane_compiler.h"
 
@@ -80,6 +81,23 @@ void Snapshot_compiler<D>::write_cell(const Canonical_cell& cell, std::uint32_t 
   s_.shape_[block] = shape_number(cell.shape) | (solid ? Snapshot<D>::solid_bit : 0);
   std::copy(cell.vertices.begin(), cell.vertices.end(), s_.vertices_.begin() + vertex);
   s_.cell_of_index_[index] = block;
+}
+
+template <int D>
+void Snapshot_compiler<D>::number_shapes() {
+  constexpr std::uint32_t none = Snapshot<D>::shape_mask;
+  std::vector<std::uint32_t> number(s_.shapes_.size(), none);
+  std::vector<Cell_shape> shapes;
+  for (std::uint32_t& word : s_.shape_) {
+    if (word & Snapshot<D>::continuation_bit) continue;
+    const std::uint32_t before = word & none;
+    if (number[before] == none) {
+      number[before] = static_cast<std::uint32_t>(shapes.size());
+      shapes.push_back(std::move(s_.shapes_[before]));
+    }
+    word = (word & ~none) | number[before];
+  }
+  s_.shapes_ = std::move(shapes);
 }
 
 template <int D>

@@ -28,6 +28,8 @@ class Snapshot_compiler {
   /// Writes a canonical cell into the blocks from `block` on and the vertices from `vertex` on.
   void write_cell(const Canonical_cell& cell, std::uint32_t block, std::uint32_t vertex, std::uint32_t index,
                   bool solid);
+  /// Numbers the shapes of all cells written in the order of the blocks, whichever thread wrote them first.
+  void number_shapes();
   /// Marks a cell as removed: every point is outside of it, and all its facets are walls. Its indices stay
   /// valid.
   void remove_cell(Cell c);
