@@ -28,7 +28,7 @@ class Resting_face {
     if (face_.side(a) != 0 || face_.side(b) != 0) return true;
     const int at_start = face_.side(from), at_end = face_.side(to);
     if (at_start == 0 && face_.overlaps({from, a, b})) return leave(wall.facet, at_end);
-    if (at_end == 0 && face_.overlaps({to, a, b})) return arrive(wall.facet, at_start);
+    if (at_end == 0 && face_.overlaps({to, a, b})) arrive(wall.facet, at_start);
     return true;
   }
 
@@ -55,15 +55,14 @@ class Resting_face {
     return (one == 0 || other == 0) && one + other == to_side;
   }
 
-  /// The wall comes from a side: the face is on its other one.
-  bool arrive(Half_facet wall, int from_side) {
-    for (const Half_facet half : {wall, snapshot_.opposite(wall)}) {
-      if (side_of(half) != -from_side) continue;
-      walls_.push_back(half);
-      return true;
-    }
-    // The free space of the wall is behind it only: the face will be on a wall that coincides with it.
-    return true;
+  /// The wall comes from a side: the face is on its other one. Where the free space of the wall is behind it
+  /// only, the face will be on a wall that coincides with it.
+  void arrive(Half_facet wall, int from_side) {
+    for (const Half_facet half : {wall, snapshot_.opposite(wall)})
+      if (side_of(half) == -from_side) {
+        walls_.push_back(half);
+        return;
+      }
   }
 
   const Snapshot<3>& snapshot_;
