@@ -110,10 +110,18 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
     if (n) uncertified += n;
   });
   s.uncertified_planes_ = uncertified;
-  for_each_parallel(cells, [&](std::size_t i) {
-    const std::uint32_t c = order[i];
-    for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
-      if (gluing.opposite[f] != no_facet && f < gluing.opposite[f]) compiler.write_convex_pair(slot[f]);
+  // A pair is found by links that other pairs mark: first all are found.
+  std::vector<std::uint8_t> is_pair(soup.facet_count());
+  const auto for_each_glued = [&](const auto& visit) {
+    for_each_parallel(cells, [&](std::size_t i) {
+      const std::uint32_t c = order[i];
+      for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
+        if (gluing.opposite[f] != no_facet && f < gluing.opposite[f]) visit(f);
+    });
+  };
+  for_each_glued([&](std::uint32_t f) { is_pair[f] = compiler.is_convex_pair(slot[f]); });
+  for_each_glued([&](std::uint32_t f) {
+    if (is_pair[f]) compiler.mark_convex_pair(slot[f], slot[gluing.opposite[f]]);
   });
   return s;
 }

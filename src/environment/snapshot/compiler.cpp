@@ -219,47 +219,51 @@ bool Snapshot_compiler<D>::is_convex(Cell a, std::size_t facet, Cell b) const re
 }
 
 template <int D>
+bool Snapshot_compiler<D>::is_convex_pair(Half_facet f) const {
+  const Half_facet opposite = s_.opposite(f);
+  if (opposite == Half_facet::none) return false;
+  const Cell a = s_.cell_of(f), b = s_.cell_of(opposite);
+  const Cell_view<D> va = s_.view(a), vb = s_.view(b);
+  for (std::size_t i = 0; i < va.facet_count(); ++i) {
+    const Half_facet shared = s_.half_facet(a, i);
+    if (s_.neighbour(shared) != b) continue;
+    if (s_.is_impassable(shared)) return false;
+    const std::size_t j = s_.facet_of(s_.opposite(shared));
+    const auto loop = va.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const std::uint32_t u = va.point_index(loop[k]), v = va.point_index(loop[(k + 1) % loop.size()]);
+      const std::size_t ga = across_ridge(va, i, u, v), gb = across_ridge(vb, j, D == 2 ? u : v, u);
+      if (ga == va.facet_count() || gb == vb.facet_count()) return false;
+      // A ridge between two shared facets lies inside the union.
+      if (s_.neighbour(s_.half_facet(a, ga)) == b &&
+          s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
+        continue;
+      bool in_one_plane = true;
+      for (const std::uint16_t w : vb.loop(gb)) {
+        // The ridge itself lies in both facets: exact zeros that need not be computed.
+        const std::uint32_t point = vb.point_index(w);
+        if (point == u || (D == 3 && point == v)) continue;
+        const int s = side(va, ga, vb.point(w));
+        if (s > 0) return false;
+        in_one_plane &= s == 0;
+      }
+      // If that plane is also that of the shared facet, both cells continue in it without being glued: a
+      // slit.
+      if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
+    }
+  }
+  return true;
+}
+
+template <int D>
 void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
   constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
   const Half_facet opposite = s_.opposite(f);
   if (opposite == Half_facet::none) return;
-  const Cell a = s_.cell_of(f), b = s_.cell_of(opposite);
-  const Cell_view<D> va = s_.view(a), vb = s_.view(b);
-  const auto is_convex = [&] {
-    for (std::size_t i = 0; i < va.facet_count(); ++i) {
-      const Half_facet shared = s_.half_facet(a, i);
-      if (s_.neighbour(shared) != b) continue;
-      if (s_.is_impassable(shared)) return false;
-      const std::size_t j = s_.facet_of(s_.opposite(shared));
-      const auto loop = va.loop(i);
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const std::uint32_t u = va.point_index(loop[k]), v = va.point_index(loop[(k + 1) % loop.size()]);
-        const std::size_t ga = across_ridge(va, i, u, v), gb = across_ridge(vb, j, D == 2 ? u : v, u);
-        if (ga == va.facet_count() || gb == vb.facet_count()) return false;
-        // A ridge between two shared facets lies inside the union.
-        if (s_.neighbour(s_.half_facet(a, ga)) == b &&
-            s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
-          continue;
-        bool in_one_plane = true;
-        for (const std::uint16_t w : vb.loop(gb)) {
-          // The ridge itself lies in both facets: exact zeros that need not be computed.
-          const std::uint32_t point = vb.point_index(w);
-          if (point == u || (D == 3 && point == v)) continue;
-          const int s = side(va, ga, vb.point(w));
-          if (s > 0) return false;
-          in_one_plane &= s == 0;
-        }
-        // If that plane is also that of the shared facet, both cells continue in it without being glued: a
-        // slit.
-        if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
-      }
-    }
-    return true;
-  };
-  const bool convex = is_convex();
+  const bool is_pair = is_convex_pair(f);
   for (const Half_facet h : {f, opposite}) {
     std::uint32_t& word = s_.links_[to_index(h)];
-    word = convex ? word | bit : word & ~bit;
+    word = is_pair ? word | bit : word & ~bit;
   }
 }
 

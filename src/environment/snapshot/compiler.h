@@ -65,8 +65,14 @@ class Snapshot_compiler {
   /// The number of current planes of a cell that certify nothing; 0 for a cell just written, which has no
   /// planes yet.
   std::size_t count_uncertified(Cell c) const;
-  /// Recomputes the convex-pair bit of a facet on both sides. One thread per facet.
+  /// Whether the cells at a facet are a convex pair. Thread-safe unless a link is written.
+  bool is_convex_pair(Half_facet f) const;
+  /// Recomputes the convex-pair bit of a facet on both sides.
   void write_convex_pair(Half_facet f);
+  /// Sets the convex-pair bits of both sides of a facet. Reads no other link.
+  void mark_convex_pair(Half_facet f, Half_facet opposite) {
+    for (const Half_facet h : {f, opposite}) s_.links_[to_index(h)] |= Snapshot<D>::convex_pair_bit;
+  }
   /// True if all facets of a cell are triangles, and there are four.
   bool is_tetrahedron(Cell c) const;
   /// Recomputes the convex-pair bits of the facets of a tetrahedron on both sides.
