@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "find_supporting_walls.h"
 
+#include <cellwalk/internal/kernel/predicates.h>
+
 #include <algorithm>
 
 #include "supporting_wall_search.h"
