@@ -41,6 +41,7 @@ install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/c
 # Of the internal headers those that public ones include; tests/architecture knows if one is missing, or one too many.
 set(installed_internals
   environment/cell_clusters.h
+  environment/edit_log.h
   environment/flat_array.h
   environment/planes.h
   environment/tissue_boxes.h

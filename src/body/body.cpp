@@ -10,6 +10,7 @@
 
 #include "body_faces.h"
 #include "body_state.h"
+#include "register_again.h"
 #include "step_at_target.h"
 #include "vertex_move.h"
 
@@ -39,14 +40,13 @@ void check_rule(const Body_options& options, const detail::Body_topology& topolo
 
 template <int D>
 std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, const Locator<D>& locator,
-                                                  const Body_soup<D>& soup,
-                                                  const detail::Registered_before<D>& before,
-                                                  const detail::Body_certificates& certificates) {
-  auto state = std::make_unique<detail::Body_state<D>>(snapshot, locator, soup, before, certificates);
+                                                  const Body_soup<D>& soup) {
+  auto state = std::make_unique<detail::Body_state<D>>(
+      snapshot, locator, soup, detail::Registered_before<D>{}, detail::Body_certificates{});
   if constexpr (D == 3) {
-    std::ranges::copy(before.supporting_walls, state->supporting_walls.begin());
-    Face_counts counts;
-    detail::register_faces(*state, Error_code::outside, counts);
+    Face_counts uncounted;
+    const auto pierced = detail::register_faces(*state, uncounted);
+    if (!pierced.empty()) detail::refuse_pierced(*state, pierced.front(), Error_code::outside);
   }
   return state;
 }
@@ -55,7 +55,7 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
 
 template <int D>
 Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup)
-    : state_(registered<D>(snapshot, locator, soup, {}, {})) {}
+    : state_(registered<D>(snapshot, locator, soup)) {}
 
 template <int D>
 Body<D>::Body(std::unique_ptr<detail::Body_state<D>> state) : state_(std::move(state)) {}
@@ -77,17 +77,7 @@ Body<D>::~Body() = default;
 
 template <int D>
 void Body<D>::register_again(const Locator<D>& locator) {
-  const detail::Body_state<D>& now = *state_;
-  const Body_soup<D> soup{now.positions, now.topology.edges(), now.topology.faces()};
-  detail::Registered_before<D> before{now.particles, now.chains, {}};
-  if (now.are_faces_swept) before.supporting_walls = now.supporting_walls;
-  try {
-    state_ = registered<D>(*now.snapshot, locator, soup, before, now.certificates);
-  } catch (const Error& error) {
-    // A wall may have come between a face and an edge whose chain was kept: another chain may pass it.
-    if (error.code() != Error_code::outside || now.topology.faces().empty()) throw;
-    state_ = registered<D>(*now.snapshot, locator, soup, {now.particles, {}, {}}, now.certificates);
-  }
+  state_ = detail::registered_again(*state_, locator);
 }
 
 template <int D>

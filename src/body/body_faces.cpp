@@ -137,32 +137,35 @@ Face_registration registered_face(const Body_state<3>& body, std::uint32_t face,
                        {side(0, u, v), side(1, v, w), side(2, w, u)}, counts, body.supporting_walls[face]);
 }
 
-void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts) {
+std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& counts) {
+  std::vector<Pierced_face> pierced;
   for (std::uint32_t f = 0; f < body.supporting_walls.size(); ++f) {
     const Face_registration found = registered_face(body, f, counts);
     body.supporting_walls[f] = found.supporting_walls;
     body.may_have_supporting_walls |= !found.supporting_walls.empty();
-    if (found.piercing == Half_facet::none) continue;
-    const auto& [u, v, w] = body.topology.faces()[f];
-    const auto place = [&](std::uint32_t x) {
-      return fmt::format("({})", fmt::join(body.positions[x], ", "));
-    };
-    const Snapshot<3>& snapshot = *body.snapshot;
-    throw Error(
-        code,
-        fmt::format(
-            "face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by a wall "
-            "of cell {}: move the body into free space",
-            f, u, place(u), v, place(v), w, place(w), snapshot.index(snapshot.cell_of(found.piercing))));
+    if (found.piercing != Half_facet::none) pierced.push_back({f, found.piercing});
   }
-  body.are_faces_swept = true;
+  if (pierced.empty()) body.are_faces_swept = true;
+  return pierced;
+}
+
+void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code) {
+  const auto& [u, v, w] = body.topology.faces()[pierced.face];
+  const auto place = [&](std::uint32_t x) { return fmt::format("({})", fmt::join(body.positions[x], ", ")); };
+  const Snapshot<3>& snapshot = *body.snapshot;
+  throw Error(code,
+              fmt::format("face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by "
+                          "a wall of cell {}: move the body into free space",
+                          pierced.face, u, place(u), v, place(v), w, place(w),
+                          snapshot.index(snapshot.cell_of(pierced.wall))));
 }
 
 void take_up_faces(Body_state<3>& body, Body_counts& counts) {
   if (body.are_faces_swept || body.supporting_walls.empty()) return;
   body.check_epoch();
   body.refresh_all(counts);
-  register_faces(body, Error_code::usage, counts.faces);
+  const auto pierced = register_faces(body, counts.faces);
+  if (!pierced.empty()) refuse_pierced(body, pierced.front(), Error_code::usage);
 }
 
 void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "body_state.h"
 
@@ -16,9 +17,16 @@ namespace cellwalk::detail {
 /// \pre its edges are not stale
 Face_registration registered_face(const Body_state<3>& body, std::uint32_t face, Face_counts& counts);
 
-/// Registers all faces.
-/// \throw Error(code) naming the first that a wall pierces
-void register_faces(Body_state<3>& body, Error_code code, Face_counts& counts);
+struct Pierced_face {
+  std::uint32_t face;
+  Half_facet wall;
+};
+
+/// Registers all faces. Returns those that a wall pierces, ascending: the body must not be used then.
+std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& counts);
+
+/// \throw Error(code) naming the face
+[[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code);
 
 /// Before faces are swept after moves that left them alone: registers them all, so all that they are asked
 /// about is needed.

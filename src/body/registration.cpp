@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "registration.h"
 
+#include <cellwalk/internal/edge/chain_as_before.h>
+#include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,8 +26,8 @@ class Registration {
         before_(before),
         sides_(soup.points.size()),
         edges_at_(soup.points.size()) {
-    for (std::uint32_t v = 0; v < soup.points.size(); ++v) sides_[v] = sides(v, locator, cell_before(v));
-    for (std::uint32_t e = 0; e < before.chains.size(); ++e) keeps_chain_[e] = is_chain_before(e);
+    for (std::uint32_t v = 0; v < soup.points.size(); ++v) sides_[v] = sides(v, locator);
+    for (std::uint32_t e = 0; e < before.chains.size(); ++e) look_back(e);
     for (std::uint32_t e = 0; e < soup.edges.size(); ++e)
       for (const std::uint32_t v : soup.edges[e]) edges_at_[v].push_back(e);
   }
@@ -55,39 +58,85 @@ class Registration {
   }
   bool is_as_before(std::uint32_t v, const Particle<D>& side) const { return side.cell == cell_before(v); }
 
-  /// True if an edge has the chain that it had, from cell to cell. Names of facets may be gone since.
-  bool is_chain_before(std::uint32_t e) {
-    const auto [u, v] = soup_.edges[e];
-    const Particle<D>&p = sides_[u].front(), &q = sides_[v].front();
-    const auto is_facet = [&](Half_facet f) { return to_index(f) < snapshot_.half_facet_slots(); };
-    const Chain& chain = before_.chains[e];
-    return is_as_before(u, p) && is_as_before(v, q) && std::ranges::all_of(chain, is_facet) &&
-           is_chain(snapshot_, p, q, chain, counts_);
+  /// \pre the point is in the closed cell
+  bool is_in(Cell cell, std::size_t facet, const Point<D>& x) const {
+    Walk_counts uncounted;
+    const Cell_view<D> view = snapshot_.view(cell);
+    return side<Exact>(view, facet, x, uncounted) == 0 && in_facet(view, facet, x);
   }
 
-  /// A chain between sides of the ends of an edge: that which it had, if it still holds. Faces may need it.
+  /// The cells that were linked with that of a vertex, at it.
+  std::vector<Cell> linked_before(std::uint32_t v) const {
+    std::vector<Cell> cells{cell_before(v)};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Cell cell = cells[i];
+      for (std::size_t k = 0; k < snapshot_.facet_count(cell); ++k) {
+        const Half_facet f = Snapshot<D>::half_facet(cell, k);
+        const Cell behind = snapshot_.neighbour(f);
+        if (behind == Cell::none || std::ranges::find(cells, behind) != cells.end() ||
+            !was_passable(snapshot_, before_.edits, f) || !is_in(cell, k, soup_.points[v]))
+          continue;
+        cells.push_back(behind);
+      }
+    }
+    return cells;
+  }
+
+  Edge_before edge_before(std::uint32_t e) const {
+    const auto [u, v] = soup_.edges[e];
+    return {cell_before(u), cell_before(v), before_.chains[e]};
+  }
+
+  void look_back(std::uint32_t e) {
+    const auto [u, v] = soup_.edges[e];
+    const Edge_before before = edge_before(e);
+    is_way_known_[e] = was_chain(snapshot_, before_.edits, soup_.points[u], soup_.points[v], before, counts_);
+    keeps_chain_[e] =
+        is_way_known_[e] && before_.may_keep_chain[e] &&
+        std::ranges::none_of(before.chain, [&](Half_facet f) { return snapshot_.is_impassable(f); });
+  }
+
+  /// A chain between sides of the ends of an edge, on its side of the walls that stood before if it is known:
+  /// that which it had, if it still holds. Faces may need it.
   Chain_result<D> chain(std::uint32_t e, const Particle<D>& p, const Particle<D>& q) {
     const auto [u, v] = soup_.edges[e];
     if (keeps_chain_[e] && is_as_before(u, p) && is_as_before(v, q)) return {before_.chains[e], {}};
-    return find_any_chain(snapshot_, p, q, counts_);
+    return is_way_known_[e] ? find_chain_as_before(snapshot_, before_.edits, p, q, edge_before(e), counts_)
+                            : find_any_chain(snapshot_, p, q, counts_);
   }
 
-  /// A particle for each side of the walls at a vertex. If `first` holds the vertex, its side comes first, in
-  /// that cell.
-  Sides sides(std::uint32_t v, const Locator<D>& locator, Cell first) {
+  /// A particle for each side of the walls at a vertex that was linked with its cell, that of the cell first;
+  /// for each side at all if its cell is not known.
+  Sides sides(std::uint32_t v, const Locator<D>& locator) {
     Location<D> here = locator.locate(soup_.points[v]);
     if (here.sides.empty())
-      throw Error(
-          Error_code::outside,
-          fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
-                      here.status == Location_status::solid ? "in a solid cell" : "outside the environment"));
-    if (const auto kept = std::find(here.cells.begin(), here.cells.end(), first); kept != here.cells.end()) {
-      const auto side =
-          here.sides.begin() + here.side_of_cell[static_cast<std::size_t>(kept - here.cells.begin())];
-      std::rotate(here.sides.begin(), side, side + 1);
-      here.sides.front().cell = first;
+      refuse_vertex(v, here.status == Location_status::solid ? "in a solid cell" : "outside the environment");
+    const Cell known = cell_before(v);
+    if (known == Cell::none || !in_closure(snapshot_, known, soup_.points[v])) return std::move(here.sides);
+    const auto side_of = [&](Cell cell) {
+      const auto place = std::ranges::find(here.cells, cell);
+      return place == here.cells.end()
+                 ? -1
+                 : here.side_of_cell[static_cast<std::size_t>(place - here.cells.begin())];
+    };
+    const int own = side_of(known);
+    if (here.sides.size() == 1 && own == 0) {
+      here.sides.front().cell = known;
+      return std::move(here.sides);
     }
-    return std::move(here.sides);
+    std::vector<bool> is_linked(here.sides.size());
+    for (const Cell cell : linked_before(v))
+      if (const int side = side_of(cell); side >= 0) is_linked[static_cast<std::size_t>(side)] = true;
+    Sides result;
+    for (std::size_t i = 0; i < here.sides.size(); ++i) {
+      if (!is_linked[i]) continue;
+      result.push_back(here.sides[i]);
+      if (static_cast<int>(i) != own) continue;
+      result.back().cell = known;
+      if (before_.prefers_cells) std::rotate(result.begin(), result.end() - 1, result.end());
+    }
+    if (result.empty()) refuse_vertex(v, "on a side of walls that was filled");
+    return result;
   }
 
   /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were
@@ -171,6 +220,12 @@ class Registration {
     refuse(failed, *contact);
   }
 
+  [[noreturn]] void refuse_vertex(std::uint32_t v, const char* where) const {
+    throw Error(Error_code::outside,
+                fmt::format("vertex {} of the body, at {}, is {}: move the body into free space", v, place(v),
+                            where));
+  }
+
   [[noreturn]] void refuse(std::uint32_t e, const Wall_contact<D>& contact) const {
     const auto [u, v] = soup_.edges[e];
     throw Error(
@@ -190,6 +245,7 @@ class Registration {
   std::vector<std::pair<std::uint32_t, Sides>> dropped_;
   std::vector<std::uint32_t> checked_;  ///< edges checked in the same time
   std::vector<bool> is_checked_ = std::vector<bool>(soup_.edges.size());
+  std::vector<bool> is_way_known_ = std::vector<bool>(soup_.edges.size());
   std::vector<bool> keeps_chain_ = std::vector<bool>(soup_.edges.size());  ///< from the sides before
   Walk_counts counts_;
 };

@@ -5,6 +5,7 @@
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/face.h>
+#include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
@@ -19,17 +20,19 @@ struct Registered {
   std::vector<Chain> chains;  ///< of the edges, from their first end to their second
 };
 
-/// How a body was registered before, which may be out of date. Empty if it was not.
+/// How a body was registered before, which may be out of date, with the names of today. Empty if it was not.
 template <int D>
 struct Registered_before {
-  std::span<const Particle<D>> particles;
-  /// May be empty alone: then all are found anew. So may those of faces, which body_faces.h registers.
-  std::span<const Chain> chains;
-  std::span<const Supporting_walls> supporting_walls;
+  std::vector<Particle<D>> particles;  ///< Cell::none where the cell is gone, or another one has its name
+  std::vector<Chain> chains;
+  std::vector<bool> may_keep_chain;  ///< of the edges; else another one is found that lies where it did
+  std::vector<Supporting_walls> supporting_walls;  ///< of faces, which body_faces.h registers
+  Edits_since edits;
+  bool prefers_cells = true;  ///< of the sides that a vertex can have, that of its cell is tried first
 };
 
-/// What `before` says is kept where it still holds: the cell of a vertex, and so its side of walls, and the
-/// chain of an edge.
+/// A vertex keeps its side of the walls that stood before: one that was linked with its cell. The chain of an
+/// edge is kept where it still holds.
 /// \throw Error(outside) as Body does
 template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,

@@ -45,7 +45,7 @@ Compaction Environment<D>::compact() {
     result.half_facets[to_index(old_names[f])] = names[f];
     result.cells[to_index(snapshot_.cell_of(old_names[f]))] = snapshot.cell_of(names[f]);
   }
-  Snapshot_compiler<D>(snapshot).follow_epochs(snapshot_);
+  Snapshot_compiler<D>(snapshot).follow(snapshot_, {result.cells, result.half_facets});
   snapshot_ = std::move(snapshot);
   storage_ = std::move(storage);
   boundary_.reset();

@@ -200,7 +200,7 @@ void test_interleaved(Body_kind kind) {
   for (const bool generic : {true, false}) {
     Interleaved_seen seen;
     for (std::uint64_t number = 0; number < worlds; ++number)
-      Interleaving<D>(first_interleaved_world + number, generic, kind, seen).run(is_simplex ? 12 : 2, 16);
+      Interleaving<D>(first_interleaved_world + number, generic, kind, seen).run(is_simplex ? 14 : 2, 16);
     std::cout << D << "D, " << (generic ? "generic" : "degenerate") << ": " << seen.bodies << " bodies, "
               << seen.calls << " calls (" << seen.by_segments << " by three segments, " << seen.by_faces
               << " by faces, " << seen.by_rule << " with edges at their targets, " << seen.single

@@ -2,7 +2,6 @@
 // Bodies that are registered again after edits: where nothing changed, they are as they were.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/selection.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 
@@ -14,21 +13,10 @@
 #include <vector>
 
 #include "body/membrane_room.h"
+#include "body/places.h"
 
 namespace cellwalk::test {
 namespace {
-
-template <int D>
-Half_facet facet_at(const Snapshot<D>& snapshot, const Point<D>& centre) {
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
-    const Cell c = snapshot.cell(i);
-    if (c == Cell::none) continue;
-    for (std::size_t k = 0; k < snapshot.facet_count(c); ++k)
-      if (const Half_facet f = Snapshot<D>::half_facet(c, k); mean_of(snapshot, f) == centre) return f;
-  }
-  ADD_FAILURE() << "no facet there";
-  return Half_facet::none;
-}
 
 Environment<3> room() {
   Grid_options<3> options;
@@ -39,11 +27,6 @@ Environment<3> room() {
 void close(Environment<3>& environment, const std::vector<Point<3>>& centres) {
   for (const Point<3>& centre : centres)
     environment.set_impassable(facet_at(environment.snapshot(), centre), true);
-}
-
-template <int D>
-Cell cell_at(const Snapshot<D>& snapshot, const Point<D>& place) {
-  return Locator<D>(snapshot).locate(place).cell;
 }
 
 template <int D>

@@ -57,16 +57,15 @@ class Body {
   Body& operator=(Body&& other) noexcept;
   ~Body();
 
-  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. A vertex keeps
-  /// the cell that it was registered in, and so its side of a wall, if that is there still and holds it, and
-  /// all its edges can be passed from there. An edge keeps its chain, if that leads from end to end still,
-  /// and a face its side of walls in its plane, if it was last moved with faces swept, unless a face is
-  /// pierced then. Else any will do, as in the constructor. Gives a region free of walls up.
-  /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or
-  ///        perhaps where cells of a vertex or an edge were replaced: then the body is as it was, and may be
-  ///        tried again after another edit. Error(usage) for a locator made before points were moved or cells
-  ///        replaced
-  /// Cost: that of the constructor; twice that if a face is pierced.
+  /// Registers the body anew where it stands, after edits: vertices, chains, rests of faces. All stay on
+  /// their sides of the walls that stood before; among several ways, cells and chains that still hold are
+  /// kept. Faces are registered if they were swept in the last move, or never moved. Where cells were
+  /// replaced, vertices and edges may choose as in the constructor, but for a vertex whose cell alone was
+  /// split. Gives a region free of walls up.
+  /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or its
+  ///        side was filled: then the body is as it was, and may be tried again after another edit.
+  ///        Error(usage) for a locator made before points were moved or cells replaced
+  /// Cost: that of the constructor, and reading the edits since; up to three times that if a face is pierced.
   void register_again(const Locator<D>& locator);
 
   std::size_t vertex_count() const { return positions().size(); }

@@ -10,6 +10,7 @@
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/internal/environment/cell_clusters.h>
+#include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/internal/environment/flat_array.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/internal/environment/tissue_boxes.h>
@@ -170,6 +171,8 @@ class Snapshot {
   const detail::Cell_clusters<D>& clusters() const { return clusters_; }
   /// Where solid cells and membranes lie, found where it is asked for.
   const detail::Tissue_boxes<D>& tissue_boxes() const { return tissue_boxes_; }
+  /// What was edited lately. Not part of what a compiled environment holds.
+  const detail::Edit_log& edits() const { return edits_; }
 
   // --- state
   /// The number of edits: every update below that affects walks increments it.
@@ -247,6 +250,7 @@ class Snapshot {
   std::uint64_t epoch_ = 0, geometry_epoch_ = 0;
   detail::Cell_clusters<D> clusters_;
   detail::Tissue_boxes<D> tissue_boxes_;
+  detail::Edit_log edits_;
   /// Runs of slots by length and first slot. They are reused as a whole, so that a name always refers to the
   /// first block of a cell, existing or removed, and never into the middle of one.
   using Free_runs = std::set<std::pair<std::uint32_t, std::uint32_t>>;

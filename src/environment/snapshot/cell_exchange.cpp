@@ -89,19 +89,29 @@ std::vector<Cell> Snapshot_compiler<D>::exchange(const Cell_exchange<D>& x, std:
   s_.free_blocks_.insert(left_blocks.begin(), left_blocks.end());
   s_.free_vertices_.insert(left_vertices.begin(), left_vertices.end());
 
-  for (const Half_facet f : x.left_open) link_boundary(f);
+  boost::container::small_vector<Half_facet, 16> closed;  // of cells that stay
+  const auto close = [&](Half_facet f) {
+    if (!s_.is_impassable(f)) closed.push_back(f);
+  };
+  for (const Half_facet f : x.left_open) {
+    close(f);
+    link_boundary(f);
+  }
   for (std::size_t f = 0; f < soup.facet_count(); ++f) {
     const std::uint32_t g = x.gluing.opposite[f];
     const Half_facet out = x.outside[f];
     if (g != no_facet) {
       if (f < g) link(slots[f], slots[g], soup.impassable[f] || soup.impassable[g]);
     } else if (out != Half_facet::none) {
+      if (soup.impassable[f]) close(out);
       link(slots[f], out, s_.is_impassable(out) || soup.impassable[f]);
     } else {
       link_boundary(slots[f]);
     }
   }
   s_.update_geometry(added);
+  s_.edits_.note_new(s_.epoch_, added, x.removed.size() == 1 ? x.removed[0] : Cell::none);
+  for (const Half_facet f : closed) s_.edits_.note_turned(s_.epoch_, f, Half_facet::none);
   return added;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "canonical_shape.h"
@@ -50,8 +51,12 @@ class Snapshot_compiler {
   void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
-  /// Goes on after the epochs of the snapshot that this one takes the place of.
-  void follow_epochs(const Snapshot<D>& before) { s_.geometry_epoch_ = s_.epoch_ = before.epoch() + 1; }
+  /// Goes on after the epochs and edits of the snapshot that this one takes the place of, under other names.
+  void follow(const Snapshot<D>& before, detail::Renaming names) {
+    s_.geometry_epoch_ = s_.epoch_ = before.epoch() + 1;
+    s_.edits_ = before.edits_;
+    s_.edits_.note_renamed(s_.epoch_, std::move(names));
+  }
   /// Makes certificates of cells anew whose points are where they were when these were withdrawn: all is as
   /// it was, and no epoch rises.
   void certify_again(std::span<const Cell> cells) {

@@ -109,7 +109,7 @@ void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
   for (std::size_t i = 0; i < facet_count(a); ++i)
     if (neighbour(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
   for (const Cell c : {a, b}) forget(c);
-  ++epoch_;
+  edits_.note_turned(++epoch_, f, g);
 }
 
 template <int D>
