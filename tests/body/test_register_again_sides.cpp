@@ -215,9 +215,11 @@ TEST(RegisterAgainSides, AVertexWhoseSideIsFilledIsRefused) {
   Scene<2> scene({2, 2}, {{0.5, 1}, {1.5, 1}});
   Body<2> body = scene.body({{1, 1.5}}, {});
   ASSERT_TRUE(come<2>(body, {{0, {1, 1}}}));
-  for (const double x : {0.5, 1.5}) scene.environment().fill(cell_at<2>(scene.snapshot(), {x, 1.5}));
+  const std::array above{cell_at<2>(scene.snapshot(), {0.5, 1.5}), cell_at<2>(scene.snapshot(), {1.5, 1.5})};
+  for (const Cell cell : above) scene.environment().fill(cell);
   EXPECT_NE(refusal(body, scene.snapshot()).find("is on a side of walls that was filled"), std::string::npos);
-  scene.environment().excavate(cell_at<2>(scene.snapshot(), {0.5, 1.5}));
+  scene.environment().excavate(above[0]);
+  scene.close({{0.5, 1}});  // it was opened
   register_again(body, scene.snapshot());
   EXPECT_TRUE(would_come<2>(body, {{0, {0.5, 1.5}}}));
   EXPECT_FALSE(would_come<2>(body, {{0, {0.5, 0.5}}}));

@@ -71,16 +71,16 @@ void keep_environments() {
 
   keep(
       +[] { return Snapshot<D>(); }, &moved<Snapshot<D>>, &Snapshot<D>::compile, &Snapshot<D>::cell_count,
-      &Snapshot<D>::cell, &Snapshot<D>::clusters, &Snapshot<D>::tissue_boxes, &Snapshot<D>::index,
-      &Snapshot<D>::is_solid, &Snapshot<D>::view, &Snapshot<D>::facet_count, &Snapshot<D>::half_facet_slots,
-      &Snapshot<D>::half_facet, &Snapshot<D>::cell_of, &Snapshot<D>::facet_of, &Snapshot<D>::is_impassable,
-      &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair, &Snapshot<D>::neighbour,
-      &Snapshot<D>::convex_passage, &Snapshot<D>::opposite, &Snapshot<D>::loop, &Snapshot<D>::points,
-      &Snapshot<D>::point, &Snapshot<D>::frame, &Snapshot<D>::blocks, &Snapshot<D>::links,
-      &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks, &Snapshot<D>::prefetch_neighbours,
-      &Snapshot<D>::uncertified_planes, &Snapshot<D>::set_impassable, &Snapshot<D>::move_point,
-      &Snapshot<D>::add_point, &Snapshot<D>::update_geometry, &Snapshot<D>::replace_cells,
-      &Snapshot<D>::bytes, &Snapshot<D>::cell_slots, &Snapshot<D>::check_epoch,
+      &Snapshot<D>::cell, &Snapshot<D>::clusters, &Snapshot<D>::tissue_boxes, &Snapshot<D>::edits,
+      &Snapshot<D>::index, &Snapshot<D>::is_solid, &Snapshot<D>::view, &Snapshot<D>::facet_count,
+      &Snapshot<D>::half_facet_slots, &Snapshot<D>::half_facet, &Snapshot<D>::cell_of, &Snapshot<D>::facet_of,
+      &Snapshot<D>::is_impassable, &Snapshot<D>::impassable_facets, &Snapshot<D>::is_convex_pair,
+      &Snapshot<D>::neighbour, &Snapshot<D>::convex_passage, &Snapshot<D>::opposite, &Snapshot<D>::loop,
+      &Snapshot<D>::points, &Snapshot<D>::point, &Snapshot<D>::frame, &Snapshot<D>::blocks,
+      &Snapshot<D>::links, &Snapshot<D>::block_count, &Snapshot<D>::uniform_blocks,
+      &Snapshot<D>::prefetch_neighbours, &Snapshot<D>::uncertified_planes, &Snapshot<D>::set_impassable,
+      &Snapshot<D>::move_point, &Snapshot<D>::add_point, &Snapshot<D>::update_geometry,
+      &Snapshot<D>::replace_cells, &Snapshot<D>::bytes, &Snapshot<D>::cell_slots, &Snapshot<D>::check_epoch,
       &Snapshot<D>::check_geometry_epoch, &Snapshot<D>::epoch, &Snapshot<D>::geometry_epoch,
       &Snapshot<D>::is_cell, &Snapshot<D>::is_point, &Snapshot<D>::next_point, &Snapshot<D>::remove_point);
 }
