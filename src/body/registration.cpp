@@ -68,6 +68,7 @@ class Registration {
   /// The cells that were linked with that of a vertex, at it.
   std::vector<Cell> linked_before(std::uint32_t v) const {
     std::vector<Cell> cells{cell_before(v)};
+    if (const auto parts = before_.parts.find(v); parts != before_.parts.end()) cells = parts->second;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const Cell cell = cells[i];
       for (std::size_t k = 0; k < snapshot_.facet_count(cell); ++k) {

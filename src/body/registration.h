@@ -9,7 +9,8 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
-#include <span>
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace cellwalk::detail {
@@ -24,6 +25,7 @@ struct Registered {
 template <int D>
 struct Registered_before {
   std::vector<Particle<D>> particles;  ///< Cell::none where the cell is gone, or another one has its name
+  std::map<std::uint32_t, std::vector<Cell>> parts;  ///< of the cells of vertices that were split
   std::vector<Chain> chains;
   std::vector<bool> may_keep_chain;  ///< of the edges; else another one is found that lies where it did
   std::vector<Supporting_walls> supporting_walls;  ///< of faces, which body_faces.h registers

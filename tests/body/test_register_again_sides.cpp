@@ -279,6 +279,64 @@ TEST(RegisterAgainSides, WhatOneFaceNeedsLeavesOthersOnTheirSides) {
   }
 }
 
+// What a face rests on is filled from its side, or split; no edge passes there.
+TEST(RegisterAgainSides, AFaceStaysOnItsSideWhateverBecomesOfTheCellBetween) {
+  for (const double start : {0.5, 1.5})
+    for (const Change change : {Change::fill, Change::split}) {
+      SCOPED_TRACE(testing::Message() << start << " " << static_cast<int>(change));
+      Scene<3> scene({10, 10, 2}, {{4.5, 4.5, 1}});
+      Body<3> body =
+          scene.body({{1, 1, start}, {9.5, 1, start}, {4, 9, start}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}});
+      ASSERT_TRUE(come<3>(body, {{0, {1, 1, 1}}, {1, {9.5, 1, 1}}, {2, {4, 9, 1}}}));
+      const Point<3> middle{4.5, 4.5, start};
+      const Cell cell = cell_at<3>(scene.snapshot(), middle);
+      if (change == Change::fill) {
+        scene.environment().fill(cell);
+        EXPECT_NE(refusal(body, scene.snapshot()).find("pierced"), std::string::npos);
+        continue;
+      }
+      scene.environment().insert_point(cell, middle);
+      register_again(body, scene.snapshot());
+      EXPECT_TRUE(would_come<3>(body, {{0, {1, 1, start}}, {1, {9.5, 1, start}}, {2, {4, 9, start}}}));
+      EXPECT_FALSE(
+          would_come<3>(body, {{0, {1, 1, 2 - start}}, {1, {9.5, 1, 2 - start}}, {2, {4, 9, 2 - start}}}));
+    }
+}
+
+TEST(RegisterAgainSides, AnEdgeInOneCellDoesNotPassAWallWhenThatIsFilled) {
+  for (const double up : {0.5, -0.5}) {
+    SCOPED_TRACE(up);
+    Scene<2> scene({3, 2}, {{1.5, 1}});
+    Body<2> body = scene.body({{1.25, 1 + up}, {1.75, 1 + up}}, {{0, 1}});
+    ASSERT_TRUE(come<2>(body, {{0, {1, 1}}, {1, {2, 1}}}));
+    ASSERT_TRUE(body.chain(0).empty());
+    scene.environment().fill(cell_at<2>(scene.snapshot(), {1.5, 1 + up}));
+    EXPECT_NE(refusal(body, scene.snapshot()).find("edge 0 of the body"), std::string::npos);
+  }
+}
+
+TEST(RegisterAgainSides, AVertexHasAllPartsOfItsCell) {
+  for (std::size_t filled = 0; filled < 4; ++filled) {
+    Scene<2> scene({1, 1});
+    Body<2> body = scene.body({{0.5, 0.5}}, {});
+    const Cell whole = cell_at<2>(scene.snapshot(), {0.5, 0.5});
+    scene.environment().fill(scene.environment().insert_point(whole, {0.5, 0.5})[filled]);
+    register_again(body, scene.snapshot());
+  }
+}
+
+TEST(RegisterAgainSides, ForgottenEditsAreRefused) {
+  Scene<2> scene({2, 1});
+  Body<2> body = scene.body({{0.5, 0.5}}, {});
+  for (int k = 0; k < 2; ++k) scene.environment().compact();
+  try {
+    body.register_again(Locator<2>(scene.snapshot()));
+    ADD_FAILURE() << "it is not known where it was";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Error_code::usage) << error.what();
+  }
+}
+
 TEST(RegisterAgainSides, FacesThatAreNotSweptAreLeftAlone) {
   Scene<3> scene({8, 8, 2}, {{4, 4.5, 0.5}});
   Body<3> body =

@@ -64,7 +64,7 @@ class Body {
   /// split. Gives a region free of walls up.
   /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or its
   ///        side was filled: then the body is as it was, and may be tried again after another edit.
-  ///        Error(usage) for a locator made before points were moved or cells replaced
+  ///        Error(usage) for a locator that is out of date, or if the edits since are forgotten
   /// Cost: that of the constructor, and reading the edits since; up to three times that if a face is pierced.
   void register_again(const Locator<D>& locator);
 

@@ -123,7 +123,8 @@ Chain_result<D> find_chain_as_before(const Snapshot<D>& snapshot, const Edits_si
                                      const Particle<D>& p, const Particle<D>& q, const Edge_before& before,
                                      Walk_counts& counts) {
   Chain_result<D> result = find_chain(snapshot, p, q, counts);
-  if (p.position == q.position || (!result.contact && result.chain == before.chain)) return result;
+  const bool is_same = !result.contact && p.cell == before.start && result.chain == before.chain;
+  if (is_same || p.position == q.position) return result;
   const Rational_segment<D> segment(p.position, q.position);
   const Way_before<D> way(snapshot, edits, segment, before);
   if (!result.contact && way.was_linked(p.cell, result.chain)) return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/edit_log.h>
+#include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 #include <iterator>
@@ -13,9 +14,14 @@ constexpr std::size_t most_entries = std::size_t{1} << 20;
 
 constexpr std::uint32_t no_name = to_index(Cell::none);
 
+/// Forgets half of the entries if there are too many; then `lost_at` is the epoch of the last of these.
 template <class Entry>
-void add(std::vector<Entry>& entries, const Entry& entry) {
-  if (entries.size() == most_entries) entries.erase(entries.begin(), entries.begin() + most_entries / 2);
+void add(std::vector<Entry>& entries, const Entry& entry, std::uint64_t& lost_at) {
+  if (entries.size() == most_entries) {
+    const auto end = entries.begin() + most_entries / 2;
+    lost_at = std::max(lost_at, std::prev(end)->epoch);
+    entries.erase(entries.begin(), end);
+  }
   entries.push_back(entry);
 }
 
@@ -39,6 +45,12 @@ Name renamed_by(const std::vector<Name>& names, Name old) {
   return to_index(old) < names.size() ? names[to_index(old)] : Name::none;
 }
 
+[[noreturn]] void refuse_forgotten() {
+  throw Error(Error_code::usage,
+              "the environment was edited too often since this was registered, so that it is not known any "
+              "more on which sides of walls it was: make it anew");
+}
+
 }  // namespace
 
 bool Edits_since::is_new(Cell cell) const {
@@ -52,12 +64,12 @@ bool Edits_since::is_turned(Half_facet facet) const {
 }
 
 Cell Edits_since::renamed(Cell cell) const {
-  if (are_lost_) return Cell::none;
+  if (are_lost_) refuse_forgotten();
   return renaming_ ? renamed_by(renaming_->cells, cell) : cell;
 }
 
 Half_facet Edits_since::renamed(Half_facet facet) const {
-  if (are_lost_) return Half_facet::none;
+  if (are_lost_) refuse_forgotten();
   return renaming_ ? renamed_by(renaming_->half_facets, facet) : facet;
 }
 
@@ -96,18 +108,18 @@ std::vector<Cell> Edits_since::parts_of(Cell cell) const {
 
 void Edit_log::note_turned(std::uint64_t epoch, Half_facet one, Half_facet other) {
   for (const Half_facet f : {one, other})
-    if (f != Half_facet::none) add(turned_, {epoch, to_index(f)});
+    if (f != Half_facet::none) add(turned_, {epoch, to_index(f)}, lost_at_);
 }
 
 void Edit_log::note_new(std::uint64_t epoch, std::span<const Cell> cells, Cell of) {
-  for (const Cell cell : cells) add(new_cells_, {epoch, to_index(cell), to_index(of)});
+  for (const Cell cell : cells) add(new_cells_, {epoch, to_index(cell), to_index(of)}, lost_at_);
 }
 
 void Edit_log::note_renamed(std::uint64_t epoch, Renaming names) {
   rename(new_cells_, names.cells);
   for (New_cell& cell : new_cells_) cell.of = no_name;
   rename(turned_, names.half_facets);
-  if (renaming_) lost_at_ = renamed_at_;
+  if (renaming_) lost_at_ = std::max(lost_at_, renamed_at_);
   renamed_at_ = epoch;
   renaming_ = std::make_shared<const Renaming>(std::move(names));
 }

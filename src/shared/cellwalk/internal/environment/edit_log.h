@@ -42,7 +42,7 @@ class Edits_since {
   bool is_turned(Half_facet facet) const;
   /// True if names of that epoch are not those of today.
   bool are_renamed() const { return renaming_ || are_lost_; }
-  /// The name of today of what had a name in that epoch; `none` if it is not known.
+  /// The name of today; `none` if it is gone. \throw Error(usage) if the edits since are forgotten
   Cell renamed(Cell cell) const;
   Half_facet renamed(Half_facet facet) const;
 
@@ -69,8 +69,8 @@ class Edits_since {
 template <int D>
 bool was_passable(const Snapshot<D>& snapshot, const Edits_since& edits, Half_facet facet);
 
-/// The last million edits. Of compactions it knows the last one: names of before that one's predecessor are
-/// lost.
+/// The last half a million changes of facets, and as many new cells, at least. Of compactions it knows the
+/// last one.
 class Edit_log {
  public:
   /// A facet, both sides of it, was opened or closed; the epoch is that of after the edit.
