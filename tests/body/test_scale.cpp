@@ -241,6 +241,7 @@ void expect_flights_scale() {
       contacts += first.size();
     }
   }
+  if (oracle::is_shortened()) return;
   EXPECT_GT(flights, 100u);
   EXPECT_GT(contacts, 150u);
 }

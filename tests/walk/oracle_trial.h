@@ -84,8 +84,10 @@ template <int D>
 Tally run_trial(const std::vector<Walker_under_test<D>>& walkers, const Trial_options<D>& options);
 
 /// The count of a test of CI length times CELLWALK_TEST_LENGTH, which is 1 if unset: 10 at night, less than 1
-/// under a sanitizer.
+/// under a sanitizer, where it is one at least.
 std::size_t scaled_count(std::size_t count_in_ci);
+/// True if tests are shorter than in CI: too short to meet everything.
+bool is_shortened();
 
 }  // namespace cellwalk::oracle
 
