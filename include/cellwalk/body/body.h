@@ -61,7 +61,7 @@ class Body {
   /// their sides of the walls that stood before; among several ways, cells and chains that still hold are
   /// kept. Faces are registered if they were swept in the last move, or never moved. Where cells were
   /// replaced, vertices and edges may choose as in the constructor, but for a vertex whose cell alone was
-  /// split. Gives a region free of walls up.
+  /// split, with no compaction since. Gives a region free of walls up.
   /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or its
   ///        side was filled: then the body is as it was, and may be tried again after another edit.
   ///        Error(usage) for a locator that is out of date, or if the edits since are forgotten
