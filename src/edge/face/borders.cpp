@@ -3,6 +3,7 @@
 
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
+#include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
 #include <vector>
@@ -61,13 +62,29 @@ class Border {
         const std::optional<Span> met = edge_->in_facet(f);
         if (!met || t < met->low || met->high < t) continue;
         // The point lies in the plane of f: the face is on the side of the opposite corner. If the face lies
-        // in a wall, its supporting walls determine the side.
+        // in a wall, its supporting walls determine the side. A wall across the edge from it does not.
         const int of_face = side(f, opposite_);
-        holds_face = of_face < 0 || (of_face == 0 && (!snapshot_.is_impassable(f) || is_supporting(f)));
+        holds_face =
+            of_face < 0 ||
+            (of_face == 0 && (!snapshot_.is_impassable(f) || is_supporting(f) || !extends_to_face(f)));
       }
       if (holds_face) return true;
     }
     return false;
+  }
+
+  /// Whether a facet in the plane of the face has points on the side of the edge on which the face is.
+  bool extends_to_face(Half_facet f) const {
+    const Cell_view<3> cell = snapshot_.view(snapshot_.cell_of(f));
+    const auto loop = cell.loop(snapshot_.facet_of(f));
+    std::size_t off = 0;  // a corner of the cell that is not in the plane
+    while (side(f, cell.point(off)) == 0) ++off;
+    const auto turn = [&](const Point<3>& x) {
+      return Exact::orientation(counts_.predicates, side_.from, side_.to, cell.point(off), x);
+    };
+    const int of_face = turn(opposite_);
+    return std::any_of(loop.begin(), loop.end(),
+                       [&](std::uint16_t v) { return turn(cell.point(v)) * of_face > 0; });
   }
 
   bool is_supporting(Half_facet f) const {

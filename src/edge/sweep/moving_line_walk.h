@@ -23,11 +23,10 @@ class Moving_line_walk {
     if (dead_ends_ >= most_dead_ends) return false;
     const Cell_view<D> cell = snapshot_.view(c);
     Walk_counts& counts = line_.counts();
+    note_plane(cell);
     bool outside = false;
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      const int side_of_q = side<Exact>(cell, i, q_.position, counts);
-      if constexpr (D == 3) in_plane_ = in_plane_ || (side_of_q == 0 && line_.holds_triangle(cell, i));
-      if (side_of_q <= 0) continue;
+      if (side<Exact>(cell, i, q_.position, counts) <= 0) continue;
       outside = true;
       const Exit exit = exit_through(cell, i, line_);
       if (exit.kind == Exit::none) continue;
@@ -43,6 +42,13 @@ class Moving_line_walk {
   Half_facet wall() const { return wall_; }
 
  private:
+  /// All facets count, also those after the exit: their order must not show.
+  void note_plane(const Cell_view<D>& cell) {
+    if constexpr (D == 3)
+      for (std::size_t i = 0; i < cell.facet_count() && !in_plane_; ++i)
+        in_plane_ = line_.holds_triangle(cell, i);
+  }
+
   bool pass(Half_facet f) {
     if (snapshot_.is_impassable(f)) return block(f);
     chain_.push_back(f);
