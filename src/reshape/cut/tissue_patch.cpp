@@ -88,7 +88,8 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
   if (count_fans(s, std::span<const Cell>(free), edge) > 1) return false;
   if (D == 2 || !groups_.has_open()) return true;
   for (const Resident_group<D>& group : groups_.all()) {
-    if (!group.is_open || !group.body || !group.body->has_supporting_walls()) continue;
+    if (!group.is_open || !group.body || !group.body->keeps_faces() || !group.body->has_supporting_walls())
+      continue;
     for (std::uint32_t f = 0; f < group.faces.size(); ++f)
       for (const Half_facet w : group.body->supporting_walls(f))
         if (std::ranges::find(walls, w) != walls.end()) return false;

@@ -140,7 +140,8 @@ bool Relinker<D>::has_any() const {
   const auto passes = [&](Member edge) {
     return std::ranges::any_of(groups_.chain(edge), [&](Half_facet f) { return find(f) != nullptr; });
   };
-  return !vertices_.empty() || !faces_.empty() || std::ranges::any_of(edges_, passes);
+  const auto is_kept = [&](Member face) { return groups_.all()[face.group].body->keeps_faces(); };
+  return !vertices_.empty() || std::ranges::any_of(faces_, is_kept) || std::ranges::any_of(edges_, passes);
 }
 
 template <int D>
@@ -169,6 +170,8 @@ std::size_t Relinker<D>::relink(std::span<const Cell> added) {
     Supporting_walls walls = groups_.all()[face.group].body->supporting_walls(face.number);
     for (Half_facet& w : walls)
       if (const Side* side = find(w)) w = side->now;
+    // A face that is not swept may have left its walls, and they may be gone.
+    walls.erase(std::remove(walls.begin(), walls.end(), Half_facet::none), walls.end());
     std::sort(walls.begin(), walls.end());
     groups_.rest(face, walls);
   }
