@@ -4,7 +4,6 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/body/saved_body.h>
 #include <cellwalk/environment/selection.h>
-#include <cellwalk/generators/grid.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>
@@ -13,21 +12,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "reshape/grids.h"
+
 namespace cellwalk::test {
 namespace {
 
 /// A room of tetrahedra, 4 in size, with a membrane at the height of 2.
 Environment<3> with_membrane() {
-  Simplex_grid_options<3> options;
-  options.cells = {4, 4, 4};
-  auto environment = Environment<3>::build(tetrahedral_grid(options));
-  const Snapshot<3>& snapshot = environment.snapshot();
-  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Half_facet f = Snapshot<3>::half_facet(snapshot.cell(i), k);
-      if (std::ranges::all_of(snapshot.loop(f), [&](std::uint32_t p) { return snapshot.point(p)[2] == 2; }))
-        environment.set_impassable(f, true);
-    }
+  Environment<3> environment = simplex_grid<3>(4);
+  add_membrane(environment, 2);
   return environment;
 }
 
@@ -51,17 +44,14 @@ class Rested {
   Body<3> body;
 };
 
-std::uint32_t point_at(const Snapshot<3>& snapshot, const Point<3>& x) {
-  return static_cast<std::uint32_t>(std::ranges::find(snapshot.points(), x) - snapshot.points().begin());
-}
-
 bool is_edge_of_membrane_split(Environment<3>& environment, Body<3>& body) {
   const Snapshot<3>& snapshot = environment.snapshot();
   Reshaping<3> reshaping(environment, {{&body}, {}});
   const Cell cell = body.cell_of(0);
   EXPECT_TRUE(reshaping.insert_point(cell, mean_of(snapshot, cell)).is_made)
       << "by which the body is looked up";
-  return reshaping.split_edge(point_at(snapshot, {1, 1, 2}), point_at(snapshot, {2, 2, 2}), {1.5, 1.5, 2})
+  return reshaping
+      .split_edge(point_at<3>(environment, {1, 1, 2}), point_at<3>(environment, {2, 2, 2}), {1.5, 1.5, 2})
       .is_made;
 }
 
@@ -95,7 +85,7 @@ TEST(UnsweptFaces, ForgetWallsThatAreGone) {
   int gone = 0;
   for (const Point<3>& x : {Point<3>{1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}})
     for (const Point<3>& onto : {Point<3>{x[0], x[1], 1}, {x[0], x[1], 3}, {x[0] + 1, x[1], 2}}) {
-      const std::uint32_t point = point_at(snapshot, x), other = point_at(snapshot, onto);
+      const std::uint32_t point = point_at(environment, x), other = point_at(environment, onto);
       const auto cells = environment.cells_around(point);
       const bool are_joined = std::ranges::any_of(cells, [&](Cell c) {
         return std::ranges::find(snapshot.view(c).vertices, other) != snapshot.view(c).vertices.end();
