@@ -6,11 +6,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <gmp.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -31,11 +35,83 @@ using cellwalk::Error;
 using cellwalk::Error_code;
 using cellwalk::Ranks;
 
+constexpr std::string_view no_memory = "out of memory: use a smaller input or a larger machine";
+constexpr bool for_good = true;
+
+/// The first line of a message: that of a library may have further ones.
+std::string_view first_line(std::string_view message) { return message.substr(0, message.find('\n')); }
+
+/// Prints an error where there may be no memory.
+void say(std::string_view message) {
+  for (const std::string_view piece : {std::string_view("cellwalk: "), message, std::string_view("\n")})
+    if (write(STDERR_FILENO, piece.data(), piece.size()) < 0) return;
+}
+
+/// Ends the program at once, and leaves nothing behind.
+[[noreturn]] void end_with(std::string_view message) {
+  static std::atomic_flag has_begun;
+  while (has_begun.test_and_set()) pause();  // on a further thread
+  say(message);
+  cellwalk::io::discard_unfinished_files(for_good);
+  _exit(EXIT_FAILURE);
+}
+
+/// The same at an error that nothing else can handle: on another thread, in a destructor, or while
+/// another error is reported. Mostly memory is used up.
+[[noreturn]] void end_at_error() {
+  if (std::current_exception() == nullptr) end_with(no_memory);  // not even for an exception
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    end_with(no_memory);
+  } catch (const std::exception& error) {
+    end_with(first_line(error.what()));
+  }
+}
+
+void* given(void* memory) {
+  if (memory == nullptr) end_with(no_memory);
+  return memory;
+}
+
+/// Without memory GMP would abort.
+void give_memory_to_numbers() {
+  mp_set_memory_functions(
+      [](std::size_t size) { return given(std::malloc(size)); },
+      [](void* old, std::size_t, std::size_t size) { return given(std::realloc(old, size)); },
+      [](void* memory, std::size_t) { std::free(memory); });
+}
+
+/// Before all other constructors, some of which allocate.
+[[gnu::constructor(101)]] void handle_errors_at_last() { std::set_terminate(end_at_error); }
+
 /// Removes unfinished files when the program is interrupted.
 void discard_and_stop(int signal) {
-  cellwalk::io::discard_unfinished_files();
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
+  cellwalk::io::discard_unfinished_files(for_good);
+  cellwalk::cli::raise_at_last(signal);
+}
+
+/// Has unfinished files removed whatever signal ends the program. One that tells of a defect is left to those
+/// who handle it already, such as a sanitizer.
+void handle_signals() {
+  using namespace cellwalk::cli;
+  static std::array<char, std::size_t{1} << 16> other_stack;  // bytes, for where the stack is used up
+  const stack_t stack{.ss_sp = other_stack.data(), .ss_flags = 0, .ss_size = other_stack.size()};
+  sigaltstack(&stack, nullptr);
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (ends_programs(signal)) handle_unless_ignored(signal, discard_and_stop);
+    struct sigaction action {};
+    if (!is_crash(signal) || sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL)
+      continue;
+    action.sa_handler = discard_and_stop;
+    action.sa_flags = SA_ONSTACK;
+    sigaction(signal, &action, nullptr);
+  }
+  // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  // mpirun hands these on to all ranks: what the first does with them ends the others.
+  if (cellwalk::is_later_rank())
+    for (const int signal : {SIGUSR1, SIGUSR2, SIGALRM}) std::signal(signal, SIG_IGN);
 }
 
 /// Opens what is closed of the standard streams, so that no file gets their numbers, and with it what is
@@ -144,21 +220,15 @@ int run(Ranks& ranks, const cellwalk::cli::Action& action, std::span<char* const
   } catch (const Error& error) {
     return fail(ranks, error.code(), with_short_words(error.what(), words, error.code()));
   } catch (const std::bad_alloc&) {
-    return fail(ranks, Error_code::other, "out of memory: use a smaller input or a larger machine");
+    return fail(ranks, Error_code::other, std::string(no_memory));
   } catch (const std::exception& error) {
-    const std::string_view message = error.what();  // that of a library may have further lines
-    return fail(ranks, Error_code::other, std::string(message.substr(0, message.find('\n'))));
+    return fail(ranks, Error_code::other, std::string(first_line(error.what())));
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// \throw std::bad_alloc if an error cannot even be reported
+int run_command(int argc, char** argv) {
   using namespace cellwalk::cli;
-  hold_standard_streams();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle_unless_ignored(signal, discard_and_stop);
-  // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
-  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   Ranks ranks;
   try {
@@ -211,4 +281,17 @@ int main(int argc, char** argv) {
     action(all);
   };
   return run(ranks, logged, words);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hold_standard_streams();
+  handle_signals();
+  give_memory_to_numbers();
+  try {
+    return run_command(argc, argv);
+  } catch (...) {
+    end_at_error();
+  }
 }

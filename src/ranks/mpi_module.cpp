@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The module of MPI: Boost.MPI starts and ends it. The calls that wait are those of MPI that do not block, so
-// that a rank that waits leaves the processor to others and notices signals.
+// that a rank that waits leaves the processor to others.
 #include <boost/mpi/communicator.hpp>
 #include <boost/mpi/environment.hpp>
 #include <boost/mpi/exception.hpp>
@@ -41,7 +41,7 @@ class Mpi final : public Transport {
   ~Mpi() override {
     try {
       while (!sent_.empty()) wait_for_first();
-    } catch (...) {  // a signal that ends the program: so does its handler
+    } catch (...) {  // the program ends
     }
   }
 
@@ -142,7 +142,6 @@ class Mpi final : public Transport {
       int done = 0;
       succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
       if (done != 0) return;
-      check();
       if (tries < yields) {
         sched_yield();
         continue;

@@ -92,10 +92,6 @@ std::string Ranks::broadcast_on_node(std::string bytes) {
   return transport_ ? transport_->broadcast_on_node(std::move(bytes)) : bytes;
 }
 
-void Ranks::while_waiting(std::function<void()> check) {
-  if (transport_) transport_->while_waiting(std::move(check));
-}
-
 void Ranks::fail(Error_code code, const std::string& message) {
   if (!transport_) return;
   if (is_first()) transport_->end(static_cast<int>(code));

@@ -5,10 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 
 namespace cellwalk {
 
@@ -45,16 +43,6 @@ class Transport {
   virtual std::size_t size_of_node() const = 0;
   /// Ends all ranks.
   [[noreturn]] virtual void end(int exit_code) = 0;
-
-  void while_waiting(std::function<void()> check) { check_ = std::move(check); }
-
- protected:
-  void check() const {
-    if (check_) check_();
-  }
-
- private:
-  std::function<void()> check_;
 };
 
 /// The description of the module.

@@ -38,7 +38,8 @@ pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, c
     redirect(STDERR_FILENO, err);
     if (chdir(folder.c_str()) != 0) _exit(126);
     // Whatever is ignored here, as where tests run in the background.
-    for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, signal == ignored ? SIG_IGN : SIG_DFL);
+    for (const int signal : {SIGINT, SIGHUP, SIGQUIT})
+      std::signal(signal, signal == ignored ? SIG_IGN : SIG_DFL);
     if (largest_file != 0) {
       const rlimit limit{largest_file, largest_file};
       if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
@@ -97,6 +98,7 @@ Outcome stop_program(const std::vector<std::string>& arguments, const fs::path& 
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
   outcome.out = read_text(out);
   outcome.err = read_text(err);
   fs::remove(out);

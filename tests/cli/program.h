@@ -16,6 +16,7 @@ namespace cellwalk::test {
 struct Outcome {
   int exit_code = -1;  ///< -1: ended by a signal
   std::string out, err;
+  int signal = 0;  ///< by which it ended
 };
 
 /// Runs `cellwalk ARGUMENTS` in a folder and waits for it. Output goes to files, never to a terminal.

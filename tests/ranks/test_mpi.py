@@ -9,6 +9,7 @@ usage: test_mpi.py BUILD_DIR [MPIRUN]
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import time
@@ -229,6 +230,24 @@ class Failures(Program):
         before, errors = self.kill_rank(0, signal.SIGTERM, "out.tmp-*/frames/*00003.vtu")
         self.assertEqual(self.files(self.folder), before)
         self.assertNotIn("cellwalk: ", errors)
+
+    def test_a_signal_of_a_batch_system_makes_a_last_checkpoint(self):
+        (self.folder / "scene.json").write_text(json.dumps({**SCENE, "steps": 100000}))
+        words = [self.build / "cellwalk", "run", "scene.json", "-o", "out", "--threads", "1", "--checkpoint-every", "1000000"]
+        kept = self.folder / "out.part" / "checkpoints"
+        for number in (signal.SIGUSR1, signal.SIGUSR2):  # mpirun hands them on to all ranks
+            with subprocess.Popen(self.command(2, words), cwd=self.folder, env=self.environment(), stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True) as started:
+                for _ in range(400):
+                    if list(kept.glob("step-*.checkpoint")):
+                        break
+                    time.sleep(0.05)
+                time.sleep(0.2)
+                started.send_signal(number)
+                _, errors = started.communicate(timeout=60)
+            self.assertEqual(started.returncode, 128 + number, errors)
+            self.assertGreater(max(int(file.stem[5:]) for file in kept.glob("step-*.checkpoint")), 0)
+            shutil.rmtree(self.folder / "out.part")
 
 
 if __name__ == "__main__":

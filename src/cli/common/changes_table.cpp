@@ -25,10 +25,6 @@ constexpr std::array<Change_words, change_kind_count> words{{{"open", "opened", 
                                                              {"cut", "made", "cut"},
                                                              {"sew", "sewn", "point"}}};
 
-const std::vector<std::string> names_of_columns{"step",     "change",  "kind",   "status", "cell",
-                                                "facet",    "x",       "y",      "z",      "body",
-                                                "particle", "feature", "number", "reason"};
-
 /// The mean of the vertices of a facet, or of a cell if there is none.
 template <int D>
 Point<D> place_of(const Snapshot<D>& snapshot, const Change_outcome& outcome) {
@@ -51,7 +47,7 @@ Point<D> place_of(const Snapshot<D>& snapshot, const Change_outcome& outcome) {
 
 template <int D>
 Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, io::Atomic_file& file) : snapshot_(snapshot) {
-  table_.emplace(file, names_of_columns);
+  table_.emplace(file, columns());
 }
 
 template <int D>
@@ -60,7 +56,10 @@ Changes_table<D>::Changes_table(const Snapshot<D>& snapshot, io::Csv_writer tabl
 
 template <int D>
 const std::vector<std::string>& Changes_table<D>::columns() {
-  return names_of_columns;
+  static const std::vector<std::string> names{"step",     "change",  "kind",   "status", "cell",
+                                              "facet",    "x",       "y",      "z",      "body",
+                                              "particle", "feature", "number", "reason"};
+  return names;
 }
 
 template <int D>

@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "interruption.h"
 
+#include <sys/prctl.h>
+
+#include <algorithm>
 #include <cstdlib>
+#include <exception>
 
 namespace cellwalk::cli {
 namespace {
 
-constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array crashes{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
+/// Those that end nothing, cannot be handled, or are errors of writing.
+constexpr std::array not_ending{SIGCHLD, SIGCONT, SIGKILL, SIGPIPE,  SIGSTOP, SIGTSTP,
+                                SIGTTIN, SIGTTOU, SIGURG,  SIGWINCH, SIGXFSZ};
+
 volatile std::sig_atomic_t noted = 0;
 
 void note(int signal) { noted = signal; }
 
 }  // namespace
+
+bool is_crash(int signal) { return std::ranges::count(crashes, signal) > 0; }
+
+bool ends_programs(int signal) {
+  if (signal >= __SIGRTMIN && signal < SIGRTMIN) return false;  // those of the C library
+  return signal > 0 && signal <= SIGRTMAX && !is_crash(signal) && std::ranges::count(not_ending, signal) == 0;
+}
 
 Signal_handler handle_unless_ignored(int signal, Signal_handler handler) {
   struct sigaction now;
@@ -21,11 +36,15 @@ Signal_handler handle_unless_ignored(int signal, Signal_handler handler) {
 
 Interruption::Interruption() {
   noted = 0;
-  for (int i = 0; i < 3; ++i) before_[i] = handle_unless_ignored(signals[i], note);
+  for (int signal = 1; signal < NSIG; ++signal)
+    if (ends_programs(signal))
+      before_[static_cast<std::size_t>(signal)] = handle_unless_ignored(signal, note);
 }
 
 Interruption::~Interruption() {
-  for (int i = 0; i < 3; ++i) std::signal(signals[i], before_[i]);
+  for (int signal = 1; signal < NSIG; ++signal)
+    if (ends_programs(signal)) std::signal(signal, before_[static_cast<std::size_t>(signal)]);
+  if (noted && std::uncaught_exceptions() == 0) std::raise(noted);
 }
 
 bool Interruption::has_come() const { return noted != 0; }
@@ -34,9 +53,14 @@ void Interruption::check() const {
   if (noted) throw Interrupted{noted};
 }
 
+void raise_at_last(int signal) {
+  if (!is_crash(signal)) prctl(PR_SET_DUMPABLE, 0);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 void end_by(const Interrupted& interrupted) {
-  std::signal(interrupted.signal, SIG_DFL);
-  std::raise(interrupted.signal);
+  raise_at_last(interrupted.signal);
   std::abort();  // only if the signal is blocked
 }
 

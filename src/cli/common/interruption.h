@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The interruption of a program that first has to clean up.
+// Signals by which others end the program, and programs that first have to clean up.
 #ifndef CELLWALK_CLI_COMMON_INTERRUPTION_H
 #define CELLWALK_CLI_COMMON_INTERRUPTION_H
 
+#include <array>
 #include <csignal>
+#include <cstddef>
 
 namespace cellwalk::cli {
+
+/// Signals are numbered from 1.
+inline constexpr std::size_t signal_count = NSIG;
+
+/// True if a signal from outside ends a program that does not handle it, and may be handled: those of a
+/// terminal, of batch systems before a limit (SIGXCPU, SIGUSR1, SIGUSR2), of timers, and any without a
+/// meaning. Not a closed pipe and the limit of file sizes, which are errors of writing.
+bool ends_programs(int signal);
+
+/// True if a signal tells of a defect.
+bool is_crash(int signal);
 
 /// Thrown by Interruption::check(); the handler cleans up and ends the program by the signal.
 struct Interrupted {
@@ -18,8 +31,8 @@ using Signal_handler = void (*)(int);
 /// and a shell with SIGINT for work in the background. Returns what handled it before.
 Signal_handler handle_unless_ignored(int signal, Signal_handler handler);
 
-/// Records SIGINT, SIGTERM and SIGHUP during its lifetime instead of ending the program, but for
-/// those that are ignored. One at a time.
+/// Records signals that end programs during its lifetime, instead of ending the program, but for those that
+/// are ignored. What came after the last check() acts when its lifetime ends. One at a time.
 class Interruption {
  public:
   Interruption();
@@ -33,10 +46,14 @@ class Interruption {
   void check() const;
 
  private:
-  Signal_handler before_[3];
+  std::array<Signal_handler, signal_count> before_{};
 };
 
-/// Ends the program as the signal would have. Does not return.
+/// Ends the program as the signal would have, without a dump of its memory where others want it to end. Safe
+/// in a signal handler, after which it ends.
+void raise_at_last(int signal);
+
+/// The same elsewhere. Does not return.
 [[noreturn]] void end_by(const Interrupted& interrupted);
 
 }  // namespace cellwalk::cli

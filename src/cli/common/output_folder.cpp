@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "output_folder.h"
 
+#include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fcntl.h>
@@ -45,9 +46,9 @@ bool has_ended(const char* begin, const char* end) {
 
 /// True of the name of a file or folder that a run writes, or of an unfinished file.
 bool is_of_a_run(const fs::path& name) {
-  static constexpr std::array<std::string_view, 10> names{
-      "changes.csv", "contacts.csv", "forces.csv", "frames",    "motion.gz",
-      "picture.png", "run.json",     "run.pvd",    "walls.csv", "walls.vtu"};
+  static constexpr std::array<std::string_view, 11> names{
+      "changes.csv",  "contacts.csv", "forces.csv", "frames",    "motion.gz", "picture.png",
+      "record.trace", "run.json",     "run.pvd",    "walls.csv", "walls.vtu"};
   const std::string text = name.string();
   return std::find(names.begin(), names.end(), text) != names.end() ||
          (text.starts_with('.') && text.ends_with(".tmp"));
@@ -159,8 +160,7 @@ void Output_folder::keep_beside() {
 void Output_folder::take_back() noexcept { replacement_.take_back(temporary_, destination_); }
 
 void Output_folder::settle() noexcept {
-  std::error_code ignored;
-  fs::remove_all(temporary_, ignored);  // the new folder before put(), the old one after it
+  io::remove_tree(temporary_.c_str());  // the new folder before put(), the old one after it
 }
 
 }  // namespace cellwalk::cli

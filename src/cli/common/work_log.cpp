@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -100,7 +101,16 @@ void Work_log::end(const Stage& stage) {
   Work_log* const log = the_log;
   if (log == nullptr) return;
   const std::lock_guard lock(log->mutex_);
-  if (std::erase(log->running_, &stage) > 0) log->write(stage, true);
+  if (std::erase(log->running_, &stage) > 0) log->write_if_possible(stage, true);
+}
+
+/// On its own thread, and at the end of a stage, errors have nowhere to go.
+/// \pre mutex_ is held
+void Work_log::write_if_possible(const Stage& stage, bool is_end) noexcept {
+  try {
+    write(stage, is_end);
+  } catch (const std::bad_alloc&) {  // a line is missing
+  }
 }
 
 /// \pre mutex_ is held
@@ -128,7 +138,7 @@ void Work_log::write(const Stage& stage, bool is_end) {
 void Work_log::repeat() {
   std::unique_lock lock(mutex_);
   while (!stopped_.wait_for(lock, interval_, [this] { return is_stopped_; }))
-    if (!running_.empty()) write(*running_.back(), false);
+    if (!running_.empty()) write_if_possible(*running_.back(), false);
 }
 
 }  // namespace cellwalk::cli

@@ -63,6 +63,7 @@ class Work_log {
  private:
   void open();
   void write(const Stage& stage, bool is_end);
+  void write_if_possible(const Stage& stage, bool is_end) noexcept;
   void repeat();
 
   std::string path_;

@@ -2,6 +2,7 @@
 #include "working_folder.h"
 
 #include <cellwalk/internal/io/durable.h>
+#include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <exception>
 #include <fstream>
 #include <span>
 #include <string>
@@ -60,10 +62,11 @@ bool has_checkpoint(const fs::path& folder) {
 }
 
 /// True of what a process made here, even if it was killed at once, and of what one left that was killed
-/// while it removed this.
+/// while it removed this. A link is none.
 bool is_of_a_run(const fs::path& folder) {
   std::error_code failure;
-  if (fs::is_regular_file(folder / "lock", failure)) return true;
+  if (!fs::is_directory(fs::symlink_status(folder, failure))) return false;
+  if (fs::is_regular_file(fs::symlink_status(folder / "lock", failure))) return true;
   const fs::directory_iterator entries(folder, failure);
   return !failure && std::all_of(begin(entries), end(entries),
                                  [](const auto& entry) { return entry.path().filename() == "ended"; });
@@ -73,6 +76,15 @@ bool is_same_file(int descriptor, const fs::path& file) {
   struct stat opened, named;
   return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// Does what the next process does otherwise, unless there is no memory even for names.
+template <class Function>
+void if_possible(Function&& function) noexcept {
+  try {
+    function();
+  } catch (const std::exception&) {
+  }
 }
 
 void remove_unfinished_files(const fs::path& folder) {
@@ -96,8 +108,9 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
   folder->replaces_ = replace;
   std::error_code ignored;
-  if (!fs::exists(folder->path_, ignored)) {
-    make_folder(folder->path_);
+  if (!fs::exists(fs::symlink_status(folder->path_, ignored))) {
+    const std::string path = folder->path_.string();
+    folder->unfinished_.make(path, [&] { return make_folder(path), true; });
     folder->is_own_ = true;
   } else if (!is_of_a_run(folder->path_)) {
     throw Error(Error_code::usage,
@@ -124,17 +137,19 @@ void Working_folder::begin() {
   for (const char* name : folders) fs::remove_all(path_ / name, ignored);
   fs::remove(path_ / "ended", ignored);
   is_own_ = true;
+  unfinished_.release();
   make_folder(results());
   make_folder(checkpoints());
 }
 
 void Working_folder::forget_earlier() noexcept {
-  std::error_code ignored;
-  for (const char* name : {folders[1], folders[0]}) fs::remove_all(earlier(name), ignored);
+  if_possible([this] {
+    for (const char* name : {folders[1], folders[0]}) io::remove_tree(earlier(name).c_str());
+  });
 }
 
 /// What was put aside first comes back last: until then a process that is killed leaves it to the next one.
-void Working_folder::bring_earlier_back() noexcept {
+void Working_folder::bring_earlier_back() {
   std::error_code failure;
   for (const char* name : {folders[1], folders[0]}) {
     if (!fs::exists(earlier(name), failure)) continue;
@@ -175,9 +190,9 @@ bool Working_folder::are_results_in_place() const {
 bool Working_folder::has_ended(const fs::path& destination) {
   const Working_folder folder(destination);
   std::error_code ignored;
+  if (!fs::is_regular_file(folder.destination_ / "run.json", ignored)) return false;
   // An empty one was about to be removed.
-  return (!fs::exists(folder.path_, ignored) || fs::is_empty(folder.path_, ignored)) &&
-         fs::is_regular_file(folder.destination_ / "run.json", ignored);
+  return rmdir(folder.path_.c_str()) == 0 || errno == ENOENT;
 }
 
 void Working_folder::allow_replacing(const std::string& name) {
@@ -192,9 +207,9 @@ void Working_folder::refuse_destination(Error_code code) const {
 }
 
 void Working_folder::lock() {
-  constexpr mode_t permissions = 0666;
+  io::check_own(path_, shown());
   const fs::path file = path_ / "lock";
-  lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);
+  lock_ = io::open_own(file, O_RDWR | O_CREAT);
   if (lock_ < 0) fail_at(path_, "cannot be written", std::error_code(errno, std::generic_category()));
   // The other process may have removed the file that was opened.
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && is_same_file(lock_, file)) return;
@@ -210,25 +225,30 @@ std::string Working_folder::shown() const {
 }
 
 Working_folder::~Working_folder() {
-  std::error_code ignored;
   if (lock_ < 0 && is_own_)
-    fs::remove(path_, ignored);  // unless another process is in it by now
-  else if (is_own_ && !is_done_ && !has_checkpoint(checkpoints()) && fs::exists(earlier(folders[0]), ignored))
-    bring_earlier_back();
-  else if (is_own_ && !is_done_ && !has_checkpoint(checkpoints()))
-    clear();
+    rmdir(path_.c_str());  // unless another process is in it by now
+  else if (is_own_ && !is_done_)
+    if_possible([this] { leave(); });
   if (lock_ >= 0) close(lock_);
 }
 
+/// Of a run that did not end: what has no checkpoint is of no use.
+void Working_folder::leave() {
+  std::error_code ignored;
+  if (has_checkpoint(checkpoints())) return;
+  if (fs::exists(earlier(folders[0]), ignored))
+    bring_earlier_back();
+  else
+    clear();
+}
+
 /// Removes what runs leave here. What tells that one has ended goes last: whoever finds it removes the rest.
-void Working_folder::clear() noexcept {
+void Working_folder::clear() {
   std::error_code failure;
   fs::remove(results() / "run.json", failure);  // what is half removed is not taken for results
   for (const char* name : {folders[1], folders[0]})
-    for (const fs::path& folder : {path_ / name, earlier(name)}) {
-      fs::remove_all(folder, failure);
-      if (failure) return;
-    }
+    for (const fs::path& folder : {path_ / name, earlier(name)})
+      if (!io::remove_tree(folder.c_str())) return;
   for (const char* file : {"ended.tmp", "lock", "ended"}) fs::remove(path_ / file, failure);
   fs::remove(path_, failure);
 }
@@ -251,13 +271,11 @@ void Working_folder::take_back() noexcept { replacement_.take_back(results(), de
 
 /// The new names are on the device before what they could be made from is gone.
 void Working_folder::settle() noexcept {
-  try {
+  if_possible([this] {
     io::sync(destination_.parent_path());
-  } catch (const Error&) {
-    return;  // all is there: a second try removes it
-  }
-  is_done_ = true;
-  clear();
+    is_done_ = true;
+    clear();
+  });
 }
 
 }  // namespace cellwalk::cli

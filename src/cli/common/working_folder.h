@@ -16,13 +16,15 @@ namespace cellwalk::cli {
 /// OUT.part, with the folders `results`, which becomes OUT, and `checkpoints`. One process uses it at a time.
 class Working_folder final : public io::Output {
  public:
-  /// Makes it, or takes one that an earlier run left: what is in that stays until begin().
-  /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(other)
-  ///        if it cannot be made
+  /// Makes it, or takes one that an earlier run left: what is in that stays until begin(). Of one that was
+  /// made nothing stays if the program ends by a signal before.
+  /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(input)
+  ///        for one that holds links; Error(other) if it cannot be made
   static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
   /// Takes up what an earlier process left: unfinished files in it are removed, and nothing else before
   /// settle().
-  /// \throw Error(usage) if there is none, or another process uses it
+  /// \throw Error(usage) if there is none, or another process uses it; Error(input) if it holds links, by
+  ///        which files outside would be written
   static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
 
   /// Of one that was made: puts what an earlier run left aside, and makes the folders of this one. Without a
@@ -32,7 +34,7 @@ class Working_folder final : public io::Output {
   /// Once there is a checkpoint: removes what an earlier run left.
   void forget_earlier() noexcept;
 
-  /// True if there is none, or an empty one, but results of a run.
+  /// True if there are results of a run, and no such folder; an empty one is removed.
   static bool has_ended(const std::filesystem::path& destination);
 
   ~Working_folder() override;
@@ -59,11 +61,13 @@ class Working_folder final : public io::Output {
   bool are_results_in_place() const;
   std::filesystem::path earlier(const char* name) const { return path_ / (std::string(name) + ".before"); }
   void sort_out_earlier();
-  void bring_earlier_back() noexcept;
-  void clear() noexcept;
+  void bring_earlier_back();
+  void leave();
+  void clear();
   [[noreturn]] void refuse_destination(Error_code code) const;
 
   std::filesystem::path name_, destination_, path_;  ///< the given name, its target, that with .part
+  io::Unfinished unfinished_;
   io::Replacement replacement_;
   int lock_ = -1;
   bool replaces_ = false, is_done_ = false;

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <span>
@@ -21,27 +22,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string program = "cellwalk " CELLWALK_VERSION;
+constexpr const char* program = "cellwalk " CELLWALK_VERSION;
 constexpr const char* environment_name = "environment.cellwalk";
 
 }  // namespace
-
-std::string absolute_path(const std::string& name) {
-  return name.empty() ? name : fs::absolute(name).string();
-}
 
 Run_settings::Run_settings(const Run_options& options, std::vector<std::string> notes_of_bodies)
     : scene(options.scene),
       scene_text(options.scene_text),
       record(options.record),
       json(options.json),
-      record_path(absolute_path(options.record)),
-      json_path(absolute_path(options.json)),
       steps(options.steps),
       every(options.checkpoint_every),
       replaced(options.force ? Output_folder::place_of(options.folder).filename().string() : ""),
       sweep(options.body.sweep.sweep),
       notes(std::move(notes_of_bodies)) {}
+
+namespace {
+
+/// What no run has, and would lead out of its folder or end the program. The checksum of a file does not tell
+/// who made it.
+bool is_impossible(const Run_settings& settings, const Result_files::Lengths& lengths) {
+  const auto leads_out = [](const auto& entry) {
+    const fs::path name(entry.first);
+    return name.is_absolute() || std::ranges::count(name, fs::path("..")) > 0;
+  };
+  return settings.every == 0 || settings.sweep > Sweep::faces || std::ranges::any_of(lengths, leads_out);
+}
+
+}  // namespace
 
 Kept_run read_checkpoint(const fs::path& checkpoints) {
   Kept_run kept;
@@ -50,6 +59,7 @@ Kept_run read_checkpoint(const fs::path& checkpoints) {
     fmt::print(stderr, "cellwalk: {}; going on from the checkpoint before\n", printable(damage));
   kept.rest = detail::Byte_reader(kept.checkpoint.state);
   kept.rest(kept.settings, kept.lengths);
+  if (is_impossible(kept.settings, kept.lengths)) detail::Byte_reader::refuse();
   return kept;
 }
 

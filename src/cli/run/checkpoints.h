@@ -24,8 +24,8 @@ namespace cellwalk::cli {
 
 /// What was asked for when the run began.
 struct Run_settings {
-  std::string scene, scene_text, record, json;
-  std::string record_path, json_path;  ///< wherever the program is called
+  std::string scene, scene_text;
+  std::string record, json;  ///< names of files outside of the folder, which are not written unasked
   std::uint32_t steps = 0, every = 0;
   std::string replaced;  ///< the name of the folder that --force replaces, without its place; empty: none
   Sweep sweep = Sweep::triangle;
@@ -36,12 +36,9 @@ struct Run_settings {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(scene, scene_text, record, json, record_path, json_path, steps, every, replaced, sweep, notes);
+    a(scene, scene_text, record, json, steps, every, replaced, sweep, notes);
   }
 };
-
-/// A name of a file, wherever the program is called; an empty one stays so.
-std::string absolute_path(const std::string& name);
 
 /// A checkpoint that was read.
 struct Kept_run {

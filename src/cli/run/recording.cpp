@@ -105,6 +105,7 @@ Run_recording<D>::Run_recording(Result_files& place, const Snapshot<D>& snapshot
       walls_(snapshot),
       writer_(place.packed("motion.gz"), {}, true) {
   saved(every_, walls_, writer_, before_);
+  if (every_ == 0) detail::Byte_reader::refuse();
 }
 
 template <int D>

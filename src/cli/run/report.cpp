@@ -6,11 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 
 #include "bodies.h"
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/counts_json.h"
 #include "cli/common/environment_file.h"
+#include "cli/common/printable.h"
+#include "trace.h"
 
 namespace cellwalk::cli {
 
@@ -105,6 +108,20 @@ std::string summary(const Run_input<D>& input, const Run_parts<D>& parts) {
   if (parts.picture) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
   if (!options.record.empty()) line("recorded", options.record);
+  return text;
+}
+
+std::string not_written(const Run_settings& began, const Run_options& now) {
+  std::string text;
+  const auto line = [&](const std::string& name, const std::string& given, const char* option,
+                        const char* inside) {
+    if (!name.empty() && given.empty())
+      text += fmt::format("  {:<12}{}: lies outside of {}, and {} was not given again; copy {}\n",
+                          "not written", printable(name), now.folder, option,
+                          (std::filesystem::path(now.folder) / inside).string());
+  };
+  line(began.record, now.record, "--record", kept_trace_name);
+  line(began.json, now.json, "--json", "run.json");
   return text;
 }
 

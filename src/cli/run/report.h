@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "checkpoints.h"
 #include "parts.h"
 
 namespace cellwalk::cli {
@@ -16,6 +17,8 @@ nlohmann::ordered_json report(const Run_input<D>& input, const Run_parts<D>& par
 /// For people.
 template <int D>
 std::string summary(const Run_input<D>& input, const Run_parts<D>& parts);
+/// Of a run that went on: what it was to write outside of its folder, and is not given again.
+std::string not_written(const Run_settings& began, const Run_options& now);
 template <int D>
 std::string caption(const Run_input<D>& input, const Run_parts<D>& parts);
 

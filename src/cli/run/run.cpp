@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
-#include <cellwalk/internal/io/body_trace_file.h>
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/scene.h>
@@ -32,6 +31,7 @@
 #include "report.h"
 #include "scene_source.h"
 #include "sharing.h"
+#include "trace.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -56,34 +56,49 @@ void draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::files
   io::write_file(file, drawing::encode_png(image));
 }
 
-/// Runs the steps that are left.
+/// Runs the steps that are left, without checkpoints: a signal ends the program at once.
 template <int D>
-void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing,
-               Run_checkpoints<D>* checkpoints, Working_folder* working, const Interruption& interruption) {
+void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing) {
+  Progress progress("running " + input.options.scene, input.steps());
+  for (std::uint32_t i = 1; i <= input.steps(); ++i) {
+    parts.step(sharing, i == input.steps());
+    progress.update(i);
+  }
+}
+
+/// The same with checkpoints, by one process. A signal ends the program after the step, with a last one;
+/// there is one after the last step as well, since what follows may take long.
+template <int D>
+void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_checkpoints<D>& checkpoints,
+               Working_folder& working, const Interruption& interruption) {
   Progress progress("running " + input.options.scene, input.steps());
   const auto keep = [&](std::uint32_t step) {
-    checkpoints->keep(step, input.environment, input.certificate,
-                      [&](detail::Byte_writer& out) { parts.save(out); });
+    checkpoints.keep(step, input.environment, input.certificate,
+                     [&](detail::Byte_writer& out) { parts.save(out); });
   };
+  Ranks alone;
+  Run_sharing<D> sharing(alone, parts.world, state_times(input, parts.world));
   std::uint32_t i = parts.world.steps_done();
-  if (checkpoints != nullptr && i == 0) {
+  if (i == 0) {
     keep(0);
-    working->forget_earlier();
+    working.forget_earlier();
+    interruption.check();
   }
   while (i++ < input.steps()) {
     parts.step(sharing, i == input.steps());
-    if (checkpoints != nullptr && (checkpoints->is_due(i) || interruption.has_come())) keep(i);
+    if (checkpoints.is_due(i) || i == input.steps() || interruption.has_come()) keep(i);
     progress.update(i);
     interruption.check();
   }
 }
 
 /// Completes the files of a run whose steps are done.
+/// \param sharing null: there was none
 template <int D>
-void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing, Run_outputs& outputs,
+void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>* sharing, Run_outputs& outputs,
             const std::filesystem::path& folder) {
   parts.world.validate();
-  sharing.finish();
+  if (sharing != nullptr) sharing->finish();
   parts.files.finish();
   if (parts.walls || parts.changes) {
     const Progress progress("certifying the environment as it is now");
@@ -95,8 +110,25 @@ void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& shar
   if (parts.picture) draw(input, parts, folder / "picture.png");
   const ordered_json said = report(input, parts);
   io::write_json(folder / "run.json", said);
-  if (parts.record) io::write_body_trace(*outputs.record, parts.record->trace());
+  if (parts.record) write_trace(parts.record->trace(), outputs.record, folder);
   write_json(outputs.json, said);
+}
+
+/// A new run with checkpoints.
+template <int D>
+void run_kept(const Run_input<D>& input, World<D>&& world, const Groups<D>& groups,
+              const Scene_bodies<D>& bodies, Run_outputs& outputs) {
+  Working_folder& working = *outputs.working;
+  Result_files place(working.results(), working.checkpoints(), {});
+  std::optional<Interruption> interruption(std::in_place);
+  working.begin();
+  Run_parts<D> parts(input, place, std::move(world), groups, outputs.record != nullptr);
+  Run_checkpoints<D> checkpoints(working.checkpoints(), place, Run_settings(input.options, bodies.notes),
+                                 changes_environment(input.scene));
+  run_steps(input, parts, checkpoints, working, *interruption);
+  interruption.reset();
+  finish<D>(input, parts, nullptr, outputs, place.folder());
+  outputs.all.commit(summary(input, parts));
 }
 
 /// The part of a rank that is not the first.
@@ -141,24 +173,13 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   const Groups<D> groups = known ? *known : Groups<D>{};
   const Run_input<D> input{scene, options, *environment, prepared.certificate, bodies.notes};
   if (outputs == nullptr) return help(input, bodies.shapes, ranks);
-  Result_files place = outputs->working == nullptr
-                           ? Result_files(outputs->folder->path())
-                           : Result_files(outputs->working->results(), outputs->working->checkpoints(), {});
-  // There are no results yet: a signal ends the program while bodies are still being placed, which may take
-  // long.
   World<D> world = make_world(input, bodies.shapes);
-  const Interruption interruption;
-  if (outputs->working != nullptr) outputs->working->begin();
-  const Attentive_wait wait(ranks, interruption);
+  if (outputs->working != nullptr) return run_kept(input, std::move(world), groups, bodies, *outputs);
+  Result_files place(outputs->folder->path());
   Run_parts<D> parts(input, place, std::move(world), groups, outputs->record != nullptr);
   Run_sharing<D> sharing(ranks, parts.world, state_times(input, parts.world));
-  std::optional<Run_checkpoints<D>> checkpoints;
-  if (outputs->working != nullptr)
-    checkpoints.emplace(outputs->working->checkpoints(), place, Run_settings(options, bodies.notes),
-                        changes_environment(scene));
-  run_steps(input, parts, sharing, checkpoints ? &*checkpoints : nullptr, outputs->working, interruption);
-  finish(input, parts, sharing, *outputs, place.folder());
-  interruption.check();
+  run_steps(input, parts, sharing);
+  finish(input, parts, &sharing, *outputs, place.folder());
   outputs->all.commit(summary(input, parts));
 }
 
@@ -173,17 +194,15 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
   const Run_input<D> input{scene, options, environment.environment, environment.certificate,
                            kept.settings.notes};
   Result_files place(outputs.working->results(), folder, kept.lengths);
-  const Interruption interruption;
-  Run_parts<D> parts(input, place, outputs.record != nullptr, kept.rest);
+  Run_parts<D> parts(input, place, !kept.settings.record.empty(), kept.rest);
   Run_settings settings = kept.settings;
   if (options.checkpoint_every > 0) settings.every = options.checkpoint_every;
   Run_checkpoints<D> checkpoints(folder, place, std::move(settings), changes_environment(scene));
-  Ranks alone;
-  Run_sharing<D> sharing(alone, parts.world, state_times(input, parts.world));
-  run_steps(input, parts, sharing, &checkpoints, outputs.working, interruption);
-  finish(input, parts, sharing, outputs, place.folder());
-  interruption.check();
-  outputs.all.commit(summary(input, parts));
+  std::optional<Interruption> interruption(std::in_place);
+  run_steps(input, parts, checkpoints, *outputs.working, *interruption);
+  interruption.reset();
+  finish<D>(input, parts, nullptr, outputs, place.folder());
+  outputs.all.commit(summary(input, parts) + not_written(kept.settings, options));
 }
 
 /// Refuses options of another run than the one that goes on.
@@ -198,8 +217,9 @@ void check_same(const Run_options& options, const Asked& asked, const Run_settin
     refuse("another scene");
   if (asked.steps && options.steps != steps) refuse("another number of --steps");
   if (asked.sweep && options.body.sweep.sweep != settings.sweep) refuse("another --sweep");
-  if (asked.record && absolute_path(options.record) != settings.record_path) refuse("another --record");
-  if (asked.json && absolute_path(options.json) != settings.json_path) refuse("another --json");
+  // Where they go is up to whoever goes on.
+  if (asked.record && settings.record.empty()) refuse("another --record");
+  if (asked.json && settings.json.empty()) refuse("another --json");
 }
 
 void resume(Run_options options, const Asked& asked) {
@@ -220,12 +240,10 @@ void resume(Run_options options, const Asked& asked) {
   const std::uint32_t steps =
       settings.steps > 0 ? settings.steps : std::visit([](const auto& of) { return of.steps; }, scene);
   check_same(options, asked, settings, steps);
-  outputs.open(settings.record_path, settings.json_path);
-  options.scene = settings.scene;
+  outputs.open(options.record, options.json);
+  options.scene = printable(settings.scene);
   options.scene_text = settings.scene_text;
   options.folder = options.resume;
-  options.record = settings.record;
-  options.json = settings.json;
   options.steps = settings.steps;
   options.body.sweep.sweep = settings.sweep;
   std::visit([&](const auto& of) { resume_scene(options, outputs, of, kept); }, scene);

@@ -12,23 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/common/interruption.h"
-
 namespace cellwalk::cli {
-
-/// A first rank that waits for others notices an interruption.
-class Attentive_wait {
- public:
-  Attentive_wait(Ranks& ranks, const Interruption& interruption) : ranks_(ranks) {
-    ranks.while_waiting([&interruption] { interruption.check(); });
-  }
-  ~Attentive_wait() { ranks_.while_waiting({}); }
-  Attentive_wait(const Attentive_wait&) = delete;
-  Attentive_wait& operator=(const Attentive_wait&) = delete;
-
- private:
-  Ranks& ranks_;
-};
 
 /// Why ranks cannot share a run; empty if they can.
 template <int D>

@@ -4,6 +4,7 @@
 #define CELLWALK_CLI_RUN_TRACE_H
 
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
+#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/simulation/world.h>
 
@@ -30,6 +31,12 @@ std::unique_ptr<Body_trace_recorder> start_trace(const std::string& scene_name, 
 /// The same, going on with what a run recorded before.
 std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<3>& world, Body_trace trace);
 std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<2>& world, Body_trace trace);
+
+/// Where among the results a trace is that may not be written elsewhere.
+inline constexpr const char* kept_trace_name = "record.trace";
+
+/// Writes it to a file, or among the results if there is none.
+void write_trace(const Body_trace& trace, io::Atomic_file* file, const std::filesystem::path& results);
 
 /// What a trace has grown by, in a file from which it can be read again.
 class Kept_trace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/durable.h>
+#include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fcntl.h>
@@ -79,10 +80,10 @@ void sync_all(const fs::path& folder) {
 }
 
 void write_durably(const fs::path& destination, std::span<const std::span<const std::byte>> pieces) {
-  constexpr mode_t permissions = 0666;  // without the umask of the user
   fs::path temporary = destination;
   temporary += ".tmp";
-  Descriptor file(open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, permissions));
+  unlink(temporary.c_str());  // of a process that was killed; and no link is written through
+  Descriptor file(open_own(temporary, O_WRONLY | O_CREAT | O_EXCL));
   if (file.number() < 0) fail_of(destination, "cannot be written");
   bool is_good = true;
   for (const auto piece : pieces)
@@ -122,9 +123,7 @@ void remove_abandoned(const fs::path& destination) {
 }
 
 Growing_file::Growing_file(fs::path path, std::uint64_t length) : path_(std::move(path)), length_(length) {
-  constexpr mode_t permissions = 0666;
-  const int mode = O_WRONLY | O_CLOEXEC | (length == 0 ? O_CREAT | O_TRUNC : 0);
-  descriptor_ = open(path_.c_str(), mode, permissions);
+  descriptor_ = open_own(path_, O_WRONLY | (length == 0 ? O_CREAT : 0));
   if (descriptor_ < 0 && length > 0 && errno == ENOENT)
     throw Error(Error_code::input,
                 path_.string() + ": is missing, and was there at the checkpoint: begin the run again");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/output.h>
+#include <cellwalk/internal/io/own_files.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -27,21 +28,26 @@ struct Slot {
 };
 std::array<Slot, slot_count> slots;
 
-std::atomic<bool> names_change = false;
+std::atomic<int> names_change = 0;      // by so many threads now
+std::atomic<bool> are_removed = false;  // files, or they will be and nothing else is to come
+constexpr useconds_t nap = 100;         // microseconds
+/// About ten seconds: a change of a name on a slow network is waited for, and not for ever.
+constexpr int most_naps = 100'000;
 
-/// Holds signals that end the program during its lifetime: on this thread they are blocked, on others the
-/// handler waits.
+/// Holds signals during its lifetime: on this thread they are blocked, on others the handler waits.
 class Hold_signals {
  public:
   Hold_signals() {
-    sigset_t ending;
-    sigemptyset(&ending);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
-    pthread_sigmask(SIG_BLOCK, &ending, &before_);
-    names_change.store(true);
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+    for (++names_change; are_removed.load(); ++names_change) {
+      --names_change;
+      while (are_removed.load()) usleep(nap);
+    }
   }
   ~Hold_signals() {
-    names_change.store(false);
+    --names_change;
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
   Hold_signals(const Hold_signals&) = delete;
@@ -101,6 +107,7 @@ void put_in_place(std::span<Output* const> outputs, const std::function<void()>&
     while (done > 0) outputs[--done]->take_back();
     throw;
   }
+  const Hold_signals hold;  // what is not needed any more does not stay
   for (Output* output : outputs) output->settle();
 }
 
@@ -161,12 +168,12 @@ void Replacement::take_back(const std::filesystem::path& from,
     std::rename(to.c_str(), from.c_str());
 }
 
-void discard_unfinished_files() noexcept {
-  while (names_change.load()) usleep(100);
+void discard_unfinished_files(bool for_good) noexcept {
+  are_removed.store(true);
+  for (int naps = 0; names_change.load() > 0 && naps < most_naps; ++naps) usleep(nap);
   for (Slot& slot : slots)
-    if (slot.state.load() == 2) unlink(slot.path.data());
-  for (Slot& slot : slots)  // folders, which are empty now
-    if (slot.state.load() == 2) rmdir(slot.path.data());
+    if (slot.state.load() == 2) remove_tree(slot.path.data());
+  if (!for_good) are_removed.store(false);
 }
 
 }  // namespace cellwalk::io

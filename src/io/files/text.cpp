@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <new>
 
 namespace cellwalk::io {
 namespace {
@@ -35,7 +36,7 @@ std::string shown(std::string_view word) {
 std::string unpack(const std::string& file, const std::string& packed) {
   z_stream stream{};
   constexpr int gzip_only = 15 + 16;  // the largest window, gzip framing
-  if (inflateInit2(&stream, gzip_only) != Z_OK) fail(file, "zlib cannot be started");
+  if (inflateInit2(&stream, gzip_only) != Z_OK) throw std::bad_alloc();
   std::string out;
   std::size_t taken = 0;
   int status = Z_OK;
@@ -52,6 +53,7 @@ std::string unpack(const std::string& file, const std::string& packed) {
     out.append(chunk.data(), chunk.size() - stream.avail_out);
   }
   inflateEnd(&stream);
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
   if (status != Z_STREAM_END)
     fail(file, "the gzip stream is damaged or cut short: copy or compress the file again");
   return out;

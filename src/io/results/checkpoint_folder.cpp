@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> magic{'C', 'W', 'C', 'H', 'E', 'C', 'K', '\n'};
 /// To be raised whenever the state of a run gets other parts, or these another meaning.
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::string_view prefix = "step-", suffix = ".checkpoint";
 constexpr std::size_t most_kept = 2;

@@ -30,13 +30,14 @@ struct Kind {
   const char* name;
   std::vector<std::string> arguments;  ///< of `cellwalk run`
   int steps, every;
+  std::vector<std::string> again{};  ///< those that `--resume` is to be given, too
 };
 
 const std::vector<Kind> kinds{
-    {"bodies", {data + "/bodies.json", "--record", "b.trace"}, 60, 7},
+    {"bodies", {data + "/bodies.json", "--record", "b.trace"}, 60, 7, {"--record", "b.trace"}},
     {"bodies_2d", {data + "/bodies_2d.json"}, 90, 10},
     {"rooms", {data + "/rooms.json", "--set", "catheter.particles=60"}, 90, 10},
-    {"catheter", {data + "/catheter.json", "--json", "report.json"}, 60, 7},
+    {"catheter", {data + "/catheter.json", "--json", "report.json"}, 60, 7, {"--json", "report.json"}},
     {"soft",
      {data + "/soft.json", "--sweep", "faces", "--set", "bodies[0].count=2", "--set", "bodies[1].count=3"},
      30,
@@ -72,10 +73,16 @@ class Stops : public Stopped_run, public testing::WithParamInterface<Kind> {
         last, known + 1 + static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(kind.steps))));
     const auto delay = microseconds(by_time ? whole_ : most_after_step);
     Clock::time_point time = by_time ? Clock::now() + delay : Clock::time_point::max();
-    return stop_program(known < 0 ? begin(kind.every) : resume(), parts(), SIGKILL, [&] {
+    return stop_program(known < 0 ? begin(kind.every) : resume_again(), parts(), SIGKILL, [&] {
       if (time == Clock::time_point::max() && newest_step(parts()) >= aim) time = Clock::now() + delay;
       return kills && Clock::now() >= time;
     });
+  }
+
+  static std::vector<std::string> resume_again() {
+    std::vector<std::string> arguments = resume();
+    arguments.insert(arguments.end(), GetParam().again.begin(), GetParam().again.end());
+    return arguments;
   }
 
   /// Runs it to its end, and kills it so many times at most. Returns how many times it was.
@@ -92,9 +99,9 @@ class Stops : public Stopped_run, public testing::WithParamInterface<Kind> {
         return killed;
       }
       if (!std::filesystem::exists(parts() / "out")) continue;
-      const Outcome last = run_program(resume(), parts());  // it was killed when its results were in place
+      const Outcome last =
+          run_program(resume_again(), parts());  // it was killed when its results were in place
       EXPECT_EQ(last.exit_code, 0) << last.err;
-      std::filesystem::remove(parts() / "out.part");  // if it is empty
       expect_same_files(parts(), path("whole"));
       return killed + 1;
     }

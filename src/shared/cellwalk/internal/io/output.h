@@ -55,7 +55,8 @@ class Byte_sink {
 /// \throw Error(other) as the outputs; any exception of `finish`
 void put_in_place(std::span<Output* const> outputs, const std::function<void()>& finish = {});
 
-/// Registers a file or an empty directory for discard_unfinished_files(), during the lifetime of this object.
+/// Registers a file, or a directory with all that is in it, for discard_unfinished_files(), during the
+/// lifetime of this object.
 class Unfinished {
  public:
   Unfinished() = default;
@@ -105,7 +106,8 @@ std::filesystem::path target_of(const std::filesystem::path& name);
 
 /// Removes everything that is Unfinished, such as the temporary files of uncommitted Atomic_files. Safe to
 /// call from a signal handler, for programs that leave nothing behind when they are interrupted.
-void discard_unfinished_files() noexcept;
+/// \param for_good the program ends: other threads that would make a file wait for that
+void discard_unfinished_files(bool for_good = false) noexcept;
 
 }  // namespace cellwalk::io
 

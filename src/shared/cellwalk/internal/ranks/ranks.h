@@ -68,9 +68,6 @@ class Ranks {
   /// The bytes of the first rank of this node, on every one of them.
   std::string broadcast_on_node(std::string bytes);
 
-  /// Calls a function while waiting for other ranks; it may throw, and then nothing else may be called.
-  void while_waiting(std::function<void()> check);
-
   /// Ends all ranks, with an exit code, because this one failed. On the first rank and alone: for good,
   /// without a message, which the caller has printed; alone it does nothing. On others: hands the error to
   /// the first, and returns only if that did not need it any more.
