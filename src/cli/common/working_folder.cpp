@@ -111,7 +111,7 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
   if (!fs::exists(fs::symlink_status(folder->path_, ignored))) {
     const std::string path = folder->path_.string();
     folder->unfinished_.make(path, [&] { return make_folder(path), true; });
-    folder->is_own_ = true;
+    folder->is_own_ = folder->is_new_ = true;
   } else if (!is_of_a_run(folder->path_)) {
     throw Error(Error_code::usage,
                 folder->shown() + ": was not made by a run: remove it, or give another folder");
@@ -137,12 +137,13 @@ void Working_folder::begin() {
   for (const char* name : folders) fs::remove_all(path_ / name, ignored);
   fs::remove(path_ / "ended", ignored);
   is_own_ = true;
-  unfinished_.release();
   make_folder(results());
   make_folder(checkpoints());
 }
 
 void Working_folder::forget_earlier() noexcept {
+  unfinished_.release();
+  is_new_ = false;
   if_possible([this] {
     for (const char* name : {folders[1], folders[0]}) io::remove_tree(earlier(name).c_str());
   });
@@ -227,6 +228,8 @@ std::string Working_folder::shown() const {
 Working_folder::~Working_folder() {
   if (lock_ < 0 && is_own_)
     rmdir(path_.c_str());  // unless another process is in it by now
+  else if (is_new_)
+    io::remove_tree(path_.c_str());
   else if (is_own_ && !is_done_)
     if_possible([this] { leave(); });
   if (lock_ >= 0) close(lock_);

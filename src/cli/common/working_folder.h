@@ -17,7 +17,7 @@ namespace cellwalk::cli {
 class Working_folder final : public io::Output {
  public:
   /// Makes it, or takes one that an earlier run left: what is in that stays until begin(). Of one that was
-  /// made nothing stays if the program ends by a signal before.
+  /// made nothing stays without a checkpoint, whatever ends the program.
   /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(input)
   ///        for one that holds links; Error(other) if it cannot be made
   static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
@@ -31,7 +31,7 @@ class Working_folder final : public io::Output {
   /// checkpoint, the destructor then removes them, and brings the earlier run back.
   /// \throw Error(other) if they cannot be made
   void begin();
-  /// Once there is a checkpoint: removes what an earlier run left.
+  /// Once there is a checkpoint, and this run stays: removes what an earlier one left.
   void forget_earlier() noexcept;
 
   /// True if there are results of a run, and no such folder; an empty one is removed.
@@ -72,6 +72,7 @@ class Working_folder final : public io::Output {
   int lock_ = -1;
   bool replaces_ = false, is_done_ = false;
   bool is_own_ = false;  ///< holds nothing of an earlier process
+  bool is_new_ = false;  ///< the same, as this process made it, and no checkpoint
 };
 
 }  // namespace cellwalk::cli

@@ -47,7 +47,9 @@ bool is_impossible(const Run_settings& settings, const Result_files::Lengths& le
     const fs::path name(entry.first);
     return name.is_absolute() || std::ranges::count(name, fs::path("..")) > 0;
   };
-  return settings.every == 0 || settings.sweep > Sweep::faces || std::ranges::any_of(lengths, leads_out);
+  return settings.every == 0 ||
+         static_cast<std::uint32_t>(settings.sweep) > static_cast<std::uint32_t>(Sweep::faces) ||
+         std::ranges::any_of(lengths, leads_out);
 }
 
 }  // namespace
