@@ -14,15 +14,16 @@ namespace cellwalk::cli {
 template <int D>
 nlohmann::ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts);
 /// For people.
+/// \param not_drawn why the picture is missing, if it is
 template <int D>
-std::string summary(const Run_input<D>& input, const Run_parts<D>& parts);
+std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const std::string& not_drawn);
 template <int D>
 std::string caption(const Run_input<D>& input, const Run_parts<D>& parts);
 
 extern template nlohmann::ordered_json report(const Run_input<2>&, const Run_parts<2>&);
 extern template nlohmann::ordered_json report(const Run_input<3>&, const Run_parts<3>&);
-extern template std::string summary(const Run_input<2>&, const Run_parts<2>&);
-extern template std::string summary(const Run_input<3>&, const Run_parts<3>&);
+extern template std::string summary(const Run_input<2>&, const Run_parts<2>&, const std::string&);
+extern template std::string summary(const Run_input<3>&, const Run_parts<3>&, const std::string&);
 extern template std::string caption(const Run_input<2>&, const Run_parts<2>&);
 extern template std::string caption(const Run_input<3>&, const Run_parts<3>&);
 

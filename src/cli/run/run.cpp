@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,22 +39,35 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Draws the picture. A run is not lost for it: if there is too little memory, or too much to draw, it ends
+/// without.
+/// \return why there is none; empty if it was drawn
 template <int D>
-void draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::filesystem::path& file) {
+std::string draw(const Run_input<D>& input, const Run_parts<D>& parts, const Interruption& interruption,
+                 const std::filesystem::path& file) {
   const Progress progress("drawing");
   const Picture_request& request = *input.scene.output.picture;
   drawing::Picture_options how;
   how.width = request.width;
   how.height = request.height;
+  how.check = [&interruption] { interruption.check(); };
   const auto direction = [](const std::vector<double>& v) {
     return v.empty() ? Vector<3>{} : Vector<3>{v[0], v[1], v[2]};
   };
   how.camera.toward = direction(request.toward);
   how.camera.up = direction(request.up);
   if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
-  const drawing::Image image = drawing::render(
-      parts.picture->draw(input.environment.soup(), parts.world, input.scene, caption(input, parts)), how);
-  io::write_file(file, drawing::encode_png(image));
+  std::string png;
+  try {
+    png = drawing::encode_png(
+        drawing::render(parts.picture->draw(parts.world, input.scene, caption(input, parts)), how));
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const Error& error) {
+    return error.what();
+  }
+  io::write_file(file, png);
+  return {};
 }
 
 /// Runs the steps that are left.
@@ -79,9 +93,11 @@ void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& s
 }
 
 /// Completes the files of a run whose steps are done.
+/// \return why it has no picture, if it was to have one
 template <int D>
-void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing, Run_outputs& outputs,
-            const std::filesystem::path& folder) {
+std::string finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& sharing,
+                   Run_outputs& outputs, const Interruption& interruption,
+                   const std::filesystem::path& folder) {
   parts.world.validate();
   sharing.finish();
   parts.files.finish();
@@ -92,11 +108,13 @@ void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& shar
   if (parts.walls) parts.walls->finish();
   if (parts.changes) parts.changes->finish();
   if (parts.motion) parts.motion->commit();
-  if (parts.picture) draw(input, parts, folder / "picture.png");
+  std::string not_drawn;
+  if (parts.picture) not_drawn = draw(input, parts, interruption, folder / "picture.png");
   const ordered_json said = report(input, parts);
   io::write_json(folder / "run.json", said);
   if (parts.record) io::write_body_trace(*outputs.record, parts.record->trace());
   write_json(outputs.json, said);
+  return not_drawn;
 }
 
 /// The part of a rank that is not the first.
@@ -157,9 +175,9 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
     checkpoints.emplace(outputs->working->checkpoints(), place, Run_settings(options, bodies.notes),
                         changes_environment(scene));
   run_steps(input, parts, sharing, checkpoints ? &*checkpoints : nullptr, outputs->working, interruption);
-  finish(input, parts, sharing, *outputs, place.folder());
+  const std::string not_drawn = finish(input, parts, sharing, *outputs, interruption, place.folder());
   interruption.check();
-  outputs->all.commit(summary(input, parts));
+  outputs->all.commit(summary(input, parts, not_drawn));
 }
 
 /// Goes on with a scene.
@@ -181,9 +199,9 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
   Ranks alone;
   Run_sharing<D> sharing(alone, parts.world, state_times(input, parts.world));
   run_steps(input, parts, sharing, &checkpoints, outputs.working, interruption);
-  finish(input, parts, sharing, outputs, place.folder());
+  const std::string not_drawn = finish(input, parts, sharing, outputs, interruption, place.folder());
   interruption.check();
-  outputs.all.commit(summary(input, parts));
+  outputs.all.commit(summary(input, parts, not_drawn));
 }
 
 /// Refuses options of another run than the one that goes on.
