@@ -26,7 +26,8 @@ using detail::Vec3;
 
 constexpr int band_pixels = 16;  // rows of pixels drawn at once, fewer where they hold too many fragments:
 constexpr double band_fragments = 4e6;  // 24 bytes each
-constexpr double most_covered = 1e8;    // samples of a picture, 20 to 50 ns each: some seconds
+// How often samples may be covered, 20 to 50 ns each time: altogether, or each sample in a large picture.
+constexpr double most_covered = 1e8, most_layers = 8;
 constexpr double opaque_from = 0.995;
 constexpr double caption_size = 0.019;  // capitals' height in picture heights
 // Pixels; a corner further off is not drawn. With 8 samples a pixel, it fits into 32 bits with its fraction,
@@ -176,6 +177,7 @@ void Renderer::render(const Rows& rows, Image& image) const {
       if (is_opaque(t) == opaque) band.fill(t, material(t), lights_, opaque, view_.is_perspective());
     }
   for (int row = 0; row < rows.count; ++row) {
+    if (options_.check) options_.check();
     const double down = (rows.first + row + 0.5) / options_.height;
     const auto mix = [down](double top, double bottom) {
       return static_cast<float>(top + down * (bottom - top));
@@ -212,9 +214,11 @@ Image Renderer::render() const {
 
 /// The most samples that the drawing may take, as asked at most.
 Image render_within_bounds(const Drawing& drawing, const Picture_options& options) {
+  const double asked = double{1} * options.width * options.height * options.samples * options.samples;
+  const double most = std::max(most_covered, most_layers * asked);
   for (int samples = options.samples;; --samples) {
     const Renderer renderer(drawing, options, samples);
-    if (renderer.covered() <= most_covered) return renderer.render();
+    if (renderer.covered() <= most) return renderer.render();
     if (samples == 1)
       throw Error(Error_code::other, "picture: too many layers lie over each other to draw them");
   }

@@ -85,7 +85,7 @@ TEST_F(RunPicture, IsInterruptedWithinASecond) {
   };
   const Outcome outcome = stop_program({"run", "s.json", "-o", "out"}, path("."), SIGINT, is_time);
   EXPECT_EQ(outcome.exit_code, -1) << outcome.out << outcome.err;
-  EXPECT_LT(Clock::now() - sent, std::chrono::seconds(3));  // others may run beside it
+  EXPECT_LT(Clock::now() - sent, std::chrono::seconds(5));  // a sixth of the picture, if others run beside it
   EXPECT_FALSE(exists("out"));
 }
 
