@@ -1,178 +1,38 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The renderer: bands of rows, each with a depth buffer for opaque triangles and a list of fragments per
-// sample for translucent ones, which are sorted by depth before they are blended. Not by VTK, which is
-// optional here: pictures of a scene are equal in every build and need no graphics driver.
+// The renderer: bands of rows (picture_band.h), one after the other. Not by VTK, which is optional here:
+// pictures of a scene are equal in every build and need no graphics driver.
 #include <cellwalk/internal/drawing/picture.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
+#include "picture_band.h"
 #include "picture_view.h"
 
 namespace cellwalk::drawing {
 namespace {
 
+using detail::Band;
+using detail::Lights;
 using detail::Picture_view;
 using detail::Projected;
+using detail::Screen_triangle;
+using detail::subpixel;
+using detail::to_float;
+using detail::Vec3;
 
-constexpr int subpixel = 256;    // corners are snapped to this fraction of a sample: exact edge functions
-constexpr int band_pixels = 16;  // rows of pixels drawn at once: bounds the memory of the fragment lists
+constexpr int band_pixels = 16;  // rows of pixels drawn at once, fewer where they hold too many fragments:
+constexpr double band_fragments = 4e6;  // 24 bytes each
+// How often samples may be covered, 20 to 50 ns each time: altogether, or each sample in a large picture.
+constexpr double most_covered = 1e8, most_layers = 8;
 constexpr double opaque_from = 0.995;
-constexpr double rim_power = 2.5;           // the rate at which the rim fades from the outline
-constexpr double caption_size = 0.019;      // capitals' height in picture heights
-constexpr double largest_projection = 1e6;  // samples; a corner further off is not drawn
-
-struct Vec3 {
-  float x, y, z;
-};
-float dot3(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 to_float(const Vector<3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
-/// A triangle in samples, ready to be filled.
-struct Screen_triangle {
-  std::array<std::int64_t, 3> x, y;  // in 1/subpixel samples
-  std::array<float, 3> near;
-  std::array<Vec3, 3> normal, eye;
-  std::uint32_t material;
-};
-
-struct Fragment {
-  float near, red, green, blue, opacity;
-  std::int32_t next;
-};
-
-struct Lights {
-  Vec3 key, fill;
-};
-
-/// The colour of a point of a surface whose unit normal n faces the eye.
-Fragment shade(const Material& material, Vec3 n, Vec3 eye, const Lights& lights, float near) {
-  Fragment f{near,
-             static_cast<float>(material.colour.red),
-             static_cast<float>(material.colour.green),
-             static_cast<float>(material.colour.blue),
-             static_cast<float>(material.colour.opacity),
-             -1};
-  if (!material.lit) return f;
-  const float norm = std::sqrt(std::max(dot3(n, n) * dot3(eye, eye), 1e-30f));
-  const float facing = std::min(1.0f, std::abs(dot3(n, eye)) / norm);
-  const float turn = (dot3(n, eye) < 0 ? -1.0f : 1.0f) / std::sqrt(std::max(dot3(n, n), 1e-30f));
-  n = {turn * n.x, turn * n.y, turn * n.z};
-  const float key = std::max(0.0f, dot3(n, lights.key)), fill = std::max(0.0f, dot3(n, lights.fill));
-  const float light = 0.42f + 0.52f * key + 0.16f * fill + 0.08f * facing;
-  const float shine = 0.22f * std::pow(key, 24.0f);
-  f.red = std::min(1.0f, f.red * light + shine);
-  f.green = std::min(1.0f, f.green * light + shine);
-  f.blue = std::min(1.0f, f.blue * light + shine);
-  const float rim = static_cast<float>(material.rim) * std::pow(1 - facing, static_cast<float>(rim_power));
-  f.opacity = std::min(1.0f, f.opacity + rim);
-  return f;
-}
-
-/// The samples of a band of rows.
-class Band {
- public:
-  Band(int width, int first_row, int rows)
-      : width_(width),
-        first_row_(first_row),
-        rows_(rows),
-        near_(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows),
-              -std::numeric_limits<float>::infinity()),
-        colour_(near_.size()),
-        head_(near_.size(), -1) {}
-
-  void fill(const Screen_triangle& t, const Material& material, const Lights& lights, bool opaque,
-            bool perspective);
-  /// The finished colour of a sample over a background.
-  Vec3 resolve(int x, int row, Vec3 background);
-
- private:
-  int width_, first_row_, rows_;
-  std::vector<float> near_;
-  std::vector<Vec3> colour_;
-  std::vector<std::int32_t> head_;
-  std::vector<Fragment> fragments_;
-  std::vector<Fragment> stack_;
-};
-
-void Band::fill(const Screen_triangle& t, const Material& material, const Lights& lights, bool opaque,
-                bool perspective) {
-  std::array<std::size_t, 3> v{0, 1, 2};
-  const auto area_of = [&] {
-    return (t.x[v[1]] - t.x[v[0]]) * (t.y[v[2]] - t.y[v[0]]) -
-           (t.x[v[2]] - t.x[v[0]]) * (t.y[v[1]] - t.y[v[0]]);
-  };
-  std::int64_t area = area_of();
-  if (area == 0) return;
-  if (area < 0) {
-    std::swap(v[1], v[2]);
-    area = -area;
-  }
-  const auto floor_sample = [](std::int64_t a) {
-    return static_cast<int>(a >= 0 ? a / subpixel : -((-a - 1) / subpixel) - 1);
-  };
-  const auto [low_x, high_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [low_y, high_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  const int x0 = std::max(0, floor_sample(low_x)), x1 = std::min(width_ - 1, floor_sample(high_x));
-  const int y0 = std::max(first_row_, floor_sample(low_y)),
-            y1 = std::min(first_row_ + rows_ - 1, floor_sample(high_y));
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) {
-      const std::int64_t px = std::int64_t{x} * subpixel + subpixel / 2,
-                         py = std::int64_t{y} * subpixel + subpixel / 2;
-      std::array<float, 3> weight;
-      bool inside = true;
-      for (std::size_t i = 0; i < 3 && inside; ++i) {
-        const std::size_t a = v[(i + 1) % 3], b = v[(i + 2) % 3];
-        const std::int64_t dx = t.x[b] - t.x[a], dy = t.y[b] - t.y[a];
-        const std::int64_t e = dx * (py - t.y[a]) - dy * (px - t.x[a]);
-        // A sample on a common edge belongs to exactly one of its two triangles.
-        inside = e > 0 || (e == 0 && (dy > 0 || (dy == 0 && dx < 0)));
-        weight[i] = static_cast<float>(static_cast<double>(e) / static_cast<double>(area));
-      }
-      if (!inside) continue;
-      const float near = weight[0] * t.near[v[0]] + weight[1] * t.near[v[1]] + weight[2] * t.near[v[2]];
-      const std::size_t sample = static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_) +
-                                 static_cast<std::size_t>(x);
-      if (!(near > near_[sample])) continue;
-      if (perspective)
-        for (std::size_t i = 0; i < 3; ++i) weight[i] *= t.near[v[i]] / near;
-      const auto blend = [&](const std::array<Vec3, 3>& a) {
-        const Vec3 &p = a[v[0]], &q = a[v[1]], &r = a[v[2]];
-        return Vec3{weight[0] * p.x + weight[1] * q.x + weight[2] * r.x,
-                    weight[0] * p.y + weight[1] * q.y + weight[2] * r.y,
-                    weight[0] * p.z + weight[1] * q.z + weight[2] * r.z};
-      };
-      Fragment f = shade(material, blend(t.normal), blend(t.eye), lights, near);
-      if (opaque) {
-        near_[sample] = near;
-        colour_[sample] = {f.red, f.green, f.blue};
-      } else {
-        f.next = head_[sample];
-        head_[sample] = static_cast<std::int32_t>(fragments_.size());
-        fragments_.push_back(f);
-      }
-    }
-}
-
-Vec3 Band::resolve(int x, int row, Vec3 background) {
-  const std::size_t sample =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  Vec3 c = near_[sample] > -std::numeric_limits<float>::infinity() ? colour_[sample] : background;
-  stack_.clear();
-  for (std::int32_t i = head_[sample]; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next)
-    stack_.push_back(fragments_[static_cast<std::size_t>(i)]);
-  std::stable_sort(stack_.begin(), stack_.end(),
-                   [](const Fragment& a, const Fragment& b) { return a.near < b.near; });
-  for (const Fragment& f : stack_)
-    c = {c.x + f.opacity * (f.red - c.x), c.y + f.opacity * (f.green - c.y),
-         c.z + f.opacity * (f.blue - c.z)};
-  return c;
-}
+constexpr double caption_size = 0.019;  // capitals' height in picture heights
+// Pixels; a corner further off is not drawn. With 8 samples a pixel, it fits into 32 bits with its fraction,
+// and areas fit into 64.
+constexpr double largest_projection = 5e5;
 
 void check(const Picture_options& options) {
   if (options.width < 16 || options.height < 16 || options.width > 16384 || options.height > 16384)
@@ -195,8 +55,8 @@ std::vector<Screen_triangle> project(const Drawing& drawing, const Picture_view&
       const Projected p = view.project(t.corners[i]);
       drawable &= std::abs(p.x) < largest_projection && std::abs(p.y) < largest_projection;
       if (!drawable) break;
-      s.x[i] = std::llround(p.x * samples * subpixel);
-      s.y[i] = std::llround(p.y * samples * subpixel);
+      s.x[i] = static_cast<std::int32_t>(std::lround(p.x * samples * subpixel));
+      s.y[i] = static_cast<std::int32_t>(std::lround(p.y * samples * subpixel));
       s.near[i] = static_cast<float>(p.near);
       s.normal[i] = to_float(t.normals[i]);
       s.eye[i] = to_float(view.toward_eye(t.corners[i]));
@@ -206,66 +66,169 @@ std::vector<Screen_triangle> project(const Drawing& drawing, const Picture_view&
   return result;
 }
 
+/// A part of the rows of a picture, and the triangles that may meet it.
+struct Rows {
+  int first, count;  // pixels
+  std::vector<std::uint32_t> triangles;
+};
+
+/// A drawing from one camera, with so many samples a pixel and direction.
+class Renderer {
+ public:
+  Renderer(const Drawing& drawing, const Picture_options& options, int samples);
+
+  /// The samples that triangles cover, each counted as often as it is covered, about.
+  double covered() const;
+  Image render() const;
+
+ private:
+  /// The rows of each band, from the top.
+  std::vector<Rows> bands() const;
+  /// Rows in halves until each of these holds few fragments, or is one row of pixels.
+  void add_parts(Rows rows, std::vector<Rows>& parts) const;
+  void render(const Rows& rows, Image& image) const;
+
+  bool is_opaque(const Screen_triangle& t) const { return material(t).colour.opacity >= opaque_from; }
+  const Material& material(const Screen_triangle& t) const { return drawing_.materials[t.material]; }
+  bool meets(const Screen_triangle& t, int first, int count) const;
+  /// The samples that a triangle covers in so many rows of pixels, about.
+  double covered(const Screen_triangle& t, int first, int count) const;
+
+  const Drawing& drawing_;
+  const Picture_options& options_;
+  int samples_;
+  Picture_view view_;
+  std::vector<Screen_triangle> triangles_;
+  Lights lights_;
+};
+
+Renderer::Renderer(const Drawing& drawing, const Picture_options& options, int samples)
+    : drawing_(drawing),
+      options_(options),
+      samples_(samples),
+      view_(drawing, options),
+      triangles_(project(drawing, view_, samples)) {
+  const auto direction = [&](double right, double up, double toward) {
+    const Vector<3> v = right * view_.right() + up * view_.up() + toward * view_.toward();
+    return to_float((1 / length(v)) * v);
+  };
+  lights_ = {direction(-0.45, 0.75, 0.75), direction(0.8, -0.1, 0.4)};
+}
+
+bool Renderer::meets(const Screen_triangle& t, int first, int count) const {
+  const std::int64_t row = std::int64_t{samples_} * subpixel;
+  const auto [low, high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  return high >= first * row && low <= (first + count) * row;
+}
+
+double Renderer::covered(const Screen_triangle& t, int first, int count) const {
+  const double row = samples_ * subpixel;
+  const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [low, high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  // Half of the part of its box that lies in these rows of the picture.
+  const double width = std::min<double>(right, options_.width * row) - std::max<double>(left, 0);
+  const double height = std::min<double>(high, (first + count) * row) - std::max<double>(low, first * row);
+  return width > 0 && height > 0 ? width * height / (2.0 * subpixel * subpixel) : 0;
+}
+
+double Renderer::covered() const {
+  double sum = 0;
+  for (const Screen_triangle& t : triangles_) sum += covered(t, 0, options_.height);
+  return sum;
+}
+
+std::vector<Rows> Renderer::bands() const {
+  std::vector<Rows> bands;
+  for (int first = 0; first < options_.height; first += band_pixels)
+    bands.push_back({first, std::min(band_pixels, options_.height - first), {}});
+  const double band_height = double{band_pixels} * samples_ * subpixel;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const auto [low, high] = std::minmax({triangles_[i].y[0], triangles_[i].y[1], triangles_[i].y[2]});
+    const double first = std::max(0.0, low / band_height - 1);
+    for (std::size_t b = first < 1e9 ? static_cast<std::size_t>(first) : bands.size();
+         b < bands.size() && bands[b].first * double{subpixel} * samples_ <= high; ++b)
+      bands[b].triangles.push_back(static_cast<std::uint32_t>(i));
+  }
+  return bands;
+}
+
+void Renderer::add_parts(Rows rows, std::vector<Rows>& parts) const {
+  double sum = 0;
+  for (const std::uint32_t i : rows.triangles)
+    if (!is_opaque(triangles_[i])) sum += covered(triangles_[i], rows.first, rows.count);
+  if (sum <= band_fragments || rows.count == 1) return parts.push_back(std::move(rows));
+  for (const int half : {0, 1}) {
+    Rows part{
+        rows.first + half * (rows.count / 2), half == 0 ? rows.count / 2 : rows.count - rows.count / 2, {}};
+    for (const std::uint32_t i : rows.triangles)
+      if (meets(triangles_[i], part.first, part.count)) part.triangles.push_back(i);
+    add_parts(std::move(part), parts);
+  }
+}
+
+void Renderer::render(const Rows& rows, Image& image) const {
+  constexpr std::size_t check_every = 1024;  // triangles
+  Band band(options_.width * samples_, rows.first * samples_, rows.count * samples_);
+  std::size_t done = 0;
+  for (const bool opaque : {true, false})  // opaque first, so that fragments behind them are not collected
+    for (const std::uint32_t i : rows.triangles) {
+      if (options_.check && done++ % check_every == 0) options_.check();
+      const Screen_triangle& t = triangles_[i];
+      if (is_opaque(t) == opaque) band.fill(t, material(t), lights_, opaque, view_.is_perspective());
+    }
+  for (int row = 0; row < rows.count; ++row) {
+    if (options_.check) options_.check();
+    const double down = (rows.first + row + 0.5) / options_.height;
+    const auto mix = [down](double top, double bottom) {
+      return static_cast<float>(top + down * (bottom - top));
+    };
+    const Vec3 background{mix(options_.top.red, options_.bottom.red),
+                          mix(options_.top.green, options_.bottom.green),
+                          mix(options_.top.blue, options_.bottom.blue)};
+    for (int x = 0; x < options_.width; ++x) {
+      Vec3 sum{0, 0, 0};
+      for (int j = 0; j < samples_; ++j)
+        for (int i = 0; i < samples_; ++i) {
+          const Vec3 c = band.resolve(x * samples_ + i, row * samples_ + j, background);
+          sum = {sum.x + c.x, sum.y + c.y, sum.z + c.z};
+        }
+      const float share = 1.0f / static_cast<float>(samples_ * samples_);
+      std::uint8_t* out = &image.rgb[3 * (static_cast<std::size_t>(rows.first + row) *
+                                              static_cast<std::size_t>(options_.width) +
+                                          static_cast<std::size_t>(x))];
+      out[0] = to_byte(share * sum.x), out[1] = to_byte(share * sum.y), out[2] = to_byte(share * sum.z);
+    }
+  }
+}
+
+Image Renderer::render() const {
+  Image image{options_.width, options_.height, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height));
+  for (Rows& band : bands()) {
+    std::vector<Rows> parts;
+    add_parts(std::move(band), parts);
+    for (const Rows& rows : parts) render(rows, image);
+  }
+  return image;
+}
+
+/// The most samples that the drawing may take, as asked at most.
+Image render_within_bounds(const Drawing& drawing, const Picture_options& options) {
+  const double asked = double{1} * options.width * options.height * options.samples * options.samples;
+  const double most = std::max(most_covered, most_layers * asked);
+  for (int samples = options.samples;; --samples) {
+    const Renderer renderer(drawing, options, samples);
+    if (renderer.covered() <= most) return renderer.render();
+    if (samples == 1)
+      throw Error(Error_code::other, "picture: too many layers lie over each other to draw them");
+  }
+}
+
 }  // namespace
 
 Image render(const Drawing& drawing, const Picture_options& options) {
   check(options);
-  const Picture_view view(drawing, options);
-  const int samples = options.samples;
-  const std::vector<Screen_triangle> triangles = project(drawing, view, samples);
-  const auto direction = [&](double right, double up, double toward) {
-    const Vector<3> v = right * view.right() + up * view.up() + toward * view.toward();
-    return to_float((1 / length(v)) * v);
-  };
-  const Lights lights{direction(-0.45, 0.75, 0.75), direction(0.8, -0.1, 0.4)};
-  const auto is_opaque = [&](const Screen_triangle& t) {
-    return drawing.materials[t.material].colour.opacity >= opaque_from;
-  };
-
-  const int bands = (options.height + band_pixels - 1) / band_pixels;
-  const std::int64_t band_height = std::int64_t{band_pixels} * samples * subpixel;
-  std::vector<std::vector<std::uint32_t>> in_band(static_cast<std::size_t>(bands));
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto [low, high] = std::minmax({triangles[i].y[0], triangles[i].y[1], triangles[i].y[2]});
-    if (high < 0) continue;
-    for (std::int64_t b = std::max<std::int64_t>(0, low / band_height - 1);
-         b < bands && b * band_height <= high; ++b)
-      in_band[static_cast<std::size_t>(b)].push_back(static_cast<std::uint32_t>(i));
-  }
-
-  Image image{options.width, options.height, {}};
-  image.rgb.resize(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
-  for (int b = 0; b < bands; ++b) {
-    const int first = b * band_pixels, rows = std::min(band_pixels, options.height - first);
-    Band band(options.width * samples, first * samples, rows * samples);
-    for (const bool opaque : {true, false})  // opaque first, so that fragments behind them are not collected
-      for (const std::uint32_t i : in_band[static_cast<std::size_t>(b)])
-        if (is_opaque(triangles[i]) == opaque)
-          band.fill(triangles[i], drawing.materials[triangles[i].material], lights, opaque,
-                    view.is_perspective());
-    for (int row = 0; row < rows; ++row) {
-      const double down = (first + row + 0.5) / options.height;
-      const auto mix = [down](double top, double bottom) {
-        return static_cast<float>(top + down * (bottom - top));
-      };
-      const Vec3 background{mix(options.top.red, options.bottom.red),
-                            mix(options.top.green, options.bottom.green),
-                            mix(options.top.blue, options.bottom.blue)};
-      for (int x = 0; x < options.width; ++x) {
-        Vec3 sum{0, 0, 0};
-        for (int j = 0; j < samples; ++j)
-          for (int i = 0; i < samples; ++i) {
-            const Vec3 c = band.resolve(x * samples + i, row * samples + j, background);
-            sum = {sum.x + c.x, sum.y + c.y, sum.z + c.z};
-          }
-        const float share = 1.0f / static_cast<float>(samples * samples);
-        std::uint8_t* out =
-            &image.rgb[3 * (static_cast<std::size_t>(first + row) * static_cast<std::size_t>(options.width) +
-                            static_cast<std::size_t>(x))];
-        out[0] = to_byte(share * sum.x), out[1] = to_byte(share * sum.y), out[2] = to_byte(share * sum.z);
-      }
-    }
-  }
+  Image image = render_within_bounds(drawing, options);
   if (!drawing.caption.empty()) {
     double size = caption_size * options.height;
     const double margin = 1.6 * size, room = options.width - 2 * margin;

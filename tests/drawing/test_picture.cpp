@@ -217,6 +217,87 @@ TEST(Picture, RefusesSizesOutOfRange) {
   EXPECT_THROW(render({}, options), Error);
 }
 
+TEST(Picture, RoundShapesAreCountedBeforeTheyAreDrawn) {
+  const std::vector<Point<3>> line{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}};
+  for (const int sides : {20, 12, 8, 6, 4, 3}) {
+    Drawing round, flat;
+    round.sides = flat.sides = sides;
+    for (int i = 0; i < 7; ++i) {
+      add_ball(round, {3.0 * i, 0, 0}, 1, 0);
+      add_disc(flat, {3.0 * i, 0}, 1, 0, 0);
+    }
+    add_tube(round, line, 0.1, 0);
+    add_flat_line(flat, {0, 0}, {1, 0}, 0.1, 0, 0);
+    EXPECT_EQ(round.triangles.size(), triangles_of({7, 2, 2}, sides, false)) << sides;
+    EXPECT_EQ(flat.triangles.size(), triangles_of({7, 1, 2}, sides, true)) << sides;
+  }
+}
+
+TEST(Picture, SidesFitIntoABudget) {
+  for (const bool flat : {false, true}) {
+    int before = finest_sides + 1;
+    for (std::size_t n = 1; n < 100'000'000; n *= 3) {
+      const Round_shapes shapes{n, n / 2, n / 3};
+      const int sides = sides_within(shapes, 600'000, flat);
+      EXPECT_LE(sides, before);
+      EXPECT_TRUE(sides == 3 || triangles_of(shapes, sides, flat) <= 600'000) << n;
+      before = sides;
+    }
+    EXPECT_EQ(sides_within({100, 0, 0}, 600'000, flat), finest_sides);
+    EXPECT_EQ(before, 3);
+  }
+}
+
+// Few sides make rougher shapes of the same size and place.
+TEST(Picture, CoarseShapesCoverAboutTheSame) {
+  const auto area = [](int sides) {
+    Drawing drawing;
+    drawing.sides = sides;
+    add_ball(drawing, {0, 0, 0}, 1, flat(drawing, red));
+    add_tube(drawing, std::vector<Point<3>>{{-3, 0, 0}, {3, 0, 0}}, 0.3, 0);
+    const Image image = render(drawing, plain());
+    int count = 0;
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 120; ++x) count += image.pixel(x, y) != Pixel{255, 255, 255};
+    return count;
+  };
+  const int fine = area(finest_sides);
+  for (const int sides : {12, 8, 6, 4, 3}) {
+    EXPECT_GT(area(sides), fine / 2) << sides;
+    EXPECT_LT(area(sides), 2 * fine) << sides;
+  }
+}
+
+// So many layers of glass that bands are split, then that fewer samples are taken, then that none suffices.
+TEST(Picture, ManyLayersAreDrawnInBoundedMemory) {
+  Drawing drawing;
+  const auto glass = flat(drawing, red, 0.01);
+  const auto add_layers = [&](int count) {
+    for (int i = 0; i < count; ++i)
+      add_square(drawing, 1, 1e-7 * static_cast<double>(drawing.triangles.size()), glass);
+  };
+  add_layers(400);
+  const Pixel middle = render(drawing, plain()).pixel(60, 47);
+  EXPECT_TRUE(is_near(middle, 255, 5, 5, 2)) << int{middle[1]};  // 255 (1 - 0.01)^400 = 4.6
+  add_layers(1300);
+  EXPECT_TRUE(is_near(render(drawing, plain()).pixel(60, 47), 255, 0, 0, 1));
+  add_layers(15000);
+  EXPECT_THROW(render(drawing, plain()), Error);
+}
+
+TEST(Picture, StopsWhenItIsTold) {
+  struct Stopped {};
+  Drawing drawing;
+  add_square(drawing, 1, 0, flat(drawing, red));
+  Picture_options options = plain();
+  int calls = 0;
+  options.check = [&] { ++calls; };
+  render(drawing, options);
+  EXPECT_GE(calls, 6);  // once in each band of 16 rows with triangles
+  options.check = [&] { throw Stopped(); };
+  EXPECT_THROW(render(drawing, options), Stopped);
+}
+
 std::uint32_t number_at(const std::string& s, std::size_t i) {
   std::uint32_t n = 0;
   for (std::size_t k = 0; k < 4; ++k) n = n << 8 | static_cast<std::uint8_t>(s[i + k]);

@@ -44,7 +44,7 @@ Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, World<D>
   if (const std::uint32_t every = motion_interval(scene, snapshot, world, input.steps()); every > 0)
     motion.emplace(place, snapshot, world, Motion_times{scene.time_step, input.steps(), every},
                    wall_motion(scene));
-  if (scene.output.picture) picture.emplace(world, scene.walls.has_value());
+  if (scene.output.picture) picture.emplace(snapshot, world, scene.walls.has_value());
 }
 
 template <int D>
@@ -63,7 +63,7 @@ Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, bool is_
   if (!scene.changes.list.empty()) changes.emplace(place, input.environment, scene, saved);
   if (saved.next<bool>()) motion.emplace(place, input.environment.snapshot(), wall_motion(scene), saved);
   if (scene.output.picture) {
-    picture.emplace(world, scene.walls.has_value());
+    picture.emplace(input.environment.snapshot(), world, scene.walls.has_value());
     saved(*picture);
   }
   saved.expect_end();

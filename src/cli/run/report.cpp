@@ -66,7 +66,7 @@ ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts) {
 }
 
 template <int D>
-std::string summary(const Run_input<D>& input, const Run_parts<D>& parts) {
+std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const std::string& not_drawn) {
   const World<D>& world = parts.world;
   const Run_files<D>& files = parts.files;
   const Run_options& options = input.options;
@@ -105,8 +105,9 @@ std::string summary(const Run_input<D>& input, const Run_parts<D>& parts) {
   if (parts.changes) written += ", changes.csv";
   if (files.frame_count() > 0) written += fmt::format(", run.pvd ({} frames)", files.frame_count());
   if (parts.motion) written += ", motion.gz";
-  if (parts.picture) written += ", picture.png";
+  if (parts.picture && not_drawn.empty()) written += ", picture.png";
   line("written", fmt::format("{}: {}", options.folder, written));
+  if (!not_drawn.empty()) line("no picture", not_drawn);
   if (!options.record.empty()) line("recorded", options.record);
   return text;
 }
@@ -127,8 +128,8 @@ std::string not_written(const Run_settings& began, const Run_options& now) {
 
 template ordered_json report(const Run_input<2>&, const Run_parts<2>&);
 template ordered_json report(const Run_input<3>&, const Run_parts<3>&);
-template std::string summary(const Run_input<2>&, const Run_parts<2>&);
-template std::string summary(const Run_input<3>&, const Run_parts<3>&);
+template std::string summary(const Run_input<2>&, const Run_parts<2>&, const std::string&);
+template std::string summary(const Run_input<3>&, const Run_parts<3>&, const std::string&);
 template std::string caption(const Run_input<2>&, const Run_parts<2>&);
 template std::string caption(const Run_input<3>&, const Run_parts<3>&);
 

@@ -15,8 +15,9 @@ namespace cellwalk::cli {
 template <int D>
 nlohmann::ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts);
 /// For people.
+/// \param not_drawn why the picture is missing, if it is
 template <int D>
-std::string summary(const Run_input<D>& input, const Run_parts<D>& parts);
+std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const std::string& not_drawn);
 /// Of a run that went on: what it was to write outside of its folder, and is not given again.
 std::string not_written(const Run_settings& began, const Run_options& now);
 template <int D>
@@ -24,8 +25,8 @@ std::string caption(const Run_input<D>& input, const Run_parts<D>& parts);
 
 extern template nlohmann::ordered_json report(const Run_input<2>&, const Run_parts<2>&);
 extern template nlohmann::ordered_json report(const Run_input<3>&, const Run_parts<3>&);
-extern template std::string summary(const Run_input<2>&, const Run_parts<2>&);
-extern template std::string summary(const Run_input<3>&, const Run_parts<3>&);
+extern template std::string summary(const Run_input<2>&, const Run_parts<2>&, const std::string&);
+extern template std::string summary(const Run_input<3>&, const Run_parts<3>&, const std::string&);
 extern template std::string caption(const Run_input<2>&, const Run_parts<2>&);
 extern template std::string caption(const Run_input<3>&, const Run_parts<3>&);
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,8 +39,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Draws the picture. A run is not lost for it: if there is too little memory, or too much to draw, it ends
+/// without.
+/// \return why there is none; empty if it was drawn
 template <int D>
-void draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::filesystem::path& file) {
+std::string draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::filesystem::path& file) {
   const Progress progress("drawing");
   const Picture_request& request = *input.scene.output.picture;
   drawing::Picture_options how;
@@ -51,9 +55,17 @@ void draw(const Run_input<D>& input, const Run_parts<D>& parts, const std::files
   how.camera.toward = direction(request.toward);
   how.camera.up = direction(request.up);
   if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
-  const drawing::Image image = drawing::render(
-      parts.picture->draw(input.environment.soup(), parts.world, input.scene, caption(input, parts)), how);
-  io::write_file(file, drawing::encode_png(image));
+  std::string png;
+  try {
+    png = drawing::encode_png(
+        drawing::render(parts.picture->draw(parts.world, input.scene, caption(input, parts)), how));
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const Error& error) {
+    return error.what();
+  }
+  io::write_file(file, png);
+  return {};
 }
 
 /// Runs the steps that are left, without checkpoints: a signal ends the program at once.
@@ -94,9 +106,10 @@ void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_checkpoints<D
 
 /// Completes the files of a run whose steps are done.
 /// \param sharing null: there was none
+/// \return why it has no picture, if it was to have one
 template <int D>
-void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>* sharing, Run_outputs& outputs,
-            const std::filesystem::path& folder) {
+std::string finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>* sharing,
+                   Run_outputs& outputs, const std::filesystem::path& folder) {
   parts.world.validate();
   if (sharing != nullptr) sharing->finish();
   parts.files.finish();
@@ -107,11 +120,13 @@ void finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>* shar
   if (parts.walls) parts.walls->finish();
   if (parts.changes) parts.changes->finish();
   if (parts.motion) parts.motion->commit();
-  if (parts.picture) draw(input, parts, folder / "picture.png");
+  std::string not_drawn;
+  if (parts.picture) not_drawn = draw(input, parts, folder / "picture.png");
   const ordered_json said = report(input, parts);
   io::write_json(folder / "run.json", said);
   if (parts.record) write_trace(parts.record->trace(), outputs.record, folder);
   write_json(outputs.json, said);
+  return not_drawn;
 }
 
 /// A new run with checkpoints.
@@ -127,8 +142,8 @@ void run_kept(const Run_input<D>& input, World<D>&& world, const Groups<D>& grou
                                  changes_environment(input.scene));
   run_steps(input, parts, checkpoints, working, *interruption);
   interruption.reset();
-  finish<D>(input, parts, nullptr, outputs, place.folder());
-  outputs.all.commit(summary(input, parts));
+  const std::string not_drawn = finish<D>(input, parts, nullptr, outputs, place.folder());
+  outputs.all.commit(summary(input, parts, not_drawn));
 }
 
 /// The part of a rank that is not the first.
@@ -179,8 +194,8 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
   Run_parts<D> parts(input, place, std::move(world), groups, outputs->record != nullptr);
   Run_sharing<D> sharing(ranks, parts.world, state_times(input, parts.world));
   run_steps(input, parts, sharing);
-  finish(input, parts, &sharing, *outputs, place.folder());
-  outputs->all.commit(summary(input, parts));
+  const std::string not_drawn = finish(input, parts, &sharing, *outputs, place.folder());
+  outputs->all.commit(summary(input, parts, not_drawn));
 }
 
 /// Goes on with a scene.
@@ -201,8 +216,8 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
   std::optional<Interruption> interruption(std::in_place);
   run_steps(input, parts, checkpoints, *outputs.working, *interruption);
   interruption.reset();
-  finish<D>(input, parts, nullptr, outputs, place.folder());
-  outputs.all.commit(summary(input, parts) + not_written(kept.settings, options));
+  const std::string not_drawn = finish<D>(input, parts, nullptr, outputs, place.folder());
+  outputs.all.commit(summary(input, parts, not_drawn) + not_written(kept.settings, options));
 }
 
 /// Refuses options of another run than the one that goes on.

@@ -5,11 +5,26 @@
 
 #include <cellwalk/internal/drawing/picture.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cellwalk::drawing {
+
+/// How many round shapes a drawing is to hold: balls or discs, pieces of tubes or flat lines, and the ends
+/// of these.
+struct Round_shapes {
+  std::size_t balls = 0, pieces = 0, ends = 0;
+};
+
+/// The triangles that they become with so many sides (Drawing::sides), about.
+/// \param flat as discs and flat lines
+std::size_t triangles_of(const Round_shapes& shapes, int sides, bool flat);
+
+/// The most sides with which they become at most `budget` triangles, finest_sides at most; the fewest there
+/// are if none do. With few sides lines have no round ends: for lines about as wide as a pixel.
+int sides_within(const Round_shapes& shapes, std::size_t budget, bool flat);
 
 /// A ball.
 void add_ball(Drawing& drawing, const Point<3>& centre, double radius, std::uint32_t material);

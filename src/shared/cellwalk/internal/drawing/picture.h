@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,14 @@ struct Picture_triangle {
   std::uint32_t material = 0;
 };
 
+constexpr int finest_sides = 20;
+
 /// The content of a picture, in the units of the environment.
 struct Drawing {
   std::vector<Material> materials;
   std::vector<Picture_triangle> triangles;
-  std::string caption;  ///< a line at the lower left, smaller if it is long; printable ASCII
+  std::string caption;       ///< a line at the lower left, smaller if it is long; printable ASCII
+  int sides = finest_sides;  ///< of the round shapes that are added next, see Round_shapes
 
   std::uint32_t add_material(const Material& material) {
     materials.push_back(material);
@@ -60,6 +64,8 @@ struct Picture_options {
   Camera camera;
   Colour top{1.0, 1.0, 1.0}, bottom{0.86, 0.89, 0.93};  ///< background
   Colour ink{0.13, 0.16, 0.20};                         ///< caption
+  /// Called every few milliseconds; what it throws ends the rendering. None by default.
+  std::function<void()> check;
 };
 
 /// Rows from the top, three bytes a pixel.
@@ -77,8 +83,10 @@ struct Image {
 /// Draws with a depth buffer; translucent triangles are sorted per sample, so their order does not matter.
 /// \pre every coordinate is finite, every material index valid
 /// \throw Error(usage) for a size or a number of samples out of range
+/// \throw Error(other) if so many layers lie over each other that even one sample a pixel would take minutes
 /// Degenerate cases: an empty drawing gives the background.
-/// Cost: about 1 s for 1600 x 1000 and 100,000 triangles.
+/// Cost: about 1 s for 1600 x 1000 and 100,000 triangles; about 110 bytes a triangle, and at most 100 MB for
+/// translucent layers. Where many layers lie over each other, fewer samples are taken.
 Image render(const Drawing& drawing, const Picture_options& options = {});
 
 /// Draws text with the left end of its baseline at (x,y), and capitals `size` pixels high; returns its width
