@@ -23,8 +23,8 @@ endif()
 if(CELLWALK_WITH_MESHING)
   find_package(TetGen)                      # AGPL: closed surfaces to tetrahedra, boundary kept
 endif()
-if(CELLWALK_WITH_GMSH)
-  find_package(Gmsh)                        # GPL: .msh of every version, .mesh, .unv
+if(CELLWALK_BUILD_TESTS)
+  find_package(Gmsh)                        # GPL: writes files for tests of readers; nothing else uses it
 endif()
 if(CELLWALK_WITH_VTK)
   find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOLegacy IOXML)  # BSD: .vtk, .vtu

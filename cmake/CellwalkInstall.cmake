@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
 #   core     LGPL  kernel to simulation                 target cellwalk::core
-#   io       LGPL  readers and writers                  target cellwalk::io; its modules for Gmsh (GPL) and VTK are the component readers
+#   io       LGPL  readers and writers                  target cellwalk::io; its module for VTK is the component readers
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
-#   loading  LGPL  environments from files (GPL where it is built with meshing or Gmsh)  target cellwalk::loading
+#   loading  LGPL  environments from files (GPL where it is built with meshing)  target cellwalk::loading
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cellwalk)
 

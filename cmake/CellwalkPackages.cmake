@@ -2,7 +2,7 @@
 # Debian packages by CPack, one for each component of the install rules:
 #   cellwalk                 tools    the program
 #   libcellwalk-dev          dev      headers and libraries of the core, which need no reader's libraries
-#   cellwalk-readers         readers  modules that the program, the Python module and programs of users load to read by Gmsh and VTK
+#   cellwalk-readers         readers  modules that the program, the Python module and programs of users load to read by VTK
 #   cellwalk-mpi             mpi      the module by which the program shares its work among the processes of mpirun
 #   libcellwalk-io-dev       io       those of io
 #   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
@@ -34,14 +34,14 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libcellwalk-io-dev, libcellwalk-meshing-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static libraries of the core")
 
-# What reads by Gmsh and VTK is loaded at run time, so that nobody needs their development packages, of which VTK's brings Java and Qt.
+# What reads by VTK is loaded at run time, so that nobody needs its development packages, which bring Java and Qt.
 set(readers)
-if(TARGET Gmsh::Gmsh OR TARGET VTK::IOXML)
+if(TARGET VTK::IOXML)
   list(APPEND CPACK_COMPONENTS_ALL readers)
   set(readers "cellwalk-readers (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_READERS_PACKAGE_NAME cellwalk-readers)
   set(CPACK_DEBIAN_READERS_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_COMPONENT_READERS_DESCRIPTION "Readers of meshes by Gmsh and VTK, for Cellwalk")
+  set(CPACK_COMPONENT_READERS_DESCRIPTION "Readers of meshes by VTK, for Cellwalk")
 endif()
 
 if(TARGET cellwalk_mpi)
@@ -103,9 +103,7 @@ endif()
 foreach(component ${licences})
   string(TOUPPER ${component} upper)
   set(licence LICENSE)
-  if(component STREQUAL readers AND TARGET Gmsh::Gmsh)
-    set(licence COPYING.GPL)
-  elseif(NOT component MATCHES "^(dev|io|readers|mpi)$" AND (TARGET cellwalk::meshing OR TARGET Gmsh::Gmsh))
+  if(NOT component MATCHES "^(dev|io|readers|mpi)$" AND TARGET cellwalk::meshing)
     set(licence COPYING.GPL)
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} RENAME copyright COMPONENT ${component}

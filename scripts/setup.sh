@@ -4,7 +4,7 @@
 #
 #   scripts/setup.sh [--for demo|test|ci|dev|package|peers|paper|docs] [--print]
 #
-#   demo  build and run the program            test   also Gmsh, VTK, MPI, Python, Node.js, Chromium, the test tools and clang-format (default)
+#   demo  build and run the program            test   also VTK, Gmsh (as a writer), MPI, Python, Node.js, Chromium, the test tools and clang-format (default)
 #   dev   as ci                                peers  demo, the libraries that experiments compare with, gnuplot, and what animate.py needs
 #   paper peers and LaTeX                      docs   Doxygen and Graphviz, for scripts/docs.sh
 #   ci    test, docs, clang, clang-tidy, ccache, valgrind   package  build the Debian packages, and a clean root to try them in
@@ -14,11 +14,11 @@ set -euo pipefail
 core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
       zlib1g-dev libxxhash-dev)
 meshing=(libtet1.5-dev)
-io=(libgmsh-dev libvtk9-dev)
+io=(libvtk9-dev)
 mpi=(libboost-mpi-dev libopenmpi-dev openmpi-bin) # runs shared among processes
 python=(pybind11-dev python3-dev python3-numpy)
 cluster=(python3-distributed) # for the example of Dask
-tests=(libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
+tests=(libgmsh-dev libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
        python3-pip python3-setuptools python3-wheel)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own

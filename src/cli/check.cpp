@@ -28,8 +28,7 @@ void check(const Check_options& options) {
       [&]<int D>(const Environment<D>& environment) {
         const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
         // What was not compiled here may have been compiled wrongly.
-        if (is_compiled_file(options.environment))
-          naming(options.environment, [&] { check_compiled(environment); });
+        if (loaded.is_compiled) naming(options.environment, [&] { check_compiled(environment); });
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         write_json(json, {{"environment", options.environment},
                           {"certificate", to_json(certificate, D)},

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "compiled_file.h"
 
-#include <cellwalk/internal/io/mapped_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/environment_file.h>
 
 #include <algorithm>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace cellwalk {
@@ -33,16 +34,36 @@ void compact(Environment<D>& environment, Groups<D>& groups) {
 
 bool is_compiled_name(const std::filesystem::path& path) { return path.extension() == ".cellwalk"; }
 
+namespace {
+
+constexpr std::string_view beginning = "CELLWALK";
+
+std::string_view text_of(const io::Mapped_file& file) {
+  return {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()};
+}
+
+}  // namespace
+
 bool is_compiled_file(const std::string& path) {
-  return is_compiled_name(path) || io::begins_with(path, "CELLWALK");
+  return is_compiled_name(path) || io::begins_with(path, beginning);
 }
 
-Any_compiled_environment open_compiled_file(const std::string& path) {
-  io::Mapped_file file = io::map_file(path);
-  return naming(path, [&] { return open_compiled({file.bytes, std::move(file.owner)}); });
+Cells_input::Cells_input(std::string path) : path_(std::move(path)) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path_, none);
+  const bool is_pipe = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+                       !std::filesystem::is_directory(status);
+  if (is_pipe) pipe_ = io::map_file(path_);
+  is_compiled_ = pipe_ ? text_of(*pipe_).starts_with(beginning) : is_compiled_file(path_);
 }
 
-io::Mesh_file read_compiled(const std::string& path) {
+Any_compiled_environment Cells_input::open() const {
+  io::Mapped_file file = pipe_ ? *pipe_ : io::map_file(path_);
+  return naming(path_, [&] { return open_compiled({file.bytes, std::move(file.owner)}); });
+}
+
+io::Mesh_file Cells_input::mesh() const {
+  if (!is_compiled_) return pipe_ ? io::read_mesh(path_, std::string(text_of(*pipe_))) : io::read_mesh(path_);
   return std::visit(
       []<int D>(const Compiled_environment<D>& compiled) {
         const Snapshot<D>& snapshot = compiled.environment.snapshot();
@@ -53,7 +74,7 @@ io::Mesh_file read_compiled(const std::string& path) {
         file.mesh = std::move(soup);
         return file;
       },
-      open_compiled_file(path));
+      open());
 }
 
 template <int D>

@@ -40,16 +40,17 @@ Loaded_environment as_loaded(Compiled_environment<D> compiled, const Build_optio
   io::Read_report read{compiled_format, built.points_read, built.cells_read, 0, {}};
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
     if (const Cell c = snapshot.cell(i); c != Cell::none) read.facets += snapshot.facet_count(c);
-  return {std::move(compiled.environment), std::move(built), std::move(read), std::move(compiled.groups)};
+  return {std::move(compiled.environment), std::move(built), std::move(read), std::move(compiled.groups),
+          true};
 }
 
 }  // namespace
 
 Loaded_environment load_environment(const std::string& path, Build_options options) {
   options.split = false;
-  const bool is_compiled = is_compiled_file(path);
-  if (is_compiled) {
-    Any_compiled_environment compiled = open_compiled_file(path);
+  const Cells_input input(path);
+  if (input.is_compiled()) {
+    Any_compiled_environment compiled = input.open();
     const bool is_fit =
         !options.simplicial ||
         std::visit([](const auto& known) { return has_simplices_only(known.environment.snapshot()); },
@@ -59,7 +60,7 @@ Loaded_environment load_environment(const std::string& path, Build_options optio
         return std::visit([&](auto& known) { return as_loaded(std::move(known), options); }, compiled);
       });
   }
-  io::Mesh_file file = is_compiled ? read_compiled(path) : io::read_mesh(path);
+  io::Mesh_file file = input.mesh();
   return naming(path, [&]() -> Loaded_environment {
     if (auto* soup = std::get_if<Cell_soup<3>>(&file.mesh)) return build_as_it_stands(*soup, options, file);
     if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build_as_it_stands(*soup, options, file);

@@ -17,6 +17,7 @@ nlohmann::ordered_json to_json(const std::string& path, const io::Mesh_file& fil
           {"points", file.report.points},
           {"cells", file.report.cells},
           {"facets", file.report.facets},
+          {"collapsed", file.report.collapsed},
           {"notes", file.report.notes}};
 }
 
@@ -59,7 +60,7 @@ class Import {
 
   io::Mesh_file read(const std::string& path) {
     begin("reading " + path);
-    io::Mesh_file file = is_compiled_file(path) ? read_compiled(path) : io::read_mesh(path);
+    io::Mesh_file file = Cells_input(path).mesh();
     const io::Read_report& found = file.report;
     std::string line =
         fmt::format("{}: {}, {}, {} points", path, found.format, io::kind_name(file.mesh), found.points);

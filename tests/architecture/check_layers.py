@@ -37,9 +37,7 @@ OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}
 JUDGED = {"02_exact_versus_float", "05_degenerate_worlds", "07_moving_walls", "degenerate_corpus"}
 JUDGES = {"oracle", "kernel", "walk", "edge", "reshape"}
 
-# Gmsh is GPL too: io is LGPL only when it is built without it.
 GPL_LAYERS = {"meshing"}
-GPL_EXCEPTIONS = {"io": {"gmsh.h"}}
 # GPL whatever the installed files say. Other headers of CGAL are judged by their own SPDX line, and those that are
 # included indirectly by the compiler (CGAL_LICENSE_ERROR in cmake/CellwalkLayer.cmake).
 GPL_HEADERS = re.compile(
@@ -161,7 +159,7 @@ def check_file(path, root, cgal, plan, sources):
             below = floor_of(resolved.relative_to(root), layer, floors, sources)
             if below is not None and below != floor and below not in floors[floor]:
                 yield f"{where}: {layer}/{floor} must not include {header} (of {layer}/{below})"
-        if layer not in GPL_LAYERS and header not in GPL_EXCEPTIONS.get(layer, ()) and is_gpl(header, cgal):
+        if layer not in GPL_LAYERS and is_gpl(header, cgal):
             yield f"{where}: {header} is GPL: only meshing may include it"
         elif header.startswith("CGAL/") and name.parts[0] == "include" and name not in CGAL_HEADERS:
             yield f"{where}: {header} in a public header: include it in sources, or declare the header in check_layers.py"

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +55,33 @@ TEST_F(Compiled_file, IsTheEnvironmentItWasMadeOf) {
     succeed({"import", "env.cellwalk", "-o", "again.cellwalk"});
     EXPECT_EQ(text("again.cellwalk"), text("env.cellwalk"));
   }
+}
+
+TEST_F(Compiled_file, IsReadFromPipes) {
+  make({"hexes", "--cells", "3"});
+  succeed({"check", "env.ovm", "--json", "known.json"});
+  const std::string program = CELLWALK_PROGRAM;
+  int read = 0;
+  for (const std::string file : {"env.ovm", "env.cellwalk"})
+    for (const std::string command :
+         {"cat FILE | P check /dev/stdin --json out.json", "P check /dev/stdin --json out.json < FILE",
+          "P check <(cat FILE) --json out.json",
+          "rm -f f && mkfifo f && (cat FILE > f &) && P check f --json out.json",
+          "gzip -c env.ovm | P check /dev/stdin --json out.json",
+          "cat FILE | P import /dev/stdin -o copy.ovm && P check copy.ovm --json out.json"}) {
+      std::string line = command;
+      for (const auto& [word, text] : {std::pair{"FILE", file}, {"P ", program + " "}})
+        for (std::size_t at = 0; (at = line.find(word, at)) != line.npos; at += text.size())
+          line.replace(at, std::string(word).size(), text);
+      SCOPED_TRACE(line);
+      std::filesystem::remove(path("out.json"));
+      const std::string shell =
+          "cd '" + path("").string() + "' && timeout 20 bash -c '" + line + "' > said 2>&1";
+      ASSERT_EQ(std::system(shell.c_str()), 0) << text("said");
+      expect_same_certificate(path("out.json"), path("known.json"));
+      ++read;
+    }
+  EXPECT_EQ(read, 12);
 }
 
 TEST_F(Compiled_file, AnswersAsTheTextDoes) {

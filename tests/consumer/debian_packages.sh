@@ -15,7 +15,7 @@ for package in "$folder"/made/*.deb; do
   grep -E "^ (Package|Depends)" "$folder/info"
   # What is linked is found by dpkg-shlibdeps.
   case "$package" in
-    */cellwalk-readers_*) needed="libgmsh4.*libvtk9" ;;
+    */cellwalk-readers_*) needed="libvtk9" ;;
     */cellwalk-mpi_*) needed="openmpi-bin.*libboost-mpi.*libopenmpi3" ;;
     *) needed="libgmp10.*libtbb12" ;;
   esac

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Runs every row of docs/errors.md and compares exit code and message; checks that the page names every error of the sources.
 
-usage: test_errors.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]      parts: meshing gmsh vtk viewer python
+usage: test_errors.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]      parts: meshing vtk viewer python
 """
 
 import concurrent.futures
@@ -51,7 +51,7 @@ def read_page(text):
             names, said = spans_of(files), spans_of(message)[0].strip()
             needs = {part[1]} if part else set()
             if ", .msh, .mesh, .unv, .vtk" in said:  # all formats that are read, which a build without these parts tells otherwise
-                needs |= {"gmsh", "vtk"}
+                needs |= {"vtk"}
             rows.append({"line": number, "code": int(code), "message": said, "needs": needs,
                          "files": list(zip(names[::2], names[1::2])), "command": spans_of(command)[0]})
     return base, rows, text.replace("\\|", "|")

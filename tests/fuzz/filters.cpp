@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What is looked at before a library of others reads a file: Gmsh, VTK.
+// Files of elements, and what is looked at before VTK reads a file.
 #include <cellwalk/io/mesh_file.h>
 
 #include "fuzz/targets.h"
-#include "io/mesh/gmsh_input.h"
+#include "io/mesh/element_parsers.h"
 #include "io/mesh/vtk_text.h"
 
 namespace cellwalk::fuzz {
 
 void msh(std::string_view bytes) {
-  for (const io::Format format : {io::Format::msh, io::Format::medit, io::Format::unv})
-    reads([&] {
-      io::Read_report report;
-      const io::Gmsh_input input = io::prepare_for_gmsh("in", bytes, format, report);
-      if (input.changed.empty()) return;
-      const io::Gmsh_input again = io::prepare_for_gmsh("in", input.changed, format, report);
-      demand(again.changed.empty(), "numbers that repeat after they were made anew");
-      demand((!input.counts.nodes || input.counts.nodes == again.counts.nodes) &&
-                 (!input.counts.elements || input.counts.elements == again.counts.elements),
-             "numbers anew change the counts");
-    });
+  for (const auto parse : {io::parse_msh, io::parse_medit, io::parse_unv})
+    for (const io::Lines lines : {io::Lines::left_out, io::Lines::read})
+      reads([&] {
+        io::Read_report report;
+        const io::Element_soup soup = parse("in", bytes, lines, report);
+        const auto demand_known = [&](std::uint32_t v) {
+          demand(v < soup.volumes.points.size(), "an element that names a point that is not there");
+        };
+        for (const std::uint32_t v : soup.volumes.vertices) demand_known(v);
+        for (const auto& polygon : soup.polygons)
+          for (const std::uint32_t v : polygon) demand_known(v);
+        for (const auto& line : soup.lines)
+          for (const std::uint32_t v : line) demand_known(v);
+        io::volumes_or_polygons("in", soup, report);
+      });
 }
 
 void vtk(std::string_view bytes) {

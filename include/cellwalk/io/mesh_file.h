@@ -23,6 +23,7 @@ struct Read_report {
   std::size_t cells = 0;   ///< cells of a cell soup
   std::size_t facets = 0;  ///< polygons of a surface, segments of a planar domain, half-facets of cells
   std::vector<std::string> notes;  ///< one sentence for everything ignored or interpreted
+  std::size_t collapsed = 0;       ///< cells and polygons with repeated corners, read without these
 };
 
 /// A surface, 3D cells, 2D cells, or a planar domain to be triangulated.
@@ -46,9 +47,13 @@ std::string_view kind_name(const Mesh& mesh);
 ///        known, the problem and the remedy
 Mesh_file read_mesh(const std::filesystem::path& path);
 
+/// The same of the bytes of such a file, for what can be read only once.
+/// \param name stands for the file in errors, and tells the format if the content does not
+Mesh_file read_mesh(const std::filesystem::path& name, std::string bytes);
+
 /// A reader that is an optional part of the build.
 struct Build_feature {
-  std::string_view name;  ///< "gmsh", "vtk"
+  std::string_view name;  ///< such as "vtk"
   bool present = false;
   std::string version;       ///< empty if absent
   std::string_view purpose;  ///< the formats that it reads

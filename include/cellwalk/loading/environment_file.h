@@ -27,7 +27,8 @@ struct Loaded_environment {
   Any_environment environment;
   Build_report built;
   io::Read_report read;
-  Any_groups groups{};  ///< that the file names
+  Any_groups groups{};       ///< that the file names
+  bool is_compiled = false;  ///< opened as it was compiled
 };
 
 /// Runs `work`, and prepends `path: ` to the message of an Error that does not name the file.
@@ -93,7 +94,8 @@ struct Imported_environment {
   Any_environment environment;
   Build_report built;
   Import_report report;
-  Any_groups groups{};  ///< that the file names
+  Any_groups groups{};       ///< that the file names
+  bool is_compiled = false;  ///< opened as it was compiled
 };
 
 /// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed

@@ -102,6 +102,8 @@ Csv_table Csv_table::parse(const std::string& name, std::shared_ptr<Source> sour
   split(in, table.source_->unquoted, [&](std::string_view field) { table.columns_.emplace_back(field); });
   std::unordered_set<std::string_view> names;
   for (const std::string& column : table.columns_) {
+    // Tables of pandas and R have the numbers of their rows first, without a name.
+    if (column.empty() && &column == &table.columns_.front() && table.columns_.size() > 1) continue;
     if (column.empty()) in.fail("a column without a name");
     if (!names.insert(column).second) in.fail(fmt::format("two columns are named '{}'", shown(column)));
   }
@@ -139,8 +141,9 @@ std::size_t Csv_table::column(std::string_view name) const {
   if (const auto found = find_column(name)) return *found;
   constexpr std::size_t most = 20;  // names shown in one line
   const std::size_t named = std::min(most, columns_.size());
-  std::string names = shown(columns_[0]);
-  for (std::size_t c = 1; c < named; ++c) names.append(",").append(shown(columns_[c]));
+  std::string names;
+  for (std::size_t c = 0; c < named; ++c)
+    if (!columns_[c].empty()) names.append(names.empty() ? "" : ",").append(shown(columns_[c]));
   if (named < columns_.size()) names += fmt::format(" and {} more", columns_.size() - named);
   io::fail(name_, fmt::format("has no column '{}': its header names {}", name, names));
 }

@@ -29,7 +29,8 @@ Mapped_file copy_of(const std::string& content) {
 Mapped_file map_file(const std::filesystem::path& path) {
   namespace ipc = boost::interprocess;
   std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(path, error);
+  const bool is_file =
+      path.native().find('\0') == std::string::npos && std::filesystem::is_regular_file(path, error);
   if (!is_file || std::filesystem::file_size(path, error) == 0 || error) return copy_of(load_packed(path));
   try {
     const ipc::file_mapping file(path.c_str(), ipc::read_only);

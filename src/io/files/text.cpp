@@ -62,6 +62,8 @@ std::string unpack(const std::string& file, const std::string& packed) {
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string load_packed(const std::filesystem::path& path) {
+  // The system takes a name to end at its first NUL.
+  if (path.native().find('\0') != std::string::npos) fail(path.string(), "a name with a NUL character");
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) fail(path.string(), "is a directory: name a file");
   std::ifstream in(path, std::ios::binary);

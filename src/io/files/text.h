@@ -54,6 +54,12 @@ class Line_reader {
   /// Cost: a look at all bytes before it.
   void narrow(std::size_t begin, std::size_t end);
 
+  /// Makes the next call of word() begin within the word that it returned last.
+  /// \pre `tail` is the end of that word
+  void unread(std::string_view tail) {
+    rest_ = {tail.data(), static_cast<std::size_t>(rest_.data() + rest_.size() - tail.data())};
+  }
+
   /// The text after the current line.
   std::string_view remaining() const { return text_.substr(position_); }
 
@@ -61,6 +67,7 @@ class Line_reader {
   std::string_view word();
   bool at_line_end();
   std::string_view rest() const { return rest_; }  ///< the rest of the current line
+  void leave_line() { rest_ = {}; }                ///< skips it
 
   /// The next word as a finite number.
   /// \throw Error(input) naming `what`

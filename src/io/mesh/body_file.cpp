@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "element_parsers.h"
 #include "format.h"
 #include "io/files/text.h"
-#include "optional_readers.h"
 #include "parse_mesh.h"
 #include "surface_parsers.h"
 
@@ -38,8 +38,10 @@ Content from_surface(const std::string& name, std::string_view bytes, Surface_fo
   return {{std::move(surface.points), std::move(surface.facets), std::move(lines.edges)}};
 }
 
-Content from_gmsh(const std::string& name, std::string_view bytes, Format format, Read_report& report) {
-  Element_soup soup = parse_by_gmsh(name, bytes, format, Lines::read, report);
+template <class Parse>
+Content from_elements(const std::string& name, std::string_view bytes, Parse parse, Read_report& report) {
+  Element_soup soup = parse(name, bytes, Lines::read, report);
+  if (!soup.groups.empty()) report.notes.push_back(fmt::format("{} groups ignored", soup.groups.size()));
   Content content;
   add_cells(content, soup.volumes);
   content.parts.points = std::move(soup.volumes.points);
@@ -115,9 +117,11 @@ Content content_of(const std::string& name, const Recognized_file& file, Read_re
     case Format::ply:
       return from_surface(name, file.bytes, Surface_format::ply, planar, report);
     case Format::msh:
+      return from_elements(name, file.bytes, parse_msh, report);
     case Format::medit:
+      return from_elements(name, file.bytes, parse_medit, report);
     case Format::unv:
-      return from_gmsh(name, file.bytes, file.format, report);
+      return from_elements(name, file.bytes, parse_unv, report);
     case Format::csv:
       return from_table<D>(name, file.bytes, report);
     case Format::unknown:
@@ -171,7 +175,7 @@ void add_notes(const Made_body<D>& made, bool has_volumes, Read_report& report) 
 template <int D>
 Body_file<D> read_body(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const Recognized_file recognized = load_recognized(path);
+  const Recognized_file recognized = recognized_file(path, load_packed(path));
   Body_file<D> file;
   Content content = content_of<D>(name, recognized, file.report);
   if (content.parts.points.empty()) fail(name, "holds no vertices: a body needs at least one");

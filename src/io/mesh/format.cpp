@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "io/files/text.h"
+#include "surface_parsers.h"
 
 namespace cellwalk::io {
 namespace {
@@ -32,18 +35,25 @@ constexpr std::array<Named, 17> extensions{{{".off", Format::off},
                                             {".csv", Format::csv}}};
 
 /// The first bytes that occur in one format only.
-constexpr std::array<Named, 10> openings{{{"OVM", Format::ovm},
-                                          {"$", Format::msh},
-                                          {"MeshVersionFormatted", Format::medit},
-                                          {"# vtk DataFile", Format::vtk},
-                                          {"<?xml", Format::vtk_xml},
-                                          {"<VTKFile", Format::vtk_xml},
-                                          {"ply\n", Format::ply},
-                                          {"ply\r\n", Format::ply},
-                                          {"POLYGON", Format::wkt},
-                                          {"MULTIPOLYGON", Format::wkt}}};
+constexpr std::array<Named, 8> openings{{{"OVM", Format::ovm},
+                                         {"$", Format::msh},
+                                         {"MeshVersionFormatted", Format::medit},
+                                         {"# vtk DataFile", Format::vtk},
+                                         {"<?xml", Format::vtk_xml},
+                                         {"<VTKFile", Format::vtk_xml},
+                                         {"POLYGON", Format::wkt},
+                                         {"MULTIPOLYGON", Format::wkt}}};
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 }  // namespace
+
+std::size_t end_of_off_keyword(std::string_view word) {
+  const std::size_t digits = word.find_last_not_of("0123456789") + 1;  // 0 if there is nothing else
+  return word.substr(0, digits).ends_with(off_keyword) ? digits : 0;
+}
 
 Format format_by_content(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
@@ -52,7 +62,21 @@ Format format_by_content(std::string_view bytes) {
   for (const auto& [opening, format] : openings)
     if (bytes.size() >= opening.size() && same_word(bytes.substr(0, opening.size()), opening)) return format;
   Line_reader in("", bytes.substr(0, 4096));
-  if (in.next_line() && in.word().ends_with("OFF")) return Format::off;
+  if (!in.next_line()) return Format::unknown;
+  const std::string_view word = in.word();
+  if (end_of_off_keyword(word) != 0) return Format::off;
+  if (word == "ply" && in.at_line_end()) return Format::ply;
+  return Format::unknown;
+}
+
+Format guessed_format(std::string_view bytes) {
+  if (is_binary_stl(bytes)) return Format::stl;
+  Line_reader in("", bytes.substr(0, 4096));
+  if (!in.next_line()) return Format::unknown;
+  const std::string_view word = in.word();
+  if (word == "solid") return Format::stl;
+  if (word == "-1" && in.at_line_end()) return Format::unv;
+  if (is_one_of(word, {"v", "vn", "vt", "f", "l", "o", "g", "s", "mtllib", "usemtl"})) return Format::obj;
   return Format::unknown;
 }
 
@@ -99,11 +123,14 @@ std::string_view format_name(Format format) {
   return "unknown";
 }
 
-Recognized_file load_recognized(const std::filesystem::path& path) {
-  Recognized_file file{load(path), Format::unknown, {}};
+Recognized_file recognized_file(const std::filesystem::path& path, std::string bytes) {
+  if (is_gzip(bytes)) bytes = unpack(path.string(), bytes);
+  Recognized_file file{std::move(bytes), Format::unknown, {}};
   if (file.bytes.find_first_not_of(" \t\r\n") == std::string::npos) fail(path.string(), "is empty");
   const Format named = format_by_extension(path), found = format_by_content(file.bytes);
-  file.format = found != Format::unknown ? found : named;
+  file.format = found != Format::unknown   ? found
+                : named != Format::unknown ? named
+                                           : guessed_format(file.bytes);
   if (named != Format::unknown && named != file.format)
     file.note = fmt::format("the extension says {}, the content {}: read by its content", format_name(named),
                             format_name(file.format));

@@ -14,6 +14,14 @@ enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv
 /// The format by the first bytes; unknown if these are inconclusive.
 Format format_by_content(std::string_view bytes);
 
+/// The format by what only looks like one: for files whose names do not say it, such as pipes.
+Format guessed_format(std::string_view bytes);
+
+/// Where the keyword of an OFF file ends within its first word: the number of vertices may follow without a
+/// blank. 0 if it is none.
+std::size_t end_of_off_keyword(std::string_view word);
+inline constexpr std::string_view off_keyword = "OFF";
+
 /// The format by the extension, without a final `.gz`.
 Format format_by_extension(const std::filesystem::path& path);
 
@@ -27,8 +35,9 @@ struct Recognized_file {
   Format format;
   std::string note;  ///< if content and extension contradict each other, otherwise empty
 };
-/// \throw Error(input) if the file cannot be read or is empty
-Recognized_file load_recognized(const std::filesystem::path& path);
+/// \param bytes as they lie in the file
+/// \throw Error(input) if they cannot be inflated, or the file is empty
+Recognized_file recognized_file(const std::filesystem::path& path, std::string bytes);
 
 }  // namespace cellwalk::io
 

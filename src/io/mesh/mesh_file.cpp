@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
-#include "element_soup.h"
+#include "element_parsers.h"
 #include "format.h"
 #include "io/files/text.h"
 #include "optional_readers.h"
@@ -17,7 +18,7 @@
 namespace cellwalk::io {
 namespace {
 
-constexpr const char *gmsh_purpose = "reads .msh, .mesh and .unv", *vtk_purpose = "reads .vtk, .vtu and .vtp";
+constexpr const char* vtk_purpose = "reads .vtk, .vtu and .vtp";
 
 Mesh_file surface(const std::string& name, std::string_view bytes, Surface_format format) {
   Read_report report;
@@ -32,9 +33,10 @@ Mesh_file domain(const std::string& name, std::string_view bytes, Parse parse) {
   return {std::move(result), std::move(report)};
 }
 
-Mesh_file elements_by_gmsh(const std::string& name, const std::string& bytes, Format format) {
+template <class Parse>
+Mesh_file elements(const std::string& name, std::string_view bytes, Parse parse) {
   Read_report report;
-  Element_soup soup = parse_by_gmsh(name, bytes, format, Lines::left_out, report);
+  Element_soup soup = parse(name, bytes, Lines::left_out, report);
   return volumes_or_polygons(name, std::move(soup), std::move(report));
 }
 
@@ -57,9 +59,11 @@ Mesh_file parse_mesh(const std::string& name, const std::string& bytes, Format f
     case Format::wkt:
       return domain(name, bytes, parse_wkt);
     case Format::msh:
+      return elements(name, bytes, parse_msh);
     case Format::medit:
+      return elements(name, bytes, parse_medit);
     case Format::unv:
-      return elements_by_gmsh(name, bytes, format);
+      return elements(name, bytes, parse_unv);
     case Format::vtk:
     case Format::vtk_xml:
       return parse_by_vtk(name, bytes, format);
@@ -76,26 +80,25 @@ std::string_view kind_name(const Mesh& mesh) {
   return names[mesh.index()];
 }
 
-Mesh_file read_mesh(const std::filesystem::path& path) {
-  const Recognized_file recognized = load_recognized(path);
+Mesh_file read_mesh(const std::filesystem::path& path) { return read_mesh(path, load_packed(path)); }
+
+Mesh_file read_mesh(const std::filesystem::path& path, std::string bytes) {
+  const Recognized_file recognized = recognized_file(path, std::move(bytes));
   Mesh_file file = parse_mesh(path.string(), recognized.bytes, recognized.format);
   if (!recognized.note.empty()) file.report.notes.push_back(recognized.note);
   return file;
 }
 
 std::vector<Build_feature> build_features() {
-  const Reader_module* const gmsh = has_gmsh() ? gmsh_module().module : nullptr;
   const Reader_module* const vtk = has_vtk() ? vtk_module().module : nullptr;
-  return {{"gmsh", gmsh != nullptr, gmsh ? gmsh->library : "", gmsh_purpose},
-          {"vtk", vtk != nullptr, vtk ? vtk->library : "", vtk_purpose}};
+  return {{"vtk", vtk != nullptr, vtk ? vtk->library : "", vtk_purpose}};
 }
 
 std::string supported_formats() {
-  std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt";
+  std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt, .msh, .mesh, .unv";
   const auto add = [&text](bool is_in, const char* formats, const char* library, const char* purpose) {
     text += is_in ? formats : fmt::format(" (this build lacks {}, which {})", library, purpose);
   };
-  add(has_gmsh(), ", .msh, .mesh, .unv", "gmsh", gmsh_purpose);
   add(has_vtk(), ", .vtk, .vtu, .vtp", "vtk", vtk_purpose);
   return text;
 }

@@ -2,6 +2,7 @@
 // OFF, as text and binary. CGAL's reader names no line, refuses `group` lines and accepts some broken files.
 #include <fmt/format.h>
 
+#include "format.h"
 #include "io/files/binary.h"
 #include "io/files/text.h"
 #include "surface_parsers.h"
@@ -13,7 +14,8 @@ struct Header {
   bool binary = false, colours = false, normals = false;
 };
 
-/// `[ST][C][N][4][n]OFF [BINARY]`, with the counts in the same line or the next; the keyword may be missing.
+/// `[ST][C][N][4][n]OFF [BINARY]`, with the counts in the same line, even without a blank, or the next; the
+/// keyword may be missing.
 Header read_header(Line_reader& in, Read_report& report) {
   in.need_line("'OFF'");
   std::string_view keyword = in.word();
@@ -23,9 +25,10 @@ Header read_header(Line_reader& in, Read_report& report) {
     in.next_line();
     return {};
   }
-  if (!keyword.ends_with("OFF"))
-    in.fail(fmt::format("not an OFF file: it begins with '{}'", keyword.substr(0, 20)));
-  keyword.remove_suffix(3);
+  const std::size_t end = end_of_off_keyword(keyword);
+  if (end == 0) in.fail(fmt::format("not an OFF file: it begins with '{}'", keyword.substr(0, 20)));
+  if (end < keyword.size()) in.unread(keyword.substr(end));
+  keyword = keyword.substr(0, end - off_keyword.size());
   Header header;
   auto prefix = [&](std::string_view p) {
     const bool found = keyword.starts_with(p);

@@ -7,8 +7,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "gmsh_input.h"
-#include "io/files/temporary_folder.h"
 #include "io/files/text.h"
 #include "vtk_text.h"
 
@@ -36,21 +34,7 @@ Element_soup read_by(const Loaded_module& loaded, const char* library, const std
 
 }  // namespace
 
-bool has_gmsh() { return CELLWALK_HAS_GMSH; }
 bool has_vtk() { return CELLWALK_HAS_VTK; }
-
-Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
-                           Read_report& report) {
-  if (!has_gmsh())
-    fail(name,
-         "this build lacks Gmsh, which reads .msh, .mesh and .unv: install libgmsh-dev and configure with "
-         "-DCELLWALK_WITH_GMSH=ON, or convert the file to .ovm");
-  const Gmsh_input prepared = prepare_for_gmsh(name, bytes, format, report);
-  Temporary_folder folder;
-  Reader_input input{prepared.changed.empty() ? bytes : prepared.changed, format, {}, prepared.counts, lines};
-  input.path = folder.write(prepared.file_name, input.bytes);
-  return read_by(gmsh_module(), "Gmsh", name, input, report);
-}
 
 Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format format) {
   if (!has_vtk())
@@ -59,7 +43,7 @@ Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format f
          "-DCELLWALK_WITH_VTK=ON, or convert the file to .ovm");
   check_vtk_counts(name, bytes, format);
   Read_report report;
-  Element_soup soup = read_by(vtk_module(), "VTK", name, {bytes, format, {}, {}, Lines::left_out}, report);
+  Element_soup soup = read_by(vtk_module(), "VTK", name, {bytes, format}, report);
   return volumes_or_polygons(name, std::move(soup), std::move(report));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: readers that need libraries that a build may lack. All checks without the library come
+// Private to io: the readers that need a library that a build may lack. All checks without the library come
 // first.
 #ifndef CELLWALK_IO_MESH_OPTIONAL_READERS_H
 #define CELLWALK_IO_MESH_OPTIONAL_READERS_H
@@ -13,17 +13,11 @@
 
 namespace cellwalk::io {
 
-/// .msh, .mesh and .unv by Gmsh. `bytes` are the whole file, inflated.
-/// \throw Error(input) also if this build lacks Gmsh, or its module cannot be loaded
-Element_soup parse_by_gmsh(const std::string& name, std::string_view bytes, Format format, Lines lines,
-                           Read_report& report);
-
 /// Legacy VTK and VTK XML, unstructured grids and polygonal data.
-/// \throw Error(input) as above
+/// \throw Error(input) also if this build lacks VTK, or its module cannot be loaded
 Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format format);
 
 /// True if this build includes the reader.
-bool has_gmsh();
 bool has_vtk();
 
 }  // namespace cellwalk::io

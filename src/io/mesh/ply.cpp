@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 
 #include "io/files/binary.h"
@@ -94,6 +95,8 @@ class Ply_reader {
         vertices(element);
       else if (element.name == "face")
         faces(element);
+      else if (element.name == "tristrips")
+        strips(element, report);
       else if (element.name == "edge" && body_)
         edges(element);
       else if (element.count > 0)
@@ -138,6 +141,44 @@ class Ply_reader {
         else
           value(element.properties[j], "a face");
       }
+  }
+
+  /// Strips of triangles, ended by -1: each vertex after the second makes a triangle with the two before it.
+  void strips(const Ply_element& element, Read_report& report) {
+    const auto list = element.find("vertex_indices", true);
+    if (!list) in_->fail("the header gives strips of triangles no list 'vertex_indices'");
+    const std::size_t before = soup_.facets.size();
+    std::size_t flat = 0;
+    std::vector<std::uint32_t> strip;
+    for (std::uint64_t i = 0; i < element.count; ++i, strip.clear())
+      for (std::size_t j = 0; j < element.properties.size(); ++j) {
+        if (j != *list) {
+          value(element.properties[j], "a strip");
+          continue;
+        }
+        for (std::size_t n = length(element.properties[j]); n > 0; --n) {
+          const double v = in_->next(element.properties[j].type, "a strip");
+          if (v == -1 || v == static_cast<double>(std::numeric_limits<std::uint32_t>::max())) {
+            strip.clear();
+            continue;
+          }
+          strip.push_back(index("strip", i, v));
+          if (strip.size() >= 3) flat += !triangle(strip);
+        }
+      }
+    report.notes.push_back(
+        fmt::format("strips read as {} triangles{}", soup_.facets.size() - before,
+                    flat > 0 ? fmt::format("; {} that repeat a vertex left out", flat) : ""));
+  }
+
+  /// Adds the last triangle of a strip, every second of which is turned round. False if it repeats a vertex,
+  /// as those do that join two strips.
+  bool triangle(const std::vector<std::uint32_t>& strip) {
+    const std::size_t n = strip.size();
+    const std::uint32_t a = strip[n - 3], b = strip[n - 2], c = strip[n - 1];
+    if (a == b || b == c || c == a) return false;
+    soup_.facets.push_back(n % 2 == 1 ? std::vector{a, b, c} : std::vector{b, a, c});
+    return true;
   }
 
   void facet(std::uint64_t i, const Ply_property& property) {

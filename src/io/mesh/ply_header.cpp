@@ -65,7 +65,7 @@ Ply_header read_ply_header(const std::string& name, std::string_view bytes) {
   Ply_header header;
   Line_reader in(name, bytes, std::nullopt);
   in.need_line("'ply'");
-  if (in.rest() != "ply") in.fail("not a PLY file: it does not begin with 'ply'");
+  if (in.word() != "ply" || !in.at_line_end()) in.fail("not a PLY file: it does not begin with 'ply'");
   bool has_format = false;
   for (std::string_view keyword; keyword != "end_header";) {
     in.need_line("'end_header'");

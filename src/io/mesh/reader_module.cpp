@@ -16,11 +16,6 @@ Loaded_module load_reader(const std::string& file) {
 
 }  // namespace
 
-const Loaded_module& gmsh_module() {
-  static const Loaded_module module = load_reader("libcellwalk_gmsh.so");
-  return module;
-}
-
 const Loaded_module& vtk_module() {
   static const Loaded_module module = load_reader("libcellwalk_vtk.so");
   return module;

@@ -9,19 +9,13 @@
 
 #include "element_soup.h"
 #include "format.h"
-#include "gmsh_text.h"
 
 namespace cellwalk::io {
-
-enum class Lines { left_out, read };
 
 /// The input of a module.
 struct Reader_input {
   std::string_view bytes;  ///< the whole file, inflated
   Format format;
-  std::string path;   ///< for Gmsh: a copy of the bytes, with a name by which it chooses the right reader
-  Msh_counts counts;  ///< for Gmsh: the counts announced by the file
-  Lines lines = Lines::left_out;
 };
 
 /// The description of a module.
@@ -42,7 +36,6 @@ struct Loaded_module {
   const Reader_module* module = nullptr;
   std::string problem;
 };
-const Loaded_module& gmsh_module();
 const Loaded_module& vtk_module();
 
 }  // namespace cellwalk::io

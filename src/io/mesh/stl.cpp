@@ -121,12 +121,16 @@ Surface_soup parse_text(const std::string& name, std::string_view bytes, Read_re
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= header_size &&
+         header_size + std::uint64_t{triangle_count(bytes)} * triangle_size == bytes.size();
+}
+
 Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_report& report,
                        Body_elements* body) {
   // Binary files may begin with `solid` too: the size decides, then the presence of bytes that no text has.
   const bool sized = bytes.size() >= header_size;
-  if (sized && header_size + std::uint64_t{triangle_count(bytes)} * triangle_size == bytes.size())
-    return parse_binary(name, bytes, report, body);
+  if (is_binary_stl(bytes)) return parse_binary(name, bytes, report, body);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const bool is_text = bytes.find('\0') == std::string_view::npos;
   if (is_text && first != std::string_view::npos && same_word(bytes.substr(first, 5), "solid"))

@@ -28,6 +28,9 @@ Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_rep
 Surface_soup parse_ply(const std::string& name, std::string_view bytes, Read_report& report,
                        Body_elements* body = nullptr);
 
+/// True if the size is that of a binary STL file with as many triangles as it announces.
+bool is_binary_stl(std::string_view bytes);
+
 /// The parser of a format. The caller checks whether there are polygons.
 Surface_soup parse_polygons(const std::string& name, std::string_view bytes, Surface_format format,
                             Read_report& report, Body_elements* body = nullptr);

@@ -155,7 +155,8 @@ class Cell_reader {
       }
       element(c, type, rows[c]);
       if (soup().cell_count() > cells_before_)
-        wedges.note_cell(type == VTK_WEDGE || is_quadratic_wedge(type));
+        collapsed_.settle_last(soup(), name_, fmt::format("cell {}", c)),
+            wedges.note_cell(type == VTK_WEDGE || is_quadratic_wedge(type));
       cells_before_ = soup().cell_count();
     }
     if (const std::size_t turned = wedges.settle())
@@ -174,7 +175,7 @@ class Cell_reader {
     finish();
   }
 
-  Read_elements result() { return {std::move(elements_), std::move(notes_)}; }
+  Read_elements result() { return {std::move(elements_), std::move(notes_), collapsed_}; }
 
  private:
   Cell_soup<3>& soup() { return elements_.volumes; }
@@ -206,7 +207,7 @@ class Cell_reader {
     if (type == VTK_VOXEL) std::swap(v[2], v[3]), std::swap(v[6], v[7]);
     if (type == VTK_PIXEL) std::swap(v[2], v[3]);
     if (shape->dimension == 2)
-      elements_.polygons.push_back(std::move(v));
+      collapsed_.settle(v, soup().points), elements_.polygons.push_back(std::move(v));
     else
       volume(v);
   }
@@ -295,6 +296,7 @@ class Cell_reader {
   const std::string& name_;
   Element_soup elements_;
   std::vector<std::string> notes_;
+  Collapsed_cells collapsed_;
   std::size_t lower_ = 0, straightened_ = 0, turned_ = 0, cells_before_ = 0;
 };
 

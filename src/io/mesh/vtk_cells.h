@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collapsed_cells.h"
 #include "element_soup.h"
 
 class vtkPolyData;
@@ -16,6 +17,7 @@ namespace cellwalk::io {
 struct Read_elements {
   Element_soup elements;
   std::vector<std::string> notes;
+  Collapsed_cells collapsed;
 };
 
 /// \throw Error(input) if an index or offset is out of range, or for cells of an unsupported type

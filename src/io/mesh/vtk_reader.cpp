@@ -144,6 +144,7 @@ Element_soup read_with_vtk(const std::string& name, const Reader_input& input, R
   Read_elements read =
       input.format == Format::vtk_xml ? parse_xml(name, bytes, report) : parse_legacy(name, bytes, report);
   report.notes = std::move(read.notes);
+  read.collapsed.report_to(report);
   return std::move(read.elements);
 }
 

@@ -50,6 +50,10 @@ void check_xml(const std::string& name, std::string_view bytes) {
       for (std::size_t found = 0; (found = rest.find(attribute)) != std::string_view::npos;) {
         rest.remove_prefix(found + attribute.size());
         const std::size_t word = std::min(rest.find_first_of("= \t\r\n"), rest.size());
+        const std::size_t quote = std::min(rest.find_first_of("'\""), rest.size());
+        const std::string_view value = rest.substr(quote, rest.find_first_of("'\"", quote + 1) - quote);
+        if (value.find('&') != std::string_view::npos)
+          fail(name, fmt::format("'{}': a count is to be written in digits", shown(value)));
         const std::size_t digits = rest.find_first_of("0123456789");
         if (digits != std::string_view::npos)
           check_count(name, rest.substr(0, word), leading_number(rest.substr(digits)), most, bytes.size());
@@ -57,23 +61,29 @@ void check_xml(const std::string& name, std::string_view bytes) {
     }
 }
 
-/// Checks lines such as POINTS 8 double, CELLS 2 10.
+/// Checks the numbers after keywords, as in POINTS 8 double, CELLS 2 10. VTK takes them from words, wherever
+/// lines end.
 void check_legacy(const std::string& name, std::string_view bytes) {
   constexpr std::array<std::string_view, 9> keywords{"POINTS",          "CELLS",      "CELL_TYPES",
                                                      "POLYGONS",        "LINES",      "VERTICES",
                                                      "TRIANGLE_STRIPS", "POINT_DATA", "CELL_DATA"};
+  constexpr std::string_view blanks = " \t\v\f\r\n";
   const double most = static_cast<double>(bytes.size()) * per_byte_plain;
-  for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n', end + 1)) {
-    Line_reader line("", bytes.substr(end + 1, 128), std::nullopt);
-    const std::string_view first = bytes.substr(end + 1, 1);
-    if (first.empty() || std::string_view("PCLVTpclvt").find(first) == std::string_view::npos ||
-        !line.next_line())
+  std::size_t at = bytes.find('\n');
+  at = bytes.find('\n', std::min(at, bytes.size() - 1) + 1);  // after the title, which may be any text
+  for (; at != std::string_view::npos; at = bytes.find_first_of(blanks, at + 1)) {
+    const std::string_view first = bytes.substr(at + 1, 1);
+    if (first.empty() || std::string_view("PCLVTpclvt").find(first) == std::string_view::npos) continue;
+    const std::size_t end = std::min(bytes.find_first_of(blanks, at + 1), bytes.size());
+    const std::string_view keyword = bytes.substr(at + 1, end - at - 1);
+    if (std::none_of(keywords.begin(), keywords.end(),
+                     [&](std::string_view known) { return same_word(keyword, known); }))
       continue;
-    const std::string_view keyword = line.word();
-    for (const std::string_view known : keywords)
-      if (same_word(keyword, known))
-        for (std::string_view word = line.word(); !word.empty(); word = line.word())
-          check_count(name, keyword, leading_number(word), most, bytes.size());
+    const std::size_t number = std::min(bytes.find_first_not_of(blanks, end), bytes.size());
+    Line_reader line("", bytes.substr(number, 128), std::nullopt);
+    if (!line.next_line()) continue;
+    for (std::string_view word = line.word(); !word.empty(); word = line.word())
+      check_count(name, keyword, leading_number(word), most, bytes.size());
   }
 }
 

@@ -85,6 +85,8 @@ std::string flaw_of(const Body_trace& trace) {
     if (const std::string what = flaw_of(trace.bodies[b]); !what.empty())
       return fmt::format("body {}: {}", b, what);
   const std::size_t vertices = trace.vertices();
+  if (vertices == 0 && trace.steps > 0)
+    return fmt::format("announces {} steps of no bodies: nothing moves in them", trace.steps);
   const auto not_finite = [vertices](const std::vector<Point<3>>& points, const char* what) -> std::string {
     const auto bad = std::find_if_not(points.begin(), points.end(), is_finite<3>);
     if (bad == points.end()) return {};

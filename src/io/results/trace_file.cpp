@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,10 @@ namespace {
 constexpr std::size_t trace_header_size = 64, index_size = 4, point_size = 24, answer_size = 1;
 static_assert(sizeof(Point<3>) == point_size && std::endian::native == std::endian::little,
               "arrays are read and written as they lie in memory");
+
+/// A replay builds all cells of the grid, however short the file is. Beyond a million cells, which any file
+/// may have, the bytes set the limit: traces of large grids have much motion.
+constexpr std::uint64_t cells_of_any_file = 1'000'000, cells_a_byte = 64;
 
 /// Obstacles are followed by zero bytes up to a multiple of eight.
 std::size_t padding(std::uint64_t obstacles) { return obstacles % 2 == 0 ? 0 : index_size; }
@@ -66,6 +71,8 @@ std::string flaw(const Trace& trace) {
     return fmt::format(
         "a grid of {} x {} x {} cells: there must be some, and no more than 32-bit indices name", trace.nx,
         trace.ny, trace.nz);
+  if (trace.bodies == 0 && trace.steps > 0)
+    return fmt::format("announces {} steps of no bodies: nothing moves in them", trace.steps);
   for (double x : {trace.obstacle_fraction, trace.body_side, trace.speed})
     if (!std::isfinite(x)) return "a number of the header is not finite: the trace is damaged";
   for (std::size_t i = 0; i < trace.obstacles.size(); ++i) {
@@ -108,6 +115,7 @@ Trace parse_trace(const std::string& name, std::string_view bytes) {
   if (!bytes.starts_with(trace_magic))
     fail(name,
          fmt::format("is no trace: it does not begin with {}; name a file of recorded motion", trace_magic));
+  const std::size_t file_size = bytes.size();
   Binary_reader in(name, bytes.substr(trace_magic.size()), false);
   std::uint32_t obstacles = 0;
   Trace trace = take_header(in, obstacles);
@@ -121,6 +129,9 @@ Trace parse_trace(const std::string& name, std::string_view bytes) {
   trace.targets = take_array<Point<3>>(bytes, trace.moves());
   trace.answers = take_array<std::uint8_t>(bytes, trace.moves());
   if (const std::string what = flaw(trace); !what.empty()) fail(name, what);
+  if (trace.cells() > std::max<std::uint64_t>(cells_of_any_file, cells_a_byte * file_size))
+    fail(name, fmt::format("announces a grid of {} cells in {} bytes: it is damaged, get it anew",
+                           trace.cells(), file_size));
   return trace;
 }
 

@@ -14,6 +14,13 @@ namespace cellwalk::io::detail {
 
 using nlohmann::json;
 
+namespace {
+
+/// The system takes a name to end at its first NUL: a file of another name would be read.
+bool has_null(const std::string& text) { return text.find('\0') != std::string::npos; }
+
+}  // namespace
+
 std::unique_ptr<json> parse_json(const std::string& name, std::string_view text) {
   // The library silently keeps the last of two equal keys; such a scene is refused.
   std::vector<std::set<std::string>> open;
@@ -69,7 +76,11 @@ void Json_node::expect_keys(std::span<const std::string_view> allowed) const {
 std::vector<std::string> Json_node::keys() const {
   if (!is_object()) fail("expected an object {...}");
   std::vector<std::string> result;
-  for (auto it = value_->begin(); it != value_->end(); ++it) result.push_back(it.key());
+  for (auto it = value_->begin(); it != value_->end(); ++it) {
+    if (has_null(it.key()))
+      fail(fmt::format("the key {} has a NUL character: leave it out", shown(it.key())));
+    result.push_back(it.key());
+  }
   return result;
 }
 
@@ -98,7 +109,9 @@ std::vector<Json_node> Json_node::elements() const {
 
 std::string Json_node::string() const {
   if (!is_string()) fail("expected a text");
-  return value_->get<std::string>();
+  std::string text = value_->get<std::string>();
+  if (has_null(text)) fail("a text with a NUL character: leave it out");
+  return text;
 }
 
 bool Json_node::boolean() const {

@@ -215,6 +215,23 @@ TEST(Surface, PlyIsRead) {
   expect_tetrahedron(parse(big_endian, Surface_format::ply));
 }
 
+TEST(Surface, StripsOfPlyAreTriangles) {
+  // A tetrahedron in one strip, and in two that a repeated vertex or -1 keeps apart.
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  using Facets = std::vector<std::vector<std::uint32_t>>;
+  const auto facets = [&](const std::string& strip) {
+    return parse(head + strip, Surface_format::ply).facets;
+  };
+  EXPECT_EQ(facets("6 0 2 1 3 0 2\n"), (Facets{{0, 2, 1}, {1, 2, 3}, {1, 3, 0}, {0, 3, 2}}));
+  EXPECT_EQ(facets("7 0 2 1 -1 1 2 3\n"), (Facets{{0, 2, 1}, {1, 2, 3}}));
+  EXPECT_EQ(facets("7 0 2 1 1 3 0 2\n"), (Facets{{0, 2, 1}, {3, 1, 0}, {3, 0, 2}}));
+  EXPECT_EQ(refusal([&] { facets("3 0 1 9\n"); }).find("t"), 0u);
+  EXPECT_EQ(refusal([&] { parse(with(head, "vertex_indices", "corners") + "0\n", Surface_format::ply); }),
+            "t:13: the header gives strips of triangles no list 'vertex_indices'");
+}
+
 TEST(Surface, PlyIsRefusedWithAReason) {
   struct Case {
     const char *from, *to, *message;

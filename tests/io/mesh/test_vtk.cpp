@@ -133,6 +133,24 @@ TEST(VtkReader, WedgesInTheOtherOrderAreTurnedWhereOtherCellsTell) {
             (std::vector<double>{-3, -1}));
 }
 
+TEST(VtkReader, CollapsedCellsAreReadAsWhatTheyAre) {
+  // Each cell as a hexahedron, then as a wedge or a pyramid in the order of VTK.
+  for (const auto& [cells, types] :
+       {std::pair{"8 0 1 2 3 4 5 6 7\n8 1 8 8 2 5 9 9 6\n8 4 5 6 7 10 10 10 10\n8 4 10 7 7 11 11 11 11\n4 0 "
+                  "1 2 3\n2 0 1\n",
+                  "12\n12\n12\n12\n9\n3\n"},
+        std::pair{"8 0 1 3 2 4 5 7 6\n6 1 2 8 5 6 9\n5 4 5 6 7 10\n6 4 10 7 11 11 11\n4 0 1 2 3\n2 0 1\n",
+                  "11\n13\n14\n13\n9\n3\n"}}) {
+    const Mesh_file file = read("t.vtk", legacy(cells, types));
+    const Cell_soup<3> soup = volumes_of(file);
+    EXPECT_EQ(six_volumes(soup).front(), 6);
+    EXPECT_TRUE(all_closed(soup));
+    EXPECT_EQ(shared_facets(soup), 3u);
+    EXPECT_EQ(soup.cell_begin[4] - soup.cell_begin[3], 4u);
+    EXPECT_GE(file.report.collapsed, 1u);
+  }
+}
+
 TEST(VtkReader, PolyhedraAreReadAndTheirFacesMadeAlike) {
   const auto grid = grid_of({{VTK_HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7}}});
   // The pyramid on the hexahedron as a polyhedron, two of its faces the wrong way round.

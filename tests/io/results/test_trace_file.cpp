@@ -95,6 +95,23 @@ TEST(TraceFile, IsWrittenAsItWasRead) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(TraceFile, RefusesGridsThatAreTooLargeForItsBytes) {
+  const auto with_layers = [](std::uint32_t nx) {
+    return with(sample_trace(), nx_at, count(nx));
+  };  // of 20 cells
+  EXPECT_EQ(parse_trace("t.bin", with_layers(50'000)).cells(), 1'000'000u);
+  EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(50'001)); }),
+            "t.bin: announces a grid of 1000020 cells in 672 bytes: it is damaged, get it anew");
+  EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(200'000'000)); }),
+            "t.bin: announces a grid of 4000000000 cells in 672 bytes: it is damaged, get it anew");
+}
+
+TEST(TraceFile, RefusesStepsInWhichNothingMoves) {
+  const std::string none = with(with(sample_trace(), bodies_at, count(0)), steps_at, count(4'294'967'295));
+  EXPECT_EQ(refusal([&] { parse_trace("t.bin", none.substr(0, starts_at)); }),
+            "t.bin: announces 4294967295 steps of no bodies: nothing moves in them");
+}
+
 TEST(TraceFile, RefusesDamage) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const struct {

@@ -209,6 +209,33 @@ TEST(Scene, NamesTheLineOfASyntaxError) {
   EXPECT_NE(message("{\"steps\": 1e999}").find("1e999"), std::string::npos);
 }
 
+TEST(Scene, RefusesNulInEveryText) {
+  const std::string whole =
+      R"({"environment": "e.ovm", "title": "t", "bodies": [{"file": "b.off", "count": 1}], "steps": 1,
+          "groups": {"door": {"ball": [[0, 0, 0], 1]}}, "changes": [{"step": 1, "open": "door"}],
+          "walls": {"motion": "m.csv", "at_contact": "stop"}, "catheter": {"spacing": 1, "steering": "none",
+          "path": [[0, 0, 0], [1, 0, 0]]}})";
+  EXPECT_NO_THROW(parse_scene("s.json", whole));
+  int texts = 0, named = 0;
+  for (std::size_t open = whole.find('"'); open != std::string::npos;) {
+    const std::size_t close = whole.find('"', open + 1);
+    for (std::size_t at = open + 1; at <= close; ++at) {
+      std::string with_nul = whole;
+      with_nul.insert(at, "\\u0000");
+      try {
+        parse_scene("s.json", with_nul);
+        ADD_FAILURE() << with_nul;
+      } catch (const Error& e) {
+        ++texts;
+        named += std::string(e.what()).find("NUL character: leave it out") != std::string::npos;
+      }
+    }
+    open = whole.find('"', close + 1);
+  }
+  EXPECT_GT(texts, 150);
+  EXPECT_GT(named, texts - 20) << "a key without which nothing else is known";
+}
+
 TEST(Scene, NamesAFileThatCannotBeRead) {
   EXPECT_THROW(
       {

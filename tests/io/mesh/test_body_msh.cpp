@@ -28,7 +28,7 @@ Body_file<D> read(const std::string& text) {
 
 const std::string square = "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
 
-TEST(BodyGmsh, ReadsLines) {
+TEST(BodyMsh, ReadsLines) {
   // A point, a line of first order, one of second order (with its middle node last), and a further line.
   const std::string text = msh(square, "4\n1 15 2 0 1 1\n2 1 2 0 1 1 2\n3 8 2 0 2 2 4 3\n4 1 2 0 1 4 1\n");
   const auto file = read<3>(text);
@@ -40,7 +40,7 @@ TEST(BodyGmsh, ReadsLines) {
   EXPECT_EQ(read<2>(text).body.edges, file.body.edges);
 }
 
-TEST(BodyGmsh, ReadsSurfacesWithTheirLines) {
+TEST(BodyMsh, ReadsSurfacesWithTheirLines) {
   const std::string text = msh("5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 3 3 0\n",
                                "3\n1 3 2 0 1 1 2 3 4\n2 1 2 0 1 1 2\n3 1 2 0 1 3 5\n");
   EXPECT_EQ(read<3>(text).body.edges, (Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {2, 3}, {2, 4}}));
@@ -48,7 +48,7 @@ TEST(BodyGmsh, ReadsSurfacesWithTheirLines) {
   EXPECT_EQ(read<2>(text).body.edges, (Edges{{0, 1}, {0, 3}, {1, 2}, {2, 3}, {2, 4}}));
 }
 
-TEST(BodyGmsh, ReadsVolumesWithAllTheirEdgesAndFacets) {
+TEST(BodyMsh, ReadsVolumesWithAllTheirEdgesAndFacets) {
   // Two cubes on each other: 12 vertices, 20 edges, 11 squares, each with a diagonal.
   const auto file = read<3>(msh(
       "12\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 0 0 2\n10 1 0 2\n11 1 1 "
@@ -61,14 +61,14 @@ TEST(BodyGmsh, ReadsVolumesWithAllTheirEdgesAndFacets) {
   EXPECT_EQ(file.report.cells, 0u);
 }
 
-TEST(BodyGmsh, RefusesAHeightInThePlane) {
+TEST(BodyMsh, RefusesAHeightInThePlane) {
   const Folder folder;
   const auto path = folder.write("b.msh", msh("2\n1 0 0 0\n2 1 0 3\n", "1\n1 1 2 0 1 1 2\n"));
   EXPECT_EQ(refusal([&] { read_body<2>(path); }),
             path.string() + ": vertex 1: z is 3, in a 2D body: make every z zero, or use it in 3D");
 }
 
-TEST(BodyGmsh, LeavesLinesOutOfMeshes) {
+TEST(BodyMsh, LeavesLinesOutOfMeshes) {
   const Folder folder;
   const auto path = folder.write("b.msh", msh(square, "2\n1 3 2 0 1 1 2 3 4\n2 1 2 0 1 1 2\n"));
   EXPECT_EQ(read_mesh(path).report.notes,
