@@ -52,6 +52,7 @@ set(installed_internals
   walk/certified_exit.h
   walk/in_boundary.h
   walk/link_search.h
+  walk/sides_taken.h
   walk/signs.h
   walk/star.h)
 foreach(header IN LISTS installed_internals)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/edge/all_chains.h>
 #include <cellwalk/query/sweep.h>
 
 #include <list>
@@ -14,26 +15,32 @@ struct Start {
   Chain chain;
 };
 
-/// False if the edge crosses a wall.
-template <int D>
-bool find_start_chain(const Snapshot<D>& snapshot, Start<D>& start, Walk_counts& counts) {
-  const Chain_result<D> found = find_any_chain(snapshot, start.p, start.q, counts);
-  start.chain = found.chain;
-  return !found.contact;
-}
-
-/// The starts of an edge that crosses no wall.
+/// The starts of an edge that crosses no wall: one for each pair of sides of its ends.
+/// \param has_choice set if the edge may pass walls in its line on other sides as well
 template <int D>
 std::list<Start<D>> starts(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& p_at,
-                           const Point<D>& q_at, Walk_counts& counts) {
+                           const Point<D>& q_at, bool& has_choice, Walk_counts& counts) {
   const auto all_p = locator.particles_at(p_at);
   const auto all_q = locator.particles_at(q_at);
   std::list<Start<D>> found;
   for (const Particle<D>& p : all_p)
     for (const Particle<D>& q : all_q) {
-      Start<D> start{p, q, {}};
-      if (find_start_chain(snapshot, start, counts)) found.push_back(start);
+      const Chain_result<D> chain = find_any_chain(snapshot, p, q, counts);
+      if (chain.contact) continue;
+      found.push_back({p, q, chain.chain});
+      has_choice |= chain.has_choice;
     }
+  return found;
+}
+
+/// The starts of an edge with all ways past the walls in its line.
+template <int D>
+std::list<Start<D>> on_all_sides(const Snapshot<D>& snapshot, const std::list<Start<D>>& starts,
+                                 Walk_counts& counts) {
+  std::list<Start<D>> found;
+  for (const Start<D>& start : starts)
+    for (const Chain& chain : detail::all_chains(snapshot, start.p, start.q, counts))
+      found.push_back({start.p, start.q, chain});
   return found;
 }
 
@@ -51,23 +58,33 @@ Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, c
   const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {
     return to_answer(sweep_edge(snapshot, start.p, motion.target, start.q, start.chain, chosen, counts));
   };
-  const std::list<Start<D>> all = starts(snapshot, locator, motion.p, motion.q, counts.walk);
+  bool has_choice = false;
+  const std::list<Start<D>> all = starts(snapshot, locator, motion.p, motion.q, has_choice, counts.walk);
   Answer<D> best;
   best.status = Motion_status::outside;
   if (all.empty()) return best;
-  if (all.size() == 1) return sweep(all.front(), options);
+  if (all.size() == 1 && !has_choice) return sweep(all.front(), options);
 
   Sweep_options exact = options;
   exact.search = Contact_search::exact;
   const Start<D>* best_start = nullptr;
-  for (const Start<D>& start : all) {
-    const Answer<D> result = sweep(start, exact);
-    if (best_start && result.contact && result.contact->time <= best.contact->time) continue;
-    best = result;
-    best_start = &start;
-    if (best.status == Motion_status::free) return best;
+  const auto try_all = [&](const std::list<Start<D>>& tried) {
+    for (const Start<D>& start : tried) {
+      const Answer<D> result = sweep(start, exact);
+      if (best_start && result.contact && result.contact->time <= best.contact->time) continue;
+      best = result;
+      best_start = &start;
+      if (best.status == Motion_status::free) return;
+    }
+  };
+  try_all(all);
+  std::list<Start<D>> others;
+  if (has_choice && best.status != Motion_status::free) {
+    others = on_all_sides(snapshot, all, counts.walk);
+    try_all(others);
   }
-  return options.search == Contact_search::exact ? best : sweep(*best_start, options);
+  if (best.status == Motion_status::free || options.search == Contact_search::exact) return best;
+  return sweep(*best_start, options);
 }
 
 template Answer<2> answer_sweep(const Snapshot<2>&, const Locator<2>&, const Edge_motion<2>&,

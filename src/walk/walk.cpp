@@ -27,6 +27,17 @@ void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<
   contact.normal = detail::inner_normal(corners);
 }
 
+template <int D>
+Walk_result<D> detail::walk_on_sides(const Snapshot<D>& snapshot, const Particle<D>& particle,
+                                     const Point<D>& target, Walk_counts& counts, const Walk_options& options,
+                                     Sides_taken& choices) {
+  return Particle_walk<Exact, D>(snapshot, particle, target, counts, options, &choices).run();
+}
+
+template Walk_result<2> detail::walk_on_sides(const Snapshot<2>&, const Particle<2>&, const Point<2>&,
+                                              Walk_counts&, const Walk_options&, Sides_taken&);
+template Walk_result<3> detail::walk_on_sides(const Snapshot<3>&, const Particle<3>&, const Point<3>&,
+                                              Walk_counts&, const Walk_options&, Sides_taken&);
 template void locate_contact(const Snapshot<2>&, const Point<2>&, const Point<2>&, Wall_contact<2>&);
 template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>&, Wall_contact<3>&);
 

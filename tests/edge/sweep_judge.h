@@ -16,9 +16,9 @@ namespace cellwalk::test {
 
 enum class Sweep_fault {
   none,
-  false_block,  ///< a contact where the motion is free
+  false_block,  ///< a contact where the motion is free on some sides
   false_free,   ///< no contact where there is one
-  wrong_time,   ///< a contact at a time at which none may be
+  wrong_time,   ///< a contact at another time than the latest that is reached on any sides
   wrong_chain,  ///< the chain returned is none, or lies on another side of a wall
   count
 };
@@ -77,8 +77,11 @@ Sweep_fault fault_of(const oracle::Chain_oracle<D>& oracle, const oracle::Edge_m
                      const oracle::Outcomes& outcomes, const Snapshot<D>& snapshot,
                      const Sweep_result<D>& result) {
   if (result.contact) {
-    if (outcomes.blocks.empty()) return Sweep_fault::false_block;
-    return outcomes.may_be_blocked_at(result.contact->rounded_time()) ? Sweep_fault::none
+    // The edge takes the sides on which it gets furthest.
+    if (outcomes.may_be_free()) return Sweep_fault::false_block;
+    oracle::Outcomes furthest;
+    furthest.blocks.push_back(outcomes.blocks.back());
+    return furthest.may_be_blocked_at(result.contact->rounded_time()) ? Sweep_fault::none
                                                                       : Sweep_fault::wrong_time;
   }
   if (!outcomes.may_be_free()) return Sweep_fault::false_free;

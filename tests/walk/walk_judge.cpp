@@ -73,12 +73,12 @@ template <int D>
 Verdict judge_contact(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Case<D>& motion,
                       const Walk_result<D>& result) {
   const Truth& truth = motion.truth;
-  if (truth.stops.empty()) return Verdict::false_contact;
+  // The sides are taken on which the motion gets furthest.
+  if (truth.stops.empty() || !truth.arrivals.empty()) return Verdict::false_contact;
   const std::uint32_t cell = snapshot.index(result.cell);
   const auto stop =
       std::find_if(truth.stops.begin(), truth.stops.end(), [&](const Stop& s) { return s.cell == cell; });
   if (stop == truth.stops.end()) {
-    if (!truth.arrivals.empty()) return Verdict::false_contact;
     // Stops are in order of time. Earlier than all is a false contact, later than all a wall passed.
     const double t = result.contact->time;
     const auto& earliest = motion.trace.events[truth.stops.front().event];
@@ -87,6 +87,7 @@ Verdict judge_contact(const Oracle<D>& oracle, const Snapshot<D>& snapshot, cons
     if (t < rounded(earliest) && !is_within_4_ulp(t, earliest)) return Verdict::false_contact;
     return Verdict::wrong_cell;
   }
+  if (stop->event != truth.stops.back().event) return Verdict::false_contact;
   if (!is_within_4_ulp(result.contact->time, motion.trace.events[stop->event]) ||
       !is_right_point(motion, *result.contact))
     return Verdict::wrong_time;

@@ -17,7 +17,7 @@ enum class Verdict {
   right,
   lost,            ///< the walk did not end or found no exit
   missed_wall,     ///< arrived though every legal way is blocked, or blocked later than any
-  false_contact,   ///< blocked though no legal way is, or earlier than any
+  false_contact,   ///< blocked though some legal way is not, or earlier than some
   wrong_cell,      ///< ends in a cell that does not hold the end, or on an illegal side
   illegal_way,     ///< the cells visited do not follow each other legally
   wrong_time,      ///< contact more than 4 ulp from the exact time, or not at the time the last cell blocks

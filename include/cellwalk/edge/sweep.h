@@ -57,7 +57,7 @@ struct Sweep_options {
   double tolerance = 0x1p-20;  ///< of dichotomic searches: length of the final interval of time, in (0,1]
 };
 
-/// Moves p to a target, with an edge from it to q, which stands still.
+/// Moves p to a target, with an edge from it to q, which stands still: free if it is on some sides of walls.
 /// \param before the chain of the edge before the move
 /// \pre p and q satisfy I1, the target is finite, options.tolerance lies in (0,1]
 /// \throw Error(usage) for p or q in a cell that an edit removed, if its name is not reused

@@ -20,12 +20,12 @@ struct Edge_motion {
 /// Answers a motion of an edge. The status is `outside` if an end is not in free space, or if the edge
 /// crosses a wall before it moves. Sweep::faces is the same as Sweep::triangle, since an edge has no faces.
 ///
-/// An end on a wall with free space on several sides may belong to each of them. Of the sides between which
-/// the edge has a chain, those are chosen with which the motion gets furthest, by exact times; in ties the
-/// cell of p of lowest index, then that of q. Other searches for the contact are executed with these sides.
+/// An end on a wall with free space on several sides may belong to each of them, and the edge may pass walls
+/// in its line on several sides. Those are chosen with which the motion gets furthest, by exact times; in
+/// ties the cell of p of lowest index, then that of q. Other searches for the contact use these.
 /// \pre the locator is that of the snapshot; all points are finite; options.tolerance lies in (0,1]
-/// Cost: that of locating two points, finding a chain and sweep_edge(), for each pair of sides. Thread-safe,
-/// if each thread has its own counts.
+/// Cost: that of locating two points, finding a chain and sweep_edge(), for each combination of sides.
+/// Thread-safe, if each thread has its own counts.
 template <int D>
 Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
                        const Sweep_options& options, Edge_counts& counts);

@@ -97,9 +97,9 @@ struct Walk_result {
 /// \throw Error(usage) for a particle in a cell that an edit removed, if its name is not reused: locate your
 ///        own particles again after cells were replaced
 /// Degenerate cases: a motion may pass exactly through passable edges and vertices. At an exit on a ridge or
-/// vertex the walk continues through its star, along passable facets; if several sides qualify, the geometry
-/// determines one (docs/walk.md, choices), on it the first cell in breadth-first order. A motion of length
-/// zero arrives.
+/// vertex the walk continues through its star, along passable facets. If several sides qualify, it takes one
+/// on which it gets furthest; of these the geometry determines one (docs/walk.md, choices). Inexact policies
+/// try only that which geometry prefers. A motion of length zero arrives.
 /// Cost: about 4 ns if the target lies in the same cell, plus 17 ns a crossed facet if cells are in the cache
 /// (otherwise 25 ns at 10^5 tetrahedra, 130 ns at 10^6).
 template <class Kernel = Exact, int D>

@@ -7,6 +7,7 @@
 
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/in_boundary.h>
+#include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
 #include <cellwalk/walk/walk.h>
@@ -15,17 +16,6 @@
 
 namespace cellwalk {
 namespace detail {
-
-/// The exit that the planes of a cell of any number of blocks prove.
-template <int D>
-Certified_exit exit_of_blocks(const Snapshot<D>& snapshot, Cell cell, const Frame_line<D>& line,
-                              bool starts_inside) {
-  const std::size_t blocks = snapshot.block_count(cell);
-  const Plane_block<D>* planes = snapshot.blocks(cell);
-  if (blocks == 2) return certified_exit<D>(planes, 2, line, starts_inside);
-  if (blocks > certified_blocks) return {Certified_exit::unknown, 0};
-  return certified_exit<D>(planes, blocks, line, starts_inside);
-}
 
 template <int D>
 Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
@@ -56,9 +46,16 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
 template <class Kernel, int D>
 class Particle_walk {
  public:
+  /// \param choices if not null, the sides to take; others taken are appended
   Particle_walk(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& to, Walk_counts& counts,
-                const Walk_options& options)
-      : snapshot_(snapshot), a_(from.position), b_(to), counts_(counts), options_(options), cell_(from.cell) {
+                const Walk_options& options, Sides_taken* choices = nullptr)
+      : snapshot_(snapshot),
+        a_(from.position),
+        b_(to),
+        counts_(counts),
+        options_(options),
+        choices_(choices),
+        cell_(from.cell) {
     result_.aimed = from.aimed;
     starts_inside_ = from.dimension == D;
     in_boundary_ = !starts_inside_;
@@ -117,17 +114,26 @@ class Particle_walk {
   bool pass_star(const Exit& exit) {
     const Star_search<Kernel, D> star(snapshot_, cell_, exit.u, exit.v, a_, b_, counts_);
     if (star.candidates().empty()) return block(exit, star.wall());
-    const auto& first = star.candidates().front();
-    result_.had_choice |= star.has_choice();
+    const bool has_choice = star.has_choice();
+    const auto& next =
+        has_choice && choices_ ? star.on_side(next_side(exit, star)) : star.candidates().front();
+    result_.had_choice |= has_choice;
     passed_ = exit;
-    if (Kernel::is_exact && star.cell(first) == cell_) return true;
+    if (Kernel::is_exact && star.cell(next) == cell_) return true;
     if (options_.crossed) {
-      const Star_path path = star.path(first);
+      const Star_path path = star.path(next);
       options_.crossed->insert(options_.crossed->end(), path.begin(), path.end());
     }
-    enter(star.cell(first));
+    enter(star.cell(next));
     in_boundary_ = true;
     return true;
+  }
+
+  std::size_t next_side(const Exit& place, const Star_search<Kernel, D>& star) {
+    if (choices_passed_ == choices_->size())
+      choices_->push_back({std::min(place.u, place.v), std::max(place.u, place.v), star.least_cell(),
+                           static_cast<std::uint16_t>(star.side_count()), 0});
+    return (*choices_)[choices_passed_++].taken;
   }
 
   bool enter(Cell next) {
@@ -325,34 +331,19 @@ class Particle_walk {
         return exit_by_rule(cell);  // on the facet, or on the boundary of its cone: which cell is lowest?
       }
       ++counts_.turns;
-      const std::size_t next = across(cell, i, beyond);
+      const std::size_t next = facet_across(cell, i, beyond);
       if (next == facets) break;
       i = next;
     }
     return exit_by_rule(cell);
   }
 
-  /// The other facet at ridge k of facet i.
-  static std::size_t across(const Cell_view<D>& cell, std::size_t i, std::size_t k) {
-    const auto loop = cell.loop(i);
-    for (std::size_t j = 0; j < cell.facet_count(); ++j) {
-      if (j == i) continue;
-      const auto other = cell.loop(j);
-      for (std::size_t m = 0; m < other.size(); ++m) {
-        if constexpr (D == 2) {
-          if (other[m] == loop[k]) return j;
-        } else {
-          if (other[m] == loop[(k + 1) % loop.size()] && other[(m + 1) % other.size()] == loop[k]) return j;
-        }
-      }
-    }
-    return cell.facet_count();
-  }
-
   const Snapshot<D>& snapshot_;
   const Point<D> a_, b_;
   Walk_counts& counts_;
   const Walk_options& options_;
+  Sides_taken* choices_;
+  std::size_t choices_passed_ = 0;
   Cell cell_;
   Walk_result<D> result_;
   Float_point<D> y_a_, y_b_;
@@ -372,7 +363,17 @@ class Particle_walk {
 template <class Kernel, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                     Walk_counts& counts, const Walk_options& options) {
-  return detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts, options).run();
+  Walk_result<D> result = detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts, options).run();
+  if constexpr (Kernel::is_exact) {
+    if (result.had_choice && result.contact) [[unlikely]]
+      result = detail::furthest_walk(snapshot, particle.position, target, options,
+                                     [&](const Walk_options& recorded, detail::Sides_taken& choices) {
+                                       return detail::Particle_walk<Kernel, D>(snapshot, particle, target,
+                                                                               counts, recorded, &choices)
+                                           .run();
+                                     });
+  }
+  return result;
 }
 
 template <class Kernel, int D>

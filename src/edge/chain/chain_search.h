@@ -13,6 +13,7 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "edge/exact/rational_segment.h"
 
@@ -45,6 +46,14 @@ class Chain_search {
   /// begin and end.
   bool find(Cell start) { return from(start, 0, 0); }
 
+  /// The same, but a place is tried again whichever way led there, so that a rule may reject chains that end
+  /// alike. Where several cells hold the next piece on one side of all walls, only the first of them is
+  /// tried.
+  bool find_by_sides(Cell start) {
+    by_sides_ = true;
+    return from(start, 0, 0);
+  }
+
   const Chain& chain() const { return chain_; }
 
  private:
@@ -58,7 +67,7 @@ class Chain_search {
 
   /// Continues from a cell that contains the point at t. A cell is tried only once for each t.
   bool from(Cell c, const Fraction& t, const Fraction& limit) {
-    if (rule_.is_wrong(chain_, limit) || !seen_.emplace(c, t).second) return false;
+    if (rule_.is_wrong(chain_, limit) || (!by_sides_ && !seen_.emplace(c, t).second)) return false;
     Link_search<D> links(snapshot_, c);
     const std::vector<Place> places = find_places(links, t);
     const bool is_end = t == Fraction(1);
@@ -72,6 +81,7 @@ class Chain_search {
         return !places[x].is_displaced &&
                rule_.comes_before(snapshot_.view(links.cell(x)), snapshot_.view(links.cell(y)));
       });
+    if (by_sides_ && !is_end) keep_one_on_each_side(links, t, order);
     for (const std::size_t k : order) {
       const std::size_t before = chain_.size();
       links.append_path(k, chain_);
@@ -86,6 +96,23 @@ class Chain_search {
                                ? Fraction(1)
                                : rule_.limit_of(snapshot_.view(c), place.end_facet, place.end_border);
     return from(c, place.end, limit);
+  }
+
+  /// Of cells that are linked all along the next piece, leaves the first one.
+  void keep_one_on_each_side(const Link_search<D>& links, const Fraction& t,
+                             std::vector<std::size_t>& order) const {
+    std::vector<std::size_t> kept;
+    std::vector<Cell> covered;
+    for (const std::size_t k : order) {
+      if (std::ranges::find(covered, links.cell(k)) != covered.end()) continue;
+      kept.push_back(k);
+      const auto side = linked_cells(snapshot_, links.cell(k), [&](const Cell_view<D>& cell, std::size_t i) {
+        const std::optional<Span> met = segment_.in_facet(cell, i);
+        return met && met->low <= t && t < met->high;
+      });
+      covered.insert(covered.end(), side.begin(), side.end());
+    }
+    order = std::move(kept);
   }
 
   bool admits(Cell c, const Fraction& t, const Place& place) const {
@@ -149,6 +176,7 @@ class Chain_search {
   const Rule& rule_;
   Walk_counts& counts_;
   Point<D> low_{}, high_{};  ///< of a box that contains the segment
+  bool by_sides_ = false;
   std::set<std::pair<Cell, Fraction>> seen_;
   Chain chain_;
 };

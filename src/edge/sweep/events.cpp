@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "events.h"
 
+#include <cellwalk/internal/edge/triangle.h>
+#include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "collinear_sweep.h"
@@ -26,17 +29,28 @@ struct Step {
   Cell next;
 };
 
+/// A time after which the edge may go on along several sides of walls in the plane of its triangle.
+template <int D>
+struct Edge_choice {
+  Event_time<D> time;
+  int taken = 0;  ///< in the order of preference
+  bool has_more = false;
+};
+
 template <int D>
 class Event_sweep {
  public:
+  /// \param choices if not null, the sides to take; others taken are appended
   Event_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-              Walk_counts& counts, std::optional<double> until)
+              Walk_counts& counts, std::optional<double> until,
+              std::vector<Edge_choice<D>>* choices = nullptr)
       : snapshot_(snapshot),
         triangle_{path.from.position, path.to.position, q.position},
         first_(path.from.cell),
         start_(path.from.cell),
         q_(q),
-        counts_(counts) {
+        counts_(counts),
+        choices_(choices) {
     plan(path);
     if (until) limit_ = Event_time<D>(*until);
     if (!path.blocked) return;
@@ -70,8 +84,7 @@ class Event_sweep {
       // Walls in the plane of the triangle may begin wherever the edge arrives at them; then only a search of
       // all paths determines its side.
       const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
-      const auto relinked =
-          is_doubtful ? relink(snapshot_, line, start_, q_, chain) : std::optional<Relinked<D>>();
+      const auto relinked = is_doubtful ? relink_on_side(line, chain) : std::optional<Relinked<D>>();
       if (relinked) {
         chain = relinked->chain;
         if (relinked->end < Event_time<D>(1.0)) next = relinked->end;
@@ -95,7 +108,21 @@ class Event_sweep {
     return result;
   }
 
+  /// True if the edge may have had a choice of sides.
+  bool was_relinked() const { return was_relinked_; }
+
  private:
+  std::optional<Relinked<D>> relink_on_side(const Moving_line<D>& line, const Chain& chain) {
+    if (!choices_) {
+      auto relinked = relink(snapshot_, line, start_, q_, chain);
+      was_relinked_ |= relinked.has_value();
+      return relinked;
+    }
+    if (choices_passed_ == choices_->size()) choices_->push_back({line.time()});
+    Edge_choice<D>& choice = (*choices_)[choices_passed_++];
+    return relink(snapshot_, line, start_, q_, chain, choice.taken, &choice.has_more);
+  }
+
   /// Whether a wall near the triangle lies in its plane; computed once.
   bool lies_in_wall_plane(const Moving_line<D>& line) {
     if (!in_wall_plane_) in_wall_plane_ = has_wall_in_plane(snapshot_, line, first_);
@@ -174,7 +201,30 @@ class Event_sweep {
   std::vector<Step<D>> steps_;
   std::optional<Event_time<D>> limit_;  ///< events from then on do not matter
   std::optional<bool> in_wall_plane_;
+  std::vector<Edge_choice<D>>* choices_;
+  std::size_t choices_passed_ = 0;
+  bool was_relinked_ = false;
 };
+
+/// Sweeps the edge on one combination of sides after the other, in the order of preference, until a result is
+/// accepted or most_side_tries were made.
+template <int D, class Accept>
+void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
+                        const Chain& before, Walk_counts& counts, std::optional<double> until,
+                        const Accept& accept) {
+  std::vector<Edge_choice<D>> choices;
+  for (int tries = 0; tries < most_side_tries; ++tries) {
+    const Sweep_result<D> result = Event_sweep<D>(snapshot, path, q, counts, until, &choices).run(before);
+    if (accept(result)) return;
+    // Sides taken after a contact do not matter.
+    const auto is_exhausted = [&](const Edge_choice<D>& choice) {
+      return !choice.has_more || (result.contact && result.contact->time < choice.time.exact());
+    };
+    while (!choices.empty() && is_exhausted(choices.back())) choices.pop_back();
+    if (choices.empty()) return;
+    ++choices.back().taken;
+  }
+}
 
 }  // namespace
 
@@ -183,12 +233,42 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
                               const Chain& before, Walk_counts& counts, std::optional<double> until) {
   if (are_collinear(path.from.position, path.to.position, q.position))
     return collinear_sweep(snapshot, path, q, before, counts, until);
-  return Event_sweep<D>(snapshot, path, q, counts, until).run(before);
+  Event_sweep<D> sweep(snapshot, path, q, counts, until);
+  Sweep_result<D> result = sweep.run(before);
+  if (!result.contact || !sweep.was_relinked()) return result;
+  sweep_on_all_sides(snapshot, path, q, before, counts, until, [&](const Sweep_result<D>& other) {
+    if (!other.contact || result.contact->time < other.contact->time) result = other;
+    return !other.contact;
+  });
+  return result;
+}
+
+template <int D>
+std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                    const Particle<D>& q, const Chain& before, Walk_counts& counts) {
+  std::vector<Chain> chains;
+  const Point<D>&a = path.from.position, &b = path.to.position;
+  if (are_collinear(a, b, q.position)) {  // the end that moves determines the side
+    chains.push_back(collinear_sweep(snapshot, path, q, before, counts, {}).chain);
+    return chains;
+  }
+  const Rational_segment<D> segment(b, q.position);
+  sweep_on_all_sides(snapshot, path, q, before, counts, {}, [&](const Sweep_result<D>& result) {
+    Half_facet wall = Half_facet::none;
+    if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
+          return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
+        }))
+      chains.push_back(result.chain);
+    return false;
+  });
+  return chains;
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                            \
   template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
-                                            const Chain&, Walk_counts&, std::optional<double>);
+                                            const Chain&, Walk_counts&, std::optional<double>);            \
+  template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,               \
+                                                  const Particle<D>&, const Chain&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

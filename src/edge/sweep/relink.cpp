@@ -37,13 +37,20 @@ class Relink_search {
           return now_.in_facet(cell, i).has_value();
         })) {}
 
-  std::optional<Relinked<D>> run() {
+  std::optional<Relinked<D>> run(int rank, bool* has_more) {
     if (!lies_in_plane()) return {};
     const Event_time<D> end = next_root();
-    const Rational_segment<D> after = at(middle(line_.time().value(), end.value()));
-    Chain_search<D, Relink_search> search(snapshot_, after, q_, *this, line_.counts());
-    if (!search.find(start_)) return {};
-    return Relinked<D>{search.chain(), end};
+    after_.emplace(line_.triangle(), middle(line_.time().value(), end.value()));
+    if (!has_more) {
+      Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
+      if (!search.find(start_)) return {};
+      return Relinked<D>{search.chain(), end};
+    }
+    for (; rank >= 0; --rank)
+      if (!find_another()) return {};
+    const Relinked<D> result{found_.back(), end};
+    *has_more = find_another();
+    return result;
   }
 
   /// True if a path is not equal to the chain up to a parameter.
@@ -57,13 +64,24 @@ class Relink_search {
   }
   bool is_accepted(const Chain& path) const {
     Half_facet wall = Half_facet::none;
-    return are_equal(snapshot_, now_, start_, chain_, path, wall);
+    return are_equal(snapshot_, now_, start_, chain_, path, wall) &&
+           std::ranges::none_of(found_, [&](const Chain& other) {
+             return are_equal(snapshot_, *after_, start_, other, path, wall);
+           });
   }
   /// There are only two sides, so those that are not preferred need no order.
   bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
 
  private:
   Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
+
+  /// Finds a chain that is not equal to those found before.
+  bool find_another() {
+    Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
+    if (!search.find_by_sides(start_)) return false;
+    found_.push_back(search.chain());
+    return true;
+  }
 
   bool lies_in_plane() const {
     return std::any_of(cells_.begin(), cells_.end(),
@@ -91,6 +109,8 @@ class Relink_search {
   const Rational_segment<D> now_;
   const std::vector<Piece> pieces_;  ///< of the chain
   const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
+  std::optional<Rational_segment<D>> after_;
+  std::vector<Chain> found_;  ///< chains of the edge after that time
 };
 
 /// False proves that the plane of no facet (`of_walls`: of no wall) of the cells linked with the edge
@@ -123,14 +143,14 @@ bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, 
 
 template <int D>
 std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
-                                  const Particle<D>& q, const Chain& chain) {
+                                  const Particle<D>& q, const Chain& chain, int rank, bool* has_more) {
   if (!may_lie_in_plane(snapshot, line, start, false)) return {};
-  return Relink_search<D>(snapshot, line, start, q, chain).run();
+  return Relink_search<D>(snapshot, line, start, q, chain).run(rank, has_more);
 }
 
 template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
-                                              const Particle<2>&, const Chain&);
+                                              const Particle<2>&, const Chain&, int, bool*);
 template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
-                                              const Particle<3>&, const Chain&);
+                                              const Particle<3>&, const Chain&, int, bool*);
 
 }  // namespace cellwalk::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
 
@@ -109,6 +110,27 @@ Contact<D> locate(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const
   return contact;
 }
 
+/// The sweep of an edge whose end p takes the given sides of walls or, without, those that it prefers.
+template <int D>
+Sweep_result<D> sweep_on_sides(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
+                               const Particle<D>& q, const Chain& before, const Sweep_options& options,
+                               Edge_counts& counts, detail::Sides_taken* choices, Walk_result<D>& walked) {
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  Particle<D> moved = p;
+  walked = detail::move_on_sides(snapshot, moved, target, counts.walk,
+                                 {Walk_strategy::certified, &visited, &crossed}, choices);
+  moved.position = target;
+  const Vertex_path<D> path{p, moved, visited, crossed, walked.contact.has_value()};
+  Sweep_result<D> result = sweep_edge_along(snapshot, path, q, before, options, counts);
+  if (walked.contact)
+    keep_first<D>(result.contact, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
+  result.cells = walked.cells;
+  result.p = result.contact ? p : moved;
+  if (result.contact) result.chain = before;
+  return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -151,19 +173,22 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts) {
   if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // the walk of p checks that of p
-  std::vector<Cell> visited;
-  std::vector<Half_facet> crossed;
-  Particle<D> moved = p;
-  const Walk_result<D> walked =
-      move(snapshot, moved, target, counts.walk, {Walk_strategy::certified, &visited, &crossed});
-  moved.position = target;
-  const Vertex_path<D> path{p, moved, visited, crossed, walked.contact.has_value()};
-  Sweep_result<D> result = sweep_edge_along(snapshot, path, q, before, options, counts);
-  if (walked.contact)
-    keep_first<D>(result.contact, vertex_contact(snapshot, p.position, target, *walked.contact, counts.walk));
-  result.cells = walked.cells;
-  result.p = result.contact ? p : moved;
-  if (result.contact) result.chain = before;
+  Walk_result<D> walked;
+  const auto sweep = [&](const Sweep_options& chosen, detail::Sides_taken* choices) {
+    return sweep_on_sides(snapshot, p, target, q, before, chosen, counts, choices, walked);
+  };
+  Sweep_result<D> result = sweep(options, nullptr);
+  if (!result.contact || !detail::may_pass_on_other_sides(snapshot, p.position, target, walked,
+                                                          *result.contact, options.touch, counts.walk))
+    return result;
+  Sweep_options exact = options;
+  exact.search = Contact_search::exact;
+  detail::Sides_taken choices;
+  const auto contact = detail::furthest_move<D>(snapshot, p.position, target, choices, [&](auto& tried) {
+    result = sweep(exact, &tried);
+    return result.contact;
+  });
+  if (contact) return sweep(options, &choices);
   return result;
 }
 

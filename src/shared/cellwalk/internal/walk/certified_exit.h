@@ -11,6 +11,7 @@
 #ifndef CELLWALK_INTERNAL_WALK_CERTIFIED_EXIT_H
 #define CELLWALK_INTERNAL_WALK_CERTIFIED_EXIT_H
 
+#include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/planes.h>
 
 #include <array>
@@ -204,6 +205,17 @@ inline Certified_exit certified_exit(const Plane_block<D>* planes, std::size_t b
   if (!starts_inside)
     unproved |= best >= 4 * blocks || !(evaluate<D>(planes[best / 4], line.a)[best % 4] < -plane_error);
   return {unproved ? Certified_exit::unknown : Certified_exit::leaves, best};
+}
+
+/// The exit that the planes of a cell of any number of blocks prove.
+template <int D>
+Certified_exit exit_of_blocks(const Snapshot<D>& snapshot, Cell cell, const Frame_line<D>& line,
+                              bool starts_inside) {
+  const std::size_t blocks = snapshot.block_count(cell);
+  const Plane_block<D>* planes = snapshot.blocks(cell);
+  if (blocks == 2) return certified_exit<D>(planes, 2, line, starts_inside);
+  if (blocks > certified_blocks) return {Certified_exit::unknown, 0};
+  return certified_exit<D>(planes, blocks, line, starts_inside);
 }
 
 }  // namespace cellwalk::detail

@@ -152,6 +152,24 @@ inline bool in_facet(const Cell_view<3>& cell, std::size_t i, const Point<3>& x)
   return in_convex_polygon(polygon, x);
 }
 
+/// The other facet at ridge k of facet i; the number of facets if there is none.
+template <int D>
+std::size_t facet_across(const Cell_view<D>& cell, std::size_t i, std::size_t k) {
+  const auto loop = cell.loop(i);
+  for (std::size_t j = 0; j < cell.facet_count(); ++j) {
+    if (j == i) continue;
+    const auto other = cell.loop(j);
+    for (std::size_t m = 0; m < other.size(); ++m) {
+      if constexpr (D == 2) {
+        if (other[m] == loop[k]) return j;
+      } else {
+        if (other[m] == loop[(k + 1) % loop.size()] && other[(m + 1) % other.size()] == loop[k]) return j;
+      }
+    }
+  }
+  return cell.facet_count();
+}
+
 /// A vertex or edge of a facet by its position in the loop, or the facet itself.
 struct Facet_feature {
   Contact_kind kind = Contact_kind::facet;

@@ -187,6 +187,27 @@ class Star_search {
     return std::any_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& c) { return c.side != candidates_.front().side; });
   }
+  std::size_t side_count() const {
+    std::size_t count = 0;
+    for (auto c = candidates_.begin(); c != candidates_.end(); ++c) count += is_first_of_side(c);
+    return count;
+  }
+  /// The candidate on the k-th side in which the motion goes on: `start` if it lies there.
+  const Candidate& on_side(std::size_t k) const {
+    auto first = candidates_.begin();
+    for (;; ++first)
+      if (is_first_of_side(first) && k-- == 0) break;
+    const auto start = std::find_if(
+        first, candidates_.end(), [&](const Candidate& c) { return c.place == 0 && c.side == first->side; });
+    return start == candidates_.end() ? *first : *start;
+  }
+  /// The least of the cells linked at the ridge or vertex.
+  /// \pre has_choice()
+  Cell least_cell() const {
+    Cell least = links_.cell(0);
+    for (std::size_t place = 1; place <= links_.place(); ++place) least = std::min(least, links_.cell(place));
+    return least;
+  }
   /// The facets on the path to a candidate.
   Star_path path(const Candidate& candidate) const {
     Star_path path;
@@ -198,6 +219,11 @@ class Star_search {
   Half_facet wall() const { return wall_; }
 
  private:
+  bool is_first_of_side(typename Candidates::const_iterator c) const {
+    return std::none_of(candidates_.begin(), c,
+                        [&](const Candidate& other) { return other.side == c->side; });
+  }
+
   /// True if the motion continues in the interior of the cell, so that there is no other candidate.
   bool visit() {
     ++counts_.star_cells;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/crossing.h>
+#include <cellwalk/internal/walk/sides_taken.h>
+#include <cellwalk/internal/walk/star.h>
+
+#include <tuple>
+
+namespace cellwalk::detail {
+namespace {
+
+/// When the line ab passes that of ridge uv, which meets it in one point.
+Fraction passing_time(const Point<3>& a, const Point<3>& b, const Point<3>& u, const Point<3>& v) {
+  // Any plane of the ridge gives it that does not contain ab: that of a point beside u on some axis.
+  for (std::size_t axis = 0;; ++axis) {
+    Point<3> beside = u;
+    beside[axis] = u[axis] == 0 ? 1 : 0;
+    const Ring at_a = Exact_value::orientation(u, v, beside, a);
+    const Ring span = at_a - Exact_value::orientation(u, v, beside, b);
+    if (CGAL::sign(span) != CGAL::ZERO) return {at_a, span};
+  }
+}
+
+template <int D>
+Fraction blocking_time(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Half_facet wall) {
+  const auto corners = spanning_corners(snapshot.view(snapshot.cell_of(wall)), snapshot.facet_of(wall));
+  return std::apply(
+      [&](const auto&... corner) {
+        return fraction_of(Crossing<D>{a, b, {*corner...}});
+      },
+      corners);
+}
+
+}  // namespace
+
+template <int D>
+Exact_time time_of(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                   const Side_taken& choice) {
+  const Point<D>&u = snapshot.point(choice.u), &v = snapshot.point(choice.v);
+  if (choice.u == choice.v) {
+    std::size_t axis = 0;
+    while (a[axis] == b[axis]) ++axis;
+    return to_time(Fraction(Ring(u[axis]) - Ring(a[axis]), Ring(b[axis]) - Ring(a[axis])));
+  }
+  if constexpr (D == 3) {
+    // The motion runs along the ridge that it starts on only.
+    if (!are_collinear(a, b, u) || !are_collinear(a, b, v)) return to_time(passing_time(a, b, u, v));
+  }
+  return {};
+}
+
+template <int D>
+bool blocks_later(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Half_facet wall,
+                  Half_facet other) {
+  return blocking_time(snapshot, a, b, other) < blocking_time(snapshot, a, b, wall);
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                            \
+  template Exact_time time_of<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&, const Side_taken&); \
+  template bool blocks_later<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&, Half_facet, Half_facet);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
+
+}  // namespace cellwalk::detail
