@@ -83,7 +83,10 @@ class Environment_image {
   static void check_sizes(const Snapshot<D>& snapshot);
   static void check_shapes(const Snapshot<D>& snapshot);
   static void check_blocks(const Snapshot<D>& snapshot);
+  static void check_links(const Snapshot<D>& snapshot);
   static void check_cell(const Snapshot<D>& snapshot, std::uint32_t block);
+  static std::ptrdiff_t check_neighbours(const Snapshot<D>& snapshot, Cell own,
+                                         const std::vector<std::uint8_t>& are_tetrahedra);
   static void check_free(const Snapshot<D>& snapshot);
 };
 

@@ -5,6 +5,7 @@
 #ifndef CELLWALK_WALK_WALK_IMPL_H
 #define CELLWALK_WALK_WALK_IMPL_H
 
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/in_boundary.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -37,6 +38,8 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
   bool starts_inside = from.dimension == D;
   std::uint64_t crossings = 0;
   for (;; ++crossings) {
+    if (crossings > snapshot.half_facet_slots()) [[unlikely]]
+      refuse_uncertified();
     const Certified_exit exit = exit_of_blocks(snapshot, cell, line, starts_inside);
     counts.plane_blocks += 2 * snapshot.block_count(cell);
     if (exit.verdict == Certified_exit::inside) break;
@@ -70,8 +73,8 @@ class Particle_walk {
     ++counts_.walks;
     if (options_.visited) options_.visited->push_back(cell_);
     // Exact walks end because every accepted cell holds a further piece of the segment; rounded ones need a
-    // limit.
-    const std::size_t limit = Kernel::is_exact ? ~std::size_t{0} : 4 * snapshot_.cell_count() + 64;
+    // limit, and those by planes that are not those of their cells.
+    const std::size_t limit = 4 * snapshot_.cell_count() + 64;
     for (;;) {
       if (planes_b_ && run_certified()) break;
       if (!step()) break;
@@ -80,6 +83,8 @@ class Particle_walk {
         break;
       }
     }
+    if (Kernel::is_exact && result_.status == Walk_status::lost) [[unlikely]]
+      refuse_uncertified();
     if (result_.cells == 1 && result_.status == Walk_status::arrived) ++counts_.stays;
     result_.cell = cell_;
     return result_;
@@ -228,6 +233,7 @@ class Particle_walk {
     Cell cell = cell_;
     bool starts_inside = starts_inside_;
     std::uint32_t crossed = 0;
+    const std::size_t limit = snapshot_.half_facet_slots();
     std::uint64_t evaluated = 0;
     Certified_exit exit;
     for (;;) {
@@ -239,7 +245,8 @@ class Particle_walk {
       if (snapshot_.is_impassable(f)) break;
       cell = snapshot_.neighbour(f);
       starts_inside = true;
-      ++crossed;
+      if (++crossed > limit) [[unlikely]]
+        refuse_uncertified();
       if (options_.visited) options_.visited->push_back(cell);
       if (options_.crossed) options_.crossed->push_back(f);
     }
