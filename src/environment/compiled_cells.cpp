@@ -2,13 +2,13 @@
 // Whether the cells of an image have their corners and neighbours as those of a snapshot have them: each facet
 // between two cells is one loop, seen from both.
 #include <cellwalk/internal/kernel/predicates.h>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <bit>
+#include <cstring>
+#include <span>
 #include <vector>
 
 #include "environment/certify/shape.h"
@@ -30,18 +30,27 @@ bool is_tetrahedron(const Cell_shape& shape) {
   return true;
 }
 
-/// True if a facet of three corners of one cell is one of another, seen from its other side. Nothing branches:
+/// 0 if a facet of three corners of one cell is one of another, seen from its other side. Nothing branches:
 /// which of its corners comes first is hard to predict.
-bool are_two_sides(const std::uint32_t* own, const std::array<std::uint16_t, 3>& own_loop,
-                   const std::uint32_t* other, const std::array<std::uint16_t, 3>& other_loop) {
+inline std::uint32_t differ(const std::uint32_t* own, const std::array<std::uint16_t, 3>& own_loop,
+                            const std::uint32_t* other, const std::array<std::uint16_t, 3>& other_loop) {
   const std::uint32_t a = own[own_loop[0]], b = own[own_loop[1]], c = own[own_loop[2]];
   const std::uint32_t x = other[other_loop[0]], y = other[other_loop[1]], z = other[other_loop[2]];
   const std::uint32_t first = (a ^ z) | (b ^ y) | (c ^ x), second = (a ^ y) | (b ^ x) | (c ^ z),
                       third = (a ^ x) | (b ^ z) | (c ^ y);
-  return !first | !second | !third;
+  return std::min({first, second, third});
 }
 
-/// The same for any facets.
+/// The lane of a block that leads to a cell; any if there is none.
+inline std::size_t lane_that_leads(const std::uint32_t* links, std::uint32_t cell) {
+  constexpr int mask = (1 << 30) - 1;
+  Int4 block;
+  std::memcpy(&block, links, sizeof block);
+  return static_cast<std::size_t>(
+      std::countr_zero(lane_mask((block & mask) == static_cast<int>(cell)) | 1u << 3));
+}
+
+/// True if a facet of a cell is one of another, seen from its other side.
 template <int D>
 bool are_two_sides(const Cell_view<D>& own, std::size_t i, const Cell_view<D>& other, std::size_t j) {
   const auto a = own.loop(i), b = other.loop(j);
@@ -57,15 +66,12 @@ bool are_two_sides(const Cell_view<D>& own, std::size_t i, const Cell_view<D>& o
   return true;
 }
 
-/// True if two of the corners of a cell are the same.
-bool has_a_corner_twice(std::span<const std::uint32_t> v) {
-  if (v.size() == 4) {
-    const auto equal = [&](std::size_t i, std::size_t j) { return v[i] == v[j]; };
-    return equal(0, 1) | equal(0, 2) | equal(0, 3) | equal(1, 2) | equal(1, 3) | equal(2, 3);
-  }
-  std::vector<std::uint32_t> sorted(v.begin(), v.end());
-  std::ranges::sort(sorted);
-  return std::ranges::adjacent_find(sorted) != sorted.end();
+/// Of each shape, whether it is that of all tetrahedra.
+template <int D>
+std::vector<std::uint8_t> tetrahedra_of(const std::vector<Cell_shape>& shapes) {
+  std::vector<std::uint8_t> are_tetrahedra(shapes.size());
+  if constexpr (D == 3) std::ranges::transform(shapes, are_tetrahedra.begin(), is_tetrahedron);
+  return are_tetrahedra;
 }
 
 /// True if the first three corners of each facet do not lie on one line: all sides of the facet would be 0.
@@ -76,7 +82,34 @@ bool are_planes_spanned(const Cell_view<3>& cell) {
       return false;
   return true;
 }
-bool are_planes_spanned(const Cell_view<2>&) { return true; }
+
+/// True if a cell is exactly convex, and the first corners of each facet span its plane.
+/// \pre its coordinates are finite
+bool is_convex(const Cell_view<2>& cell) { return check_geometry<2>(cell).defect == Cell_defect::none; }
+
+bool is_convex(const Cell_view<3>& cell) {
+  if (cell.vertex_count() == 4) {
+    Predicate_counts counts;
+    const auto loop = cell.loop(0);
+    return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]),
+                              cell.point(6u - loop[0] - loop[1] - loop[2])) < 0;
+  }
+  return are_planes_spanned(cell) && check_geometry<3>(cell).defect == Cell_defect::none;
+}
+
+/// True if two of the corners of a cell are the same.
+bool has_a_corner_twice(std::span<const std::uint32_t> v) {
+  constexpr std::size_t few = 16;  // are compared with each other in less time than sorted
+  if (v.size() <= few) {
+    bool is_twice = false;
+    for (std::size_t i = 1; i < v.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) is_twice |= v[i] == v[j];
+    return is_twice;
+  }
+  std::vector<std::uint32_t> sorted(v.begin(), v.end());
+  std::ranges::sort(sorted);
+  return std::ranges::adjacent_find(sorted) != sorted.end();
+}
 
 }  // namespace
 
@@ -105,10 +138,10 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
   }
   if (s.index_[block] >= s.cell_of_index_.size() || s.cell_of_index_[s.index_[block]] != block)
     refuse_image("the index of a cell belongs to another one");
-  if (has_a_corner_twice({s.vertices_.data() + first, shape.vertex_count}))
+  // Those of a simplex that is not flat differ.
+  if (shape.vertex_count != D + 1 && has_a_corner_twice({s.vertices_.data() + first, shape.vertex_count}))
     refuse_image("a cell has a point twice");
-  if (check_geometry<D>(s.view(own)).defect != Cell_defect::none || !are_planes_spanned(s.view(own)))
-    refuse_image("a cell is not convex");
+  if (!is_convex(s.view(own))) refuse_image("a cell is not convex");
   // A walk that leaves through a lane without a facet would follow a loop that is not there.
   for (std::size_t i = shape.facet_count(); i < 4 * blocks; ++i) {
     const Plane_block<D>& block_of_lane = s.planes_[block + i / 4];
@@ -119,48 +152,68 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
   }
 }
 
-/// The facets of a cell to cells after it: each is one of the cell there, seen from its other side. Returns
-/// their number, less that of its facets to cells before it.
+/// The facets of a cell: each is one of the cell beyond it, seen from its other side. That one is its own only
+/// other side, since no cell has an edge twice in one direction.
 template <int D>
-std::ptrdiff_t Environment_image<D>::check_neighbours(const Snapshot<D>& s, Cell own,
-                                                      const std::vector<std::uint8_t>& are_tetrahedra) {
+void Environment_image<D>::check_neighbours(const Snapshot<D>& s, Cell own) {
   constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit;
-  const std::uint32_t block = to_index(own);
-  const Cell_view<D> cell = s.view(own);
   const std::uint32_t* const links = s.links(own);
-  const bool is_tetrahedron = are_tetrahedra[s.shape_[block] & Snapshot<D>::shape_mask];
-  std::ptrdiff_t balance = 0;
-  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
+  for (std::size_t i = 0; i < s.facet_count(own); ++i) {
     const std::uint32_t word = links[i], link = word & mask;
-    if (link < block) {
-      --balance;
-      continue;
-    }
     if (link == mask) {
       if (word != (mask | wall)) refuse_image("a facet of the boundary is no wall");
       continue;
     }
     const Cell other{link};
-    if (link == block || !s.is_cell(other)) refuse_image("a neighbour is not there");
-    ++balance;
-    const Cell_view<D> beyond = s.view(other);
-    const std::uint32_t* const back = s.links(other);
-    const bool are_both = is_tetrahedron && are_tetrahedra[s.shape_[link] & Snapshot<D>::shape_mask];
-    const auto is_other_side = [&](std::size_t j) {
-      if ((back[j] & mask) != block) return false;
-      return are_both ? are_two_sides(cell.vertices.data(), tetrahedron_loops[i], beyond.vertices.data(),
-                                      tetrahedron_loops[j])
-                      : are_two_sides<D>(cell, i, beyond, j);
-    };
-    std::size_t j = 0;
-    while (j < beyond.facet_count() && !is_other_side(j)) ++j;
-    if (j == beyond.facet_count()) refuse_image("a cell is not the neighbour of its neighbour");
-    if ((word ^ back[j]) & ~mask) refuse_image("a facet has two sides that differ");
+    if (other == own || !s.is_cell(other)) refuse_image("a neighbour is not there");
+    const std::uint32_t back = s.links(other)[other_side(s, own, i, other)];
+    if ((word ^ back) & ~mask) refuse_image("a facet has two sides that differ");
     const bool is_wall = word & wall, is_pair = word & Snapshot<D>::convex_pair_bit;
     if (is_wall ? is_pair : s.is_solid(own) != s.is_solid(other))
       refuse_image("a facet is passable that cannot be");
   }
-  return balance;
+}
+
+/// True if a tetrahedron with tetrahedra around it is what check_neighbours() takes: the same in a few
+/// instructions a facet, without a branch that is hard to predict. False where that needs a closer look.
+template <int D>
+bool Environment_image<D>::has_sound_neighbours(const Snapshot<D>& s, Cell own,
+                                                const std::vector<std::uint8_t>& are_tetrahedra) {
+  constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit,
+                          pair = Snapshot<D>::convex_pair_bit, solid = Snapshot<D>::solid_bit,
+                          no_cell = Snapshot<D>::continuation_bit | Snapshot<D>::removed_bit;
+  const std::uint32_t block = to_index(own), *const shape = s.shape_.data(), own_word = shape[block];
+  if (!are_tetrahedra[own_word & Snapshot<D>::shape_mask]) return false;
+  const std::uint32_t* const links = s.links_.data() + 4 * std::size_t{block};
+  const std::uint32_t* const vertices = s.vertices_.data() + s.vertex_begin_[block];
+  std::uint32_t fault = 0;
+  for (std::size_t i = 0; i < tetrahedron_loops.size(); ++i) {
+    const std::uint32_t word = links[i], link = word & mask;
+    if (link == mask) {
+      fault |= word ^ (mask | wall);
+      continue;
+    }
+    if (link >= s.shape_.size()) return false;
+    const std::uint32_t other_word = shape[link];
+    if ((other_word & no_cell) || !are_tetrahedra[other_word & Snapshot<D>::shape_mask]) return false;
+    const std::uint32_t* const back = s.links_.data() + 4 * std::size_t{link};
+    const std::uint32_t* const beyond = s.vertices_.data() + s.vertex_begin_[link];
+    const std::size_t j = lane_that_leads(back, block);
+    const std::uint32_t passable = ~word & wall, paired = word & pair;
+    fault |= ((back[j] & mask) ^ block) | ((word ^ back[j]) & ~mask) | (passable ? 0 : paired) |
+             ((own_word ^ other_word) & solid & passable) | (link == block) |
+             differ(vertices, tetrahedron_loops[i], beyond, tetrahedron_loops[j]);
+  }
+  return fault == 0;
+}
+
+/// The facet of a cell beyond that is facet i of a cell, seen from its other side.
+template <int D>
+std::size_t Environment_image<D>::other_side(const Snapshot<D>& s, Cell own, std::size_t i, Cell beyond) {
+  const Cell_view<D> cell = s.view(own), other = s.view(beyond);
+  for (std::size_t j = 0; j < other.facet_count(); ++j)
+    if (s.neighbour(s.half_facet(beyond, j)) == own && are_two_sides<D>(cell, i, other, j)) return j;
+  refuse_image("a cell is not the neighbour of its neighbour");
 }
 
 /// All blocks, and the cells by their indices.
@@ -197,23 +250,14 @@ void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
   });
 }
 
-/// All facets between two cells. Different ones have different other sides, since no cell has an edge twice in
-/// one direction: where as many lead to cells before as to cells after, each has one.
+/// All facets between two cells.
 template <int D>
 void Environment_image<D>::check_links(const Snapshot<D>& s) {
-  std::vector<std::uint8_t> are_tetrahedra(s.shapes_.size());
-  if constexpr (D == 3) std::ranges::transform(s.shapes_, are_tetrahedra.begin(), is_tetrahedron);
-  constexpr std::size_t blocks_at_once = 1024;
-  const std::ptrdiff_t balance = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, s.shape_.size(), blocks_at_once), std::ptrdiff_t{0},
-      [&](const auto& range, std::ptrdiff_t sum) {
-        for (std::size_t b = range.begin(); b != range.end(); ++b)
-          if (const Cell cell{static_cast<std::uint32_t>(b)}; s.is_cell(cell))
-            sum += check_neighbours(s, cell, are_tetrahedra);
-        return sum;
-      },
-      std::plus<>());
-  if (balance != 0) refuse_image("a cell is not the neighbour of its neighbour");
+  const std::vector<std::uint8_t> are_tetrahedra = tetrahedra_of<D>(s.shapes_);
+  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
+    const Cell cell{static_cast<std::uint32_t>(b)};
+    if (s.is_cell(cell) && !has_sound_neighbours(s, cell, are_tetrahedra)) check_neighbours(s, cell);
+  });
 }
 
 template void Environment_image<2>::check_blocks(const Snapshot<2>&);
