@@ -125,7 +125,11 @@ class Particle_walk {
     const auto& first = star.candidates().front();
     result_.had_choice |= star.has_choice();
     passed_ = exit;
-    if (Kernel::is_exact && star.cell(first) == cell_) return true;
+    if (Kernel::is_exact && star.cell(first) == cell_) {
+      // Of the ridges and vertices of the cell that the line passes, each is passed once, and the start.
+      if (++places_passed_ > snapshot_.view(cell_).shape->loops.size() + 1) refuse_uncertified();
+      return true;
+    }
     if (options_.crossed) {
       const Star_path path = star.path(first);
       options_.crossed->insert(options_.crossed->end(), path.begin(), path.end());
@@ -139,6 +143,7 @@ class Particle_walk {
     ++counts_.crossings;
     ++result_.cells;
     cell_ = next;
+    places_passed_ = 0;
     starts_inside_ = true;
     in_boundary_ = false;
     result_.aimed = 0;
@@ -369,9 +374,10 @@ class Particle_walk {
   /// The line holds a point of the cell strictly before any exit: a is in the interior, or a facet was
   /// crossed.
   bool starts_inside_;
-  bool in_boundary_;        ///< the line may run in the boundary of the cell from where it entered it
-  bool on_planes_ = false;  ///< b lies on the plane of a facet of the cell
-  Exit passed_;             ///< the last ridge or vertex passed
+  bool in_boundary_;               ///< the line may run in the boundary of the cell from where it entered it
+  bool on_planes_ = false;         ///< b lies on the plane of a facet of the cell
+  Exit passed_;                    ///< the last ridge or vertex passed
+  std::size_t places_passed_ = 0;  ///< of the cell, without leaving it
 };
 
 }  // namespace detail
