@@ -4,10 +4,14 @@
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -174,8 +178,8 @@ void Environment_image<D>::check_neighbours(const Snapshot<D>& s, Cell own) {
   }
 }
 
-/// True if a tetrahedron with tetrahedra around it is what check_neighbours() takes: the same in a few
-/// instructions a facet, without a branch that is hard to predict. False where that needs a closer look.
+/// True if a tetrahedron with tetrahedra after it is what check_neighbours() takes: the same in a few
+/// instructions a facet. Facets to cells before it are left to those; false where all needs a closer look.
 template <int D>
 bool Environment_image<D>::has_sound_neighbours(const Snapshot<D>& s, Cell own,
                                                 const std::vector<std::uint8_t>& are_tetrahedra) {
@@ -193,6 +197,7 @@ bool Environment_image<D>::has_sound_neighbours(const Snapshot<D>& s, Cell own,
       fault |= word ^ (mask | wall);
       continue;
     }
+    if (link < block) continue;
     if (link >= s.shape_.size()) return false;
     const std::uint32_t other_word = shape[link];
     if ((other_word & no_cell) || !are_tetrahedra[other_word & Snapshot<D>::shape_mask]) return false;
@@ -250,14 +255,37 @@ void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
   });
 }
 
-/// All facets between two cells.
+/// The number of facets of a cell to cells after it, less that of its facets to cells before it.
+template <int D>
+std::ptrdiff_t Environment_image<D>::balance_of(const Snapshot<D>& s, Cell cell) {
+  std::ptrdiff_t balance = 0;
+  for (std::size_t i = 0; i < 4 * s.block_count(cell); ++i) {
+    const std::uint32_t link = s.links(cell)[i] & Snapshot<D>::link_mask;
+    const bool is_link = link != Snapshot<D>::link_mask, is_after = link > to_index(cell);
+    balance += is_link ? 2 * is_after - 1 : 0;
+  }
+  return balance;
+}
+
+/// All facets between two cells. Where each to a cell after its own is found there, different ones have
+/// different other sides: if as many lead to cells before, these are all of them.
 template <int D>
 void Environment_image<D>::check_links(const Snapshot<D>& s) {
   const std::vector<std::uint8_t> are_tetrahedra = tetrahedra_of<D>(s.shapes_);
-  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
-    const Cell cell{static_cast<std::uint32_t>(b)};
-    if (s.is_cell(cell) && !has_sound_neighbours(s, cell, are_tetrahedra)) check_neighbours(s, cell);
-  });
+  constexpr std::size_t blocks_at_once = 1024;
+  const std::ptrdiff_t balance = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, s.shape_.size(), blocks_at_once), std::ptrdiff_t{0},
+      [&](const auto& range, std::ptrdiff_t sum) {
+        for (std::size_t b = range.begin(); b != range.end(); ++b) {
+          const Cell cell{static_cast<std::uint32_t>(b)};
+          if (!s.is_cell(cell)) continue;
+          sum += balance_of(s, cell);
+          if (!has_sound_neighbours(s, cell, are_tetrahedra)) check_neighbours(s, cell);
+        }
+        return sum;
+      },
+      std::plus<>());
+  if (balance != 0) refuse_image("a cell is not the neighbour of its neighbour");
 }
 
 template void Environment_image<2>::check_blocks(const Snapshot<2>&);
