@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Whether the cells of an image have their corners and neighbours as those of a snapshot have them: each facet
-// between two cells is one loop, seen from both.
+// Whether the cells of an image have their corners and neighbours as those of a snapshot have them: each
+// facet between two cells is one loop, seen from both.
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
 
@@ -156,7 +156,7 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
   }
 }
 
-/// The facets of a cell: each is one of the cell beyond it, seen from its other side. That one is its own only
+/// The facets of a cell: each is one of the cell beyond it, seen from its other side. That one is its only
 /// other side, since no cell has an edge twice in one direction.
 template <int D>
 void Environment_image<D>::check_neighbours(const Snapshot<D>& s, Cell own) {

@@ -52,7 +52,7 @@ std::vector<std::byte> compile_to_bytes(const Environment<D>& environment, const
 
 /// Opens an image. Its arrays stay where they are; edits write there.
 ///
-/// Checksums are compared, and it is tested, whoever made the image, that each index refers to something, that
+/// Checksums are compared, and it is tested, whoever made the image, that each index refers to something,
 /// cells are convex, and that each facet between two is the same from both. Nothing reads beyond it then, and
 /// motions end. The rest that makes answers right, Environment::certify() and then check_compiled() test.
 /// \throw Error(input) for bytes that are no image, damaged, cut short, of another version or byte order

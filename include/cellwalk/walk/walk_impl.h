@@ -17,7 +17,6 @@
 namespace cellwalk {
 namespace detail {
 
-/// The exit that the planes of a cell of any number of blocks prove.
 template <int D>
 Certified_exit exit_of_blocks(const Snapshot<D>& snapshot, Cell cell, const Frame_line<D>& line,
                               bool starts_inside) {
@@ -55,7 +54,6 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
   return cell;
 }
 
-/// One walk in progress.
 template <class Kernel, int D>
 class Particle_walk {
  public:
@@ -72,8 +70,7 @@ class Particle_walk {
   Walk_result<D> run() {
     ++counts_.walks;
     if (options_.visited) options_.visited->push_back(cell_);
-    // Exact walks end because every accepted cell holds a further piece of the segment; rounded ones need a
-    // limit, and those by planes that are not those of their cells.
+    // Exact walks end as every accepted cell holds a further piece of the segment, if planes are their own.
     const std::size_t limit = 4 * snapshot_.cell_count() + 64;
     for (;;) {
       if (planes_b_ && run_certified()) break;
@@ -234,7 +231,6 @@ class Particle_walk {
   /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.
   template <class Find_exit>
   Certified_exit follow(Find_exit find_exit) {
-    // The state of the walk in registers.
     Cell cell = cell_;
     bool starts_inside = starts_inside_;
     std::uint32_t crossed = 0;
@@ -273,7 +269,6 @@ class Particle_walk {
     return enter(snapshot_.neighbour(f));
   }
 
-  /// Maps the start into the frame, once.
   bool map_start() {
     if (!mapped_a_) {
       mapped_a_ = true;
@@ -371,8 +366,7 @@ class Particle_walk {
   bool planes_a_ = false;  ///< a lies in the frame (known once mapped_a_)
   bool planes_b_ = false;  ///< b lies in the frame, and planes are to be used
   bool mapped_a_ = false;
-  /// The line holds a point of the cell strictly before any exit: a is in the interior, or a facet was
-  /// crossed.
+  /// The line holds a point of the cell strictly before any exit: a is inside, or a facet was crossed.
   bool starts_inside_;
   bool in_boundary_;               ///< the line may run in the boundary of the cell from where it entered it
   bool on_planes_ = false;         ///< b lies on the plane of a facet of the cell
