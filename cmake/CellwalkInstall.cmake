@@ -48,6 +48,7 @@ set(installed_internals
   io/output.h
   kernel/box.h
   kernel/predicates.h
+  kernel/uncertified.h
   simulation/saved_parts.h
   walk/certified_exit.h
   walk/in_boundary.h

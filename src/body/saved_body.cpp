@@ -104,19 +104,25 @@ class Saved_body {
   /// Tests that sizes agree, and that each name refers to something.
   static void check(const Body_state<D>& state) {
     const Snapshot<D>& snapshot = *state.snapshot;
-    const auto is_facet = [&](Half_facet f) { return to_index(f) < snapshot.half_facet_slots(); };
-    bool is_good = state.particles.size() == state.positions.size() &&
+    const auto is_facet = [&](Half_facet f) {
+      if (to_index(f) >= snapshot.half_facet_slots()) return false;
+      const Cell cell = snapshot.cell_of(f);
+      return snapshot.is_cell(cell) && snapshot.facet_of(f) < snapshot.facet_count(cell);
+    };
+    const auto is_particle = [&](const Particle<D>& p) {
+      return is_finite(p.position) && snapshot.is_cell(p.cell);
+    };
+    bool is_good = std::ranges::all_of(state.positions, is_finite<D>) &&
+                   state.particles.size() == state.positions.size() &&
                    state.chains.size() == state.topology.edges().size() &&
                    state.supporting_walls.size() == state.topology.faces().size() &&
                    state.region.is_consistent(state.positions.size(), state.chains.size()) &&
                    state.pool.is_consistent(state.positions.size());
-    for (const Particle<D>& particle : state.particles) is_good = is_good && snapshot.is_cell(particle.cell);
+    is_good = is_good && std::ranges::all_of(state.particles, is_particle);
     for (const Chain& chain : state.chains) is_good = is_good && std::ranges::all_of(chain, is_facet);
     for (const Supporting_walls& walls : state.supporting_walls)
       is_good = is_good && std::ranges::all_of(walls, is_facet);
-    const auto has_anchor = [&](const Clear_region<D>& region) {
-      return snapshot.is_cell(region.anchor().cell);
-    };
+    const auto has_anchor = [&](const Clear_region<D>& region) { return is_particle(region.anchor()); };
     if (state.region.has_region()) is_good = is_good && has_anchor(*state.region.region());
     is_good = is_good && std::ranges::all_of(state.pool.regions(), has_anchor);
     if (!is_good) Byte_reader::refuse();

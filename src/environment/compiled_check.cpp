@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "environment/certify/shape.h"
 #include "environment/snapshot/compiler.h"
 #include "environment/soup/parallel.h"
 #include "environment_image.h"
@@ -32,99 +33,15 @@ void Environment_image<D>::check_sizes(const Snapshot<D>& s) {
 template <int D>
 void Environment_image<D>::check_shapes(const Snapshot<D>& s) {
   if (s.shapes_.size() > Snapshot<D>::shape_mask) refuse_image("it has too many shapes");
-  for (const Cell_shape& shape : s.shapes_) {
-    if (shape.loop_begin.front() != 0 || shape.facet_count() < D + 1) refuse_image("a shape is none");
-    for (std::size_t i = 0; i < shape.facet_count(); ++i)
-      if (shape.loop_begin[i] > shape.loop_begin[i + 1] || shape.loop_begin[i + 1] > shape.loops.size() ||
-          shape.loop_begin[i + 1] - shape.loop_begin[i] < D)
-        refuse_image("a shape is none");
-    for (const std::uint16_t vertex : shape.loops)
-      if (vertex >= shape.vertex_count) refuse_image("a shape is none");
-  }
-}
-
-/// A cell, from its first block on.
-template <int D>
-void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block) {
-  const Cell own{block};
-  const std::uint32_t number = s.shape_[block] & Snapshot<D>::shape_mask;
-  if (number >= s.shapes_.size()) refuse_image("a cell has a shape that is not there");
-  const Cell_shape& shape = s.shapes_[number];
-  const std::size_t blocks = Snapshot_compiler<D>::blocks_for(shape.facet_count());
-  if (blocks > s.shape_.size() - block) refuse_image("a cell goes on beyond the end");
-  for (std::uint32_t i = 1; i < blocks; ++i)
-    if (s.shape_[block + i] != (Snapshot<D>::continuation_bit | i))
-      refuse_image("blocks of a cell are missing");
-  const std::uint32_t first = s.vertex_begin_[block];
-  if (first > s.vertices_.size() || shape.vertex_count > s.vertices_.size() - first)
-    refuse_image("the vertices of a cell are not there");
-  if (!s.is_cell(own)) {
-    for (std::size_t i = 4 * std::size_t{block}; i < 4 * (block + blocks); ++i)
-      if (s.links_[i] != (Snapshot<D>::link_mask | Snapshot<D>::wall_bit))
-        refuse_image("a cell that was removed has neighbours");
-    return;
-  }
-  if (s.uniform_blocks_ != 0 && s.uniform_blocks_ != blocks) refuse_image("cells differ in their blocks");
-  if (s.index_[block] >= s.cell_of_index_.size() || s.cell_of_index_[s.index_[block]] != block)
-    refuse_image("the index of a cell belongs to another one");
-  for (std::size_t v = first; v < first + shape.vertex_count; ++v)
-    if (s.vertices_[v] >= s.points_.size()) refuse_image("a cell has a point that is not there");
-  // A walk that leaves through a lane without a facet would follow a loop that is not there.
-  for (std::size_t i = shape.facet_count(); i < 4 * blocks; ++i) {
-    const Plane_block<D>& block_of_lane = s.planes_[block + i / 4];
-    bool is_unused = block_of_lane.offset[i % 4] == -1;
-    for (const Float4& n : block_of_lane.normal) is_unused &= n[i % 4] == 0;
-    if (!is_unused) refuse_image("a plane belongs to no facet");
-  }
-  for (std::size_t i = 0; i < 4 * blocks; ++i) {
-    const std::uint32_t word = s.links_[4 * std::size_t{block} + i];
-    const std::uint32_t link = word & Snapshot<D>::link_mask;
-    if (link == Snapshot<D>::link_mask) {
-      if (i < shape.facet_count() && !(word & Snapshot<D>::wall_bit))
-        refuse_image("a facet of the boundary is no wall");
-      continue;
-    }
-    if (i >= shape.facet_count() || !s.is_cell(Cell{link})) refuse_image("a neighbour is not there");
-    const std::size_t lanes = 4 * ((s.facet_count(Cell{link}) + 3) / 4);
-    const std::uint32_t* const back = s.links(Cell{link});
-    if (lanes > s.links_.size() - 4 * std::size_t{link} ||
-        std::none_of(back, back + lanes,
-                     [&](std::uint32_t w) { return (w & Snapshot<D>::link_mask) == block; }))
-      refuse_image("a cell is not the neighbour of its neighbour");
-  }
-}
-
-/// All blocks, and the cells by their indices.
-template <int D>
-void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
-  // Numbers of shapes are tested before they are used for neighbours.
-  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
-    const std::uint32_t word = s.shape_[b];
-    const std::uint32_t low = word & Snapshot<D>::shape_mask;
-    if (!(word & Snapshot<D>::continuation_bit)) {
-      if (low >= s.shapes_.size()) refuse_image("a cell has a shape that is not there");
-    } else if (low == 0 || low > b || s.shape_[b - low] & Snapshot<D>::continuation_bit) {
-      refuse_image("a block belongs to no cell");
-    }
-  });
-  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
-    const std::uint32_t word = s.shape_[b];
-    if (!(word & Snapshot<D>::continuation_bit)) {
-      check_cell(s, static_cast<std::uint32_t>(b));
-      return;
-    }
-    const std::size_t distance = word & Snapshot<D>::shape_mask;
-    const Cell_shape& shape = s.shapes_[s.shape_[b - distance] & Snapshot<D>::shape_mask];
-    if (distance >= Snapshot_compiler<D>::blocks_for(shape.facet_count()))
-      refuse_image("a block belongs to no cell");
-  });
-  for_each_parallel(s.cell_of_index_.size(), [&](std::size_t i) {
-    const std::uint32_t block = s.cell_of_index_[i];
-    if (block == to_index(Cell::none)) {
-      if (!s.free_indices_.contains(static_cast<std::uint32_t>(i))) refuse_image("an index has no cell");
-    } else if (!s.is_cell(Cell{block}) || s.index_[block] != i) {
-      refuse_image("an index has another cell");
-    }
+  for_each_parallel(s.shapes_.size(), [&](std::size_t number) {
+    const Cell_shape& shape = s.shapes_[number];
+    if (shape.loop_begin.front() != 0 || !std::ranges::is_sorted(shape.loop_begin) ||
+        shape.loop_begin.back() != shape.loops.size())
+      refuse_image("a shape is none");
+    if (std::ranges::any_of(shape.loops, [&](std::uint16_t v) { return v >= shape.vertex_count; }))
+      refuse_image("a shape is none");
+    if (shape.facet_count() < D + 1 || check_shape<D>(shape).defect != Cell_defect::none)
+      refuse_image("a shape is none");
   });
 }
 
@@ -135,17 +52,27 @@ void Environment_image<D>::check_free(const Snapshot<D>& s) {
     if (index >= s.cell_of_index_.size() || s.cell_of_index_[index] != to_index(Cell::none))
       refuse_image("an index in use is free");
   typename Snapshot<D>::Free_runs removed;
-  for (std::uint32_t b = 0; b < s.shape_.size(); ++b)
-    if (s.shape_[b] & Snapshot<D>::removed_bit && !(s.shape_[b] & Snapshot<D>::continuation_bit))
-      removed.emplace(Snapshot_compiler<D>::blocks_for(s.facet_count(Cell{b})), b);
+  std::size_t end = 0;
+  bool are_in_turn = true;  // vertices of cells, as compiled
+  for (std::uint32_t b = 0; b < s.shape_.size(); ++b) {
+    if (s.shape_[b] & Snapshot<D>::continuation_bit) continue;
+    const Cell_shape& shape = s.shapes_[s.shape_[b] & Snapshot<D>::shape_mask];
+    if (s.is_cell(Cell{b})) {
+      are_in_turn &= end <= s.vertex_begin_[b];
+      end = std::size_t{s.vertex_begin_[b]} + shape.vertex_count;
+    } else {
+      removed.emplace(Snapshot_compiler<D>::blocks_for(shape.facet_count()), b);
+    }
+  }
   if (removed != s.free_blocks_) refuse_image("what was removed is not what is free");
-  if (s.free_vertices_.empty() && s.free_points_.empty()) return;
+  if (are_in_turn && s.free_vertices_.empty() && s.free_points_.empty()) return;
 
   std::vector<bool> vertex_in_use(s.vertices_.size()), point_in_use(s.points_.size());
   for (std::uint32_t b = 0; b < s.shape_.size(); ++b) {
     if (!s.is_cell(Cell{b})) continue;
     const std::size_t first = s.vertex_begin_[b];
     for (std::size_t v = first; v < first + s.view(Cell{b}).vertex_count(); ++v) {
+      if (vertex_in_use[v]) refuse_image("two cells have the same vertices");
       vertex_in_use[v] = true;
       point_in_use[s.vertices_[v]] = true;
     }
@@ -178,8 +105,6 @@ void Environment_image<D>::check(const Snapshot<D>& s) {
   check_frame(s);
   check_sizes(s);
   check_shapes(s);
-  check_blocks(s);
-  check_free(s);
   const bool has_frame = !std::isnan(s.frame_.scale);
   for_each_parallel(s.points_.size(), [&](std::size_t p) {
     if (!is_finite(s.points_[p])) refuse_image("a point is not finite");
@@ -187,6 +112,9 @@ void Environment_image<D>::check(const Snapshot<D>& s) {
     if (Float_point<D> mapped; has_frame && !s.frame_.map(s.points_[p], mapped))
       refuse_image("a point lies outside its frame");
   });
+  check_blocks(s);
+  check_links(s);
+  check_free(s);
 }
 
 template <int D>

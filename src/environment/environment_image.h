@@ -83,7 +83,13 @@ class Environment_image {
   static void check_sizes(const Snapshot<D>& snapshot);
   static void check_shapes(const Snapshot<D>& snapshot);
   static void check_blocks(const Snapshot<D>& snapshot);
+  static void check_links(const Snapshot<D>& snapshot);
   static void check_cell(const Snapshot<D>& snapshot, std::uint32_t block);
+  static std::ptrdiff_t balance_of(const Snapshot<D>& snapshot, Cell cell);
+  static void check_neighbours(const Snapshot<D>& snapshot, Cell own);
+  static bool has_sound_neighbours(const Snapshot<D>& snapshot, Cell own,
+                                   const std::vector<std::uint8_t>& are_tetrahedra);
+  static std::size_t other_side(const Snapshot<D>& snapshot, Cell own, std::size_t i, Cell beyond);
   static void check_free(const Snapshot<D>& snapshot);
 };
 

@@ -48,6 +48,7 @@ std::vector<std::uint32_t> points_of(const Snapshot<D>& snapshot, Cell cell) {
 /// True if a name is still that of the facet or cell with these points.
 template <int D>
 bool is_same(const Snapshot<D>& snapshot, Half_facet facet, const std::vector<std::uint32_t>& points) {
+  if (to_index(facet) >= snapshot.half_facet_slots()) return false;
   const Cell cell = snapshot.cell_of(facet);
   return snapshot.is_cell(cell) && snapshot.facet_of(facet) < snapshot.facet_count(cell) &&
          points_of(snapshot, facet) == points;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact_yield.h"
+#include "neighbour_lists.h"
 
 namespace cellwalk {
 namespace {
@@ -16,6 +17,13 @@ namespace {
 constexpr double least_share = 0x1p-24;
 
 }  // namespace
+
+template <int D>
+bool Elastic_foundation<D>::is_consistent() const {
+  const std::size_t points = starts_.size();
+  return points == snapshot_->points().size() && yields_.size() == points && may_yield_.size() == points &&
+         detail::are_lists(first_, neighbours_, points, points) && detail::are_below(active_, points);
+}
 
 template <int D>
 Elastic_foundation<D>::Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft,

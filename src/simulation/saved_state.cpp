@@ -77,6 +77,15 @@ World<D> Saved_simulation<D>::read_world(Byte_reader& in, const Body_options& op
     Byte_reader::refuse();
   for (const std::optional<std::size_t>& entry : world.entry_of_)
     world.bodies_.push_back(read_body(in, entry));
+  const auto is_met = [&](const Run_contact<D>& met) {
+    const Half_facet f = met.contact.facet;
+    const bool is_there =
+        f == Half_facet::none || (to_index(f) < snapshot_.half_facet_slots() &&
+                                  snapshot_.facet_of(f) < snapshot_.facet_count(snapshot_.cell_of(f)));
+    return is_there && (!met.body || (*met.body < world.bodies_.size() &&
+                                      met.contact.vertex < world.bodies_[*met.body].body().vertex_count()));
+  };
+  if (!std::ranges::all_of(world.contacts_, is_met)) Byte_reader::refuse();
   world.body_steps_.resize(world.bodies_.size());
   for (auto& step : world.body_steps_) in(step.counts);
   world.own_all();
@@ -103,6 +112,7 @@ Elastic_foundation<D> Saved_simulation<D>::read_foundation(Byte_reader& in) cons
   if (!scene_.walls || !scene_.walls->soft) Byte_reader::refuse();
   Elastic_foundation<D> foundation(snapshot_, *scene_.walls->soft);
   in(foundation);
+  if (!foundation.is_consistent()) Byte_reader::refuse();
   return foundation;
 }
 
@@ -112,6 +122,7 @@ Tissue<D> Saved_simulation<D>::read_tissue(Byte_reader& in) const {
   Tissue<D> tissue(snapshot_, *scene_.walls->tissue);
   tissue.fixed_ = scene_.walls->fixed;
   in(tissue);
+  if (!tissue.is_consistent()) Byte_reader::refuse();
   return tissue;
 }
 

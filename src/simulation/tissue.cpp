@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "contact_yield.h"
+#include "neighbour_lists.h"
 
 namespace cellwalk {
 namespace {
@@ -80,6 +81,19 @@ Tissue<D>::Tissue(const Snapshot<D>& snapshot, const Tissue_material& material,
     throw Error(Error_code::input,
                 "there is no solid cell, of which tissue is made: give the environment some");
   find_followers();
+}
+
+template <int D>
+bool Tissue<D>::is_consistent() const {
+  const std::size_t points = rest_.size();
+  const auto are_points = [&](const auto& all) {
+    return std::ranges::all_of(all, [&](std::uint32_t v) { return v < points; });
+  };
+  return before_.size() == points && wanted_.size() == points && velocities_.size() == points &&
+         may_move_.size() == points && multipliers_.size() == edges_.size() &&
+         std::ranges::all_of(edges_, [&](const Edge& edge) { return are_points(edge.ends); }) &&
+         std::ranges::all_of(simplices_, [&](const Simplex& s) { return are_points(s.corners); }) &&
+         are_points(followers_) && detail::are_lists(first_, neighbours_, followers_.size(), points);
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/in_boundary.h>
 
 #include <algorithm>
@@ -107,13 +108,13 @@ class Boundary_run {
     }
     if constexpr (D == 3) {
       const Point<D>&u = cell_.points[place.u], &v = cell_.points[place.v];
-      for (std::size_t off = 0;; ++off) {
+      for (std::size_t off = 0; off < cell_.vertex_count(); ++off) {
         const Ring at_a = Exact_value::orientation(u, v, cell_.point(off), a_);
         const Ring span = at_a - Exact_value::orientation(u, v, cell_.point(off), b_);
         if (CGAL::sign(span) != CGAL::ZERO) return {at_a, span};
       }
     }
-    return {};
+    refuse_uncertified();
   }
 
   const Cell_view<D>& cell_;

@@ -5,13 +5,16 @@
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/environment/environment_history.h>
+#include <cellwalk/internal/kernel/checksum.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -206,6 +209,46 @@ TEST(SavedBody, DamagedBytesAreRefused) {
   Bytes longer = bytes;
   longer.push_back({});
   EXPECT_NE(refusal(snapshot, longer), "");
+}
+
+/// Words are changed, with a checksum that fits: what is restored can be used, if only to end in an Error.
+TEST(SavedBody, ForgedBytesAreRefusedOrUsed) {
+  const Snapshot<3> snapshot = rooms<3>({3, 1, 1}, {1});
+  const Locator<3> locator(snapshot);
+  Body<3> body(snapshot, locator, tetrahedron({0.5, 0.25, 0}));  // a face on the floor
+  Body_counts counts;
+  Step_report<3> report;
+  Body_options options;
+  options.sweep.sweep = Sweep::faces;
+  std::vector<Point<3>> targets(body.positions().begin(), body.positions().end());
+  for (Point<3>& x : targets) x = x + Vector<3>{0.125, 0.125, 0.125};
+  body.step(targets, options, report, counts);
+  const Bytes bytes = save(body);
+  constexpr std::size_t head = 32, at_checksum = 24;
+  int refused = 0, used = 0;
+  for (std::size_t i = head; i + 4 <= bytes.size(); i += 2)
+    for (const std::uint32_t value : {0u, 1u, 3u, 5u, 7u, 1u << 31, ~0u}) {
+      Bytes changed = bytes;
+      std::memcpy(changed.data() + i, &value, sizeof value);
+      const std::uint64_t checksum = detail::checksum(std::span(changed).subspan(head));
+      std::memcpy(changed.data() + at_checksum, &checksum, sizeof checksum);
+      std::optional<Body<3>> restored;
+      try {
+        restored.emplace(restore_body<3>(snapshot, changed));
+      } catch (const Error& error) {
+        ASSERT_EQ(error.code(), Error_code::input) << error.what();
+        ++refused;
+        continue;
+      }
+      ++used;
+      try {
+        restored->step(targets, options, report, counts);
+        restored->validate();
+      } catch (const Error&) {  // regions that do not hold what they should
+      }
+    }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(used, 500);
 }
 
 TEST(SavedBody, OtherVersionsDimensionsAndEnvironmentsAreRefused) {

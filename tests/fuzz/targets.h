@@ -42,6 +42,8 @@ void gzip(std::string_view bytes);
 
 /// Compiled environments: opened, certified, walked and swept.
 void compiled(std::string_view bytes);
+/// The same with some entries changed: opened, and used without a test before.
+void forged(std::string_view bytes);
 
 /// Cells from bytes: built, certified, walked and swept, judged by oracles.
 void build(std::string_view bytes);

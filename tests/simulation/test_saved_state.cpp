@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -134,6 +136,31 @@ TEST(SavedState, BytesThatDoNotFitAreRefused) {
     EXPECT_TRUE(
         is_refused(snapshot, scene, Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))))
         << size;
+}
+
+/// Words are changed: what is restored can go on, if only to an Error. Bodies have checksums of their own.
+TEST(SavedState, ForgedWordsAreRefusedOrUsed) {
+  const Snapshot<3> snapshot = test::rooms<3>({4, 3, 3}, {5, 17});
+  const Scene<3> scene = scene_of_all<3>();
+  const Body_soup<3> body = small_body(std::integral_constant<int, 3>());
+  World<3> world(snapshot, scene, {body, body, body});
+  for (int step = 0; step < 5; ++step) world.step();
+  const Bytes bytes = bytes_of(world);
+  int refused = 0, used = 0;
+  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 52)
+    for (const std::uint32_t value : {0u, 1u, 7u, 1u << 31, ~0u}) {
+      Bytes changed = bytes;
+      std::memcpy(changed.data() + i, &value, sizeof value);
+      try {
+        World<3> other = restored(snapshot, scene, changed);
+        ++used;
+        other.step();
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(used, 100);
 }
 
 }  // namespace

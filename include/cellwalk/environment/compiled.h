@@ -52,9 +52,9 @@ std::vector<std::byte> compile_to_bytes(const Environment<D>& environment, const
 
 /// Opens an image. Its arrays stay where they are; edits write there.
 ///
-/// Checksums are compared, and it is tested that each index refers to something. That the environment is
-/// certified is taken from the image, whoever made it: Environment::certify() and then check_compiled() test
-/// it. In what is none, motions need not end.
+/// Checksums are compared, and it is tested, whoever made the image, that each index refers to something,
+/// cells are convex, and that each facet between two is the same from both. Nothing reads beyond it then, and
+/// motions end. The rest that makes answers right, Environment::certify() and then check_compiled() test.
 /// \throw Error(input) for bytes that are no image, damaged, cut short, of another version or byte order
 /// \throw Error(usage) for bytes that do not begin at a multiple of 64
 /// Cost: linear; about 30 ms for 10^6 tetrahedra, of which 10 are for reading each page once.

@@ -64,6 +64,11 @@ class Deformable {
   template <class Archive>
   void archive(Archive& a) {
     a(matching_, velocities_, moved_, targets_, stored_);
+    if constexpr (Archive::is_reading) {
+      const std::size_t vertices = body_.vertex_count();
+      if (velocities_.size() != vertices || targets_.size() != vertices || moved_.size() != vertices)
+        Archive::refuse();
+    }
   }
 
   Body<D> body_;

@@ -64,6 +64,8 @@ class Elastic_foundation {
   void archive(Archive& a) {
     a(least_yield_, starts_, yields_, may_yield_, first_, neighbours_, active_);
   }
+  /// True if all that was read refers to something.
+  bool is_consistent() const;
 
   const Snapshot<D>* snapshot_;
   Soft_walls soft_;

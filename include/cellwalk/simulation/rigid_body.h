@@ -59,6 +59,8 @@ class Rigid_body {
   template <class Archive>
   void archive(Archive& a) {
     a(shape_, velocity_, spin_, angle_, turning_, travelled_, path_length_, targets_);
+    if constexpr (Archive::is_reading)
+      if (shape_.size() != body_.vertex_count() || targets_.size() != shape_.size()) Archive::refuse();
   }
 
   Body<D> body_;

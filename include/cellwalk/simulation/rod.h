@@ -80,6 +80,8 @@ class Rod {
   template <class Archive>
   void archive(Archive& a) {
     a(waypoints_, targets_, direction_, heading_, inside_, twist_, next_, waited_);
+    if constexpr (Archive::is_reading)
+      if (waypoints_.size() < 2 || next_ == 0 || next_ > waypoints_.size()) Archive::refuse();
   }
 
   const Snapshot<D>* snapshot_;

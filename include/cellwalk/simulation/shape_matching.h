@@ -47,7 +47,11 @@ class Shape_matching {
   /// All parts of its state that the scene and the environment do not tell.
   template <class Archive>
   void archive(Archive& a) {
+    const std::size_t masses = masses_.size(), rest = rest_.size(), monomials = monomials_.size();
     a(radius_, total_mass_, masses_, rest_, monomials_, linear_inverse_, inverse_, is_full_);
+    if constexpr (Archive::is_reading)
+      if (masses_.size() != masses || rest_.size() != rest || monomials_.size() != monomials)
+        Archive::refuse();
   }
 
   Shape_material material_;

@@ -81,6 +81,9 @@ class Tissue {
     a(followers_, first_, neighbours_);
   }
 
+  /// True if all that was read refers to something.
+  bool is_consistent() const;
+
   void find_constraints();
   void find_followers();
   void keep_lengths();

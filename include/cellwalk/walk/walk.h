@@ -94,8 +94,8 @@ struct Walk_result {
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing it is. Paper:
 /// section II.
 /// \pre particle.position lies in the closure of particle.cell; the target is finite
-/// \throw Error(usage) for a particle in a cell that an edit removed, if its name is not reused: locate your
-///        own particles again after cells were replaced
+/// \throw Error(usage) for a particle in a cell that an edit removed, if its name is not reused: locate yours
+///        again then; Error(not_certified) where an exact walk has no way on or no end: nothing was certified
 /// Degenerate cases: a motion may pass exactly through passable edges and vertices. At an exit on a ridge or
 /// vertex the walk continues through its star, along passable facets. If several sides qualify, it takes one
 /// on which it gets furthest; of these the geometry determines one (docs/walk.md, choices). Inexact policies

@@ -5,6 +5,7 @@
 #ifndef CELLWALK_WALK_WALK_IMPL_H
 #define CELLWALK_WALK_WALK_IMPL_H
 
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/in_boundary.h>
 #include <cellwalk/internal/walk/sides_taken.h>
@@ -27,6 +28,8 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
   bool starts_inside = from.dimension == D;
   std::uint64_t crossings = 0;
   for (;; ++crossings) {
+    if (crossings > snapshot.half_facet_slots()) [[unlikely]]
+      refuse_uncertified();
     const Certified_exit exit = exit_of_blocks(snapshot, cell, line, starts_inside);
     counts.plane_blocks += 2 * snapshot.block_count(cell);
     if (exit.verdict == Certified_exit::inside) break;
@@ -42,7 +45,6 @@ Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Poi
   return cell;
 }
 
-/// One walk in progress.
 template <class Kernel, int D>
 class Particle_walk {
  public:
@@ -66,9 +68,8 @@ class Particle_walk {
   Walk_result<D> run() {
     ++counts_.walks;
     if (options_.visited) options_.visited->push_back(cell_);
-    // Exact walks end because every accepted cell holds a further piece of the segment; rounded ones need a
-    // limit.
-    const std::size_t limit = Kernel::is_exact ? ~std::size_t{0} : 4 * snapshot_.cell_count() + 64;
+    // Exact walks end as every accepted cell holds a further piece of the segment, if planes are their own.
+    const std::size_t limit = 4 * snapshot_.cell_count() + 64;
     for (;;) {
       if (planes_b_ && run_certified()) break;
       if (!step()) break;
@@ -77,6 +78,8 @@ class Particle_walk {
         break;
       }
     }
+    if (Kernel::is_exact && result_.status == Walk_status::lost) [[unlikely]]
+      refuse_uncertified();
     if (result_.cells == 1 && result_.status == Walk_status::arrived) ++counts_.stays;
     result_.cell = cell_;
     return result_;
@@ -119,7 +122,11 @@ class Particle_walk {
         has_choice && choices_ ? star.on_side(next_side(exit, star)) : star.candidates().front();
     result_.had_choice |= has_choice;
     passed_ = exit;
-    if (Kernel::is_exact && star.cell(next) == cell_) return true;
+    if (Kernel::is_exact && star.cell(next) == cell_) {
+      // Of the ridges and vertices of the cell that the line passes, each is passed once, and the start.
+      if (++places_passed_ > snapshot_.view(cell_).shape->loops.size() + 1) refuse_uncertified();
+      return true;
+    }
     if (options_.crossed) {
       const Star_path path = star.path(next);
       options_.crossed->insert(options_.crossed->end(), path.begin(), path.end());
@@ -140,6 +147,7 @@ class Particle_walk {
     ++counts_.crossings;
     ++result_.cells;
     cell_ = next;
+    places_passed_ = 0;
     starts_inside_ = true;
     in_boundary_ = false;
     result_.aimed = 0;
@@ -230,10 +238,10 @@ class Particle_walk {
   /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.
   template <class Find_exit>
   Certified_exit follow(Find_exit find_exit) {
-    // The state of the walk in registers.
     Cell cell = cell_;
     bool starts_inside = starts_inside_;
     std::uint32_t crossed = 0;
+    const std::size_t limit = snapshot_.half_facet_slots();
     std::uint64_t evaluated = 0;
     Certified_exit exit;
     for (;;) {
@@ -245,7 +253,8 @@ class Particle_walk {
       if (snapshot_.is_impassable(f)) break;
       cell = snapshot_.neighbour(f);
       starts_inside = true;
-      ++crossed;
+      if (++crossed > limit) [[unlikely]]
+        refuse_uncertified();
       if (options_.visited) options_.visited->push_back(cell);
       if (options_.crossed) options_.crossed->push_back(f);
     }
@@ -267,7 +276,6 @@ class Particle_walk {
     return enter(snapshot_.neighbour(f));
   }
 
-  /// Maps the start into the frame, once.
   bool map_start() {
     if (!mapped_a_) {
       mapped_a_ = true;
@@ -350,12 +358,12 @@ class Particle_walk {
   bool planes_a_ = false;  ///< a lies in the frame (known once mapped_a_)
   bool planes_b_ = false;  ///< b lies in the frame, and planes are to be used
   bool mapped_a_ = false;
-  /// The line holds a point of the cell strictly before any exit: a is in the interior, or a facet was
-  /// crossed.
+  /// The line holds a point of the cell strictly before any exit: a is inside, or a facet was crossed.
   bool starts_inside_;
-  bool in_boundary_;        ///< the line may run in the boundary of the cell from where it entered it
-  bool on_planes_ = false;  ///< b lies on the plane of a facet of the cell
-  Exit passed_;             ///< the last ridge or vertex passed
+  bool in_boundary_;               ///< the line may run in the boundary of the cell from where it entered it
+  bool on_planes_ = false;         ///< b lies on the plane of a facet of the cell
+  Exit passed_;                    ///< the last ridge or vertex passed
+  std::size_t places_passed_ = 0;  ///< of the cell, without leaving it
 };
 
 }  // namespace detail

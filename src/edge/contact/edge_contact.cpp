@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge_contact.h"
 
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/star.h>
 
 namespace cellwalk::detail {
@@ -8,6 +9,7 @@ namespace cellwalk::detail {
 template <int D>
 Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,
                         const Exact_point<D>& x) {
+  if (wall == Half_facet::none) refuse_uncertified();
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
   Contact<D> contact;

@@ -6,6 +6,7 @@
 #define CELLWALK_INTERNAL_KERNEL_FRACTION_H
 
 #include <cellwalk/internal/kernel/exact_value.h>
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/kernel/exact_time.h>
 
 #include <compare>
@@ -20,10 +21,12 @@ class Fraction {
   Fraction() : Fraction(0) {}
   Fraction(int value) : numerator_(value), denominator_(1) {}
   explicit Fraction(double value) : numerator_(value), denominator_(1) {}
-  /// \pre the denominator is not 0
+  /// \throw Error(not_certified) if the denominator is 0: in a certified environment none is
   Fraction(Ring numerator, Ring denominator)
       : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {
-    if (CGAL::sign(denominator_) != CGAL::NEGATIVE) return;
+    const auto sign_of_denominator = CGAL::sign(denominator_);
+    if (sign_of_denominator == CGAL::POSITIVE) return;
+    if (sign_of_denominator == CGAL::ZERO) refuse_uncertified();
     numerator_ = -numerator_;
     denominator_ = -denominator_;
   }

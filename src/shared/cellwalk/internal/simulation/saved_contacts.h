@@ -5,6 +5,8 @@
 
 #include <cellwalk/simulation/run_contact.h>
 
+#include <cmath>
+
 namespace cellwalk::detail {
 
 template <class Archive, int D>
@@ -12,7 +14,12 @@ void visit_parts(Archive& a, Contact<D>& contact) {
   double time = contact.rounded_time();
   a(time, contact.point, contact.normal, contact.kind, contact.corner, contact.facet, contact.cell,
     contact.body, contact.vertex, contact.feature);
-  if constexpr (Archive::is_reading) contact.time = Exact_time(time);
+  if constexpr (Archive::is_reading) {
+    // They are names in tables.
+    if (!std::isfinite(time) || contact.kind > Contact_kind::facet || contact.body > Body_feature::face)
+      Archive::refuse();
+    contact.time = Exact_time(time);
+  }
 }
 
 template <class Archive, int D>
