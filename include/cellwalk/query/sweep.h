@@ -23,7 +23,9 @@ struct Edge_motion {
 /// An end on a wall with free space on several sides may belong to each of them. Of the sides between which
 /// the edge has a chain, those are chosen with which the motion gets furthest, by exact times; in ties the
 /// cell of p of lowest index, then that of q. Other searches for the contact are executed with these sides.
-/// \pre the locator is that of the snapshot; all points are finite; options.tolerance lies in (0,1]
+/// \pre the locator is that of the snapshot
+/// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate(), and for a
+///        dichotomic search unless options.tolerance lies in (0,1]
 /// Cost: that of locating two points, finding a chain and sweep_edge(), for each pair of sides. Thread-safe,
 /// if each thread has its own counts.
 template <int D>
