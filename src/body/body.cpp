@@ -34,8 +34,6 @@ constexpr std::size_t most_reported_edges = 64;
 }
 
 void check_rule(const Body_options& options, const detail::Body_topology& topology) {
-  if (detail::bisects(options.sweep.search)) [[unlikely]]
-    detail::check_search(options.sweep);
   const bool is_at_target = options.edges == Edge_rule::at_target;
   if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > most_reported_edges
                    : options.reported != Reported::contacts)
@@ -157,6 +155,8 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
     return;
   }
   check_targets<D>(targets);
+  if (detail::bisects(options.sweep.search)) [[unlikely]]
+    detail::check_search(options.sweep);
   counts.moves += targets.size();
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
   if (options.edges == Edge_rule::at_target)

@@ -47,7 +47,7 @@ class Open_box {
       inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
       sum += bounds.sum[k];
     }
-    return all_true(both(inside, less(sum - sum, Double2{1, 1})));
+    return all_true(both(inside, equal(sum, sum)));
   }
 
  private:

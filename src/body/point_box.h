@@ -55,6 +55,13 @@ inline Truth2 less(Double2 a, Double2 b) {
   return a < b;
 #endif
 }
+inline Truth2 equal(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_cmpeq_pd(a, b);
+#else
+  return a == b;
+#endif
+}
 inline Truth2 both(Truth2 a, Truth2 b) {
 #if defined(__SSE2__)
   return _mm_and_pd(a, b);

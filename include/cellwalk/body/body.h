@@ -83,7 +83,7 @@ class Body {
   /// asked for.
   /// \throw Error(usage) unless there is one target a vertex, for Edge_rule::at_target without
   ///        Contact_policy::reject, Reported::blocked without Edge_rule::at_target, Edge_rule::at_target if a
-  ///        vertex has more than 64 edges, a dichotomic search of a tolerance not in (0,1], and Sweep::faces
+  ///        vertex has more than 64 edges, a search of a tolerance not in (0,1] off regions, and Sweep::faces
   ///        after moves that left the faces alone and let a wall pierce one; Error(input) naming a target
   ///        that is not finite. Then nothing has moved.
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
