@@ -334,8 +334,9 @@ TEST(WorldBodies, NoStepIsSoLongOrMotionSoFastThatResultsAreNotFinite) {
             World<2> world(snapshot, scene, {generate_body(Quad_shape{0.25})});
             const bool is_made = refusal_of_steps(world, 2).empty();
             (is_made ? made : refused) += 1;
-            if (is_made)
+            if (is_made) {
               for (const Vector<2>& v : world.velocities()) EXPECT_TRUE(is_finite(v));
+            }
             for (std::size_t b = 0; b < world.bodies().size(); ++b) {
               for (const Point<2>& x : world.positions(b)) EXPECT_TRUE(is_finite(x));
               if (is_made) {
