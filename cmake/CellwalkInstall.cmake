@@ -43,10 +43,12 @@ set(installed_internals
   environment/cell_clusters.h
   environment/edit_log.h
   environment/flat_array.h
+  environment/held_snapshot.h
   environment/planes.h
   environment/tissue_boxes.h
   io/output.h
   kernel/box.h
+  kernel/check_finite.h
   kernel/predicates.h
   kernel/uncertified.h
   simulation/saved_parts.h

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     const Imported_environment imported = import_environment(argv[1], {});
     for (const auto& stage : imported.report.stages)
       std::printf("%s: %s\n", stage.title.c_str(), stage.title == "read" ? "done" : stage.lines[0].c_str());
-    ask(std::get<Environment<3>>(imported.environment).snapshot());
+    ask(of_dimension<3>(imported.environment).snapshot());
   } catch (const Error& error) {  // one line: what is wrong, where, and what to do
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.code());

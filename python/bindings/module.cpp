@@ -9,6 +9,7 @@
 
 #include <pybind11/stl.h>
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <utility>
@@ -44,6 +45,19 @@ py::dict build_features() {
   return features;
 }
 
+/// Objects without a value, made by `__new__` or asked before `__init__`, would get memory with nothing in it
+/// where pybind11 passes them on: they raise instead.
+void refuse_objects_without_value(const py::module_& module) {
+  for (const auto& [name, member] : py::dict(module.attr("__dict__"))) {
+    if (!PyType_Check(member.ptr())) continue;
+    auto* const type = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(member.ptr()));
+    if (type == nullptr) continue;
+    type->operator_new = [](std::size_t) -> void* {
+      throw py::type_error("this object was not made yet: call its class, or what returns objects of it");
+    };
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_cellwalk, module) {
@@ -66,6 +80,7 @@ PYBIND11_MODULE(_cellwalk, module) {
   bind_bodies(module);
   module.def("build_features", build_features,
              "The optional parts of this build by name, and whether it has them.");
+  refuse_objects_without_value(module);
 }
 
 }  // namespace cellwalk::python

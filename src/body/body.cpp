@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "body_faces.h"
 #include "body_state.h"
+#include "point_box.h"
 #include "register_again.h"
 #include "step_at_target.h"
 #include "vertex_move.h"
@@ -36,6 +38,25 @@ void check_rule(const Body_options& options, const detail::Body_topology& topolo
   if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > most_reported_edges
                    : options.reported != Reported::contacts)
     refuse_rule(options);
+}
+
+[[noreturn, gnu::noinline]] void refuse_number(const char* what, std::size_t number, std::size_t count) {
+  throw Error(Error_code::usage, fmt::format("there is no {} {}: the body has {}", what, number, count));
+}
+
+[[noreturn, gnu::noinline]] void refuse_target_count(std::size_t targets, std::size_t vertices) {
+  throw Error(
+      Error_code::usage,
+      fmt::format("{} targets are given for a body of {} vertices: give one for each", targets, vertices));
+}
+
+/// \throw Error(input) naming the first target that is not finite
+template <int D>
+void check_targets(std::span<const Point<D>> targets) {
+  if (detail::are_finite<D>(targets)) [[likely]]
+    return;
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    detail::check_finite(targets[v], fmt::format("the target of vertex {} of a body", v));
 }
 
 template <int D>
@@ -98,11 +119,13 @@ std::span<const Particle<D>> Body<D>::particles() const {
 }
 template <int D>
 const Chain& Body<D>::chain(std::size_t edge) const {
+  if (edge >= state_->chains.size()) refuse_number("edge", edge, state_->chains.size());
   return state_->chains[edge];
 }
 
 template <int D>
 Cell Body<D>::cell_of(std::uint32_t vertex) const {
+  if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   Particle<D> particle = state_->particles[vertex];
   Walk_counts uncounted;
   if (const Point<D>& position = state_->positions[vertex]; particle.position != position)
@@ -112,6 +135,7 @@ Cell Body<D>::cell_of(std::uint32_t vertex) const {
 
 template <int D>
 std::vector<std::uint32_t> Body<D>::neighbours(std::uint32_t vertex) const {
+  if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   std::vector<std::uint32_t> result;
   for (const detail::Corner& corner : state_->topology.corners_of(vertex)) result.push_back(corner.other);
   return result;
@@ -123,11 +147,17 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
   detail::Body_state<D>& body = *state_;
   check_rule(options, body.topology);
   body.check_epoch();
-  counts.moves += targets.size();
+  if (targets.size() != body.positions.size()) [[unlikely]]
+    refuse_target_count(targets.size(), body.positions.size());
   if (options.clearance && body.region.holds_body() && body.region.holds_all(targets)) [[likely]] {
+    counts.moves += targets.size();
     body.move_all(targets, counts);
     return;
   }
+  check_targets<D>(targets);
+  if (detail::bisects(options.sweep.search)) [[unlikely]]
+    detail::check_search(options.sweep);
+  counts.moves += targets.size();
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
   if (options.edges == Edge_rule::at_target)
     detail::Target_step<D>(body, options.sweep, counts)
@@ -139,6 +169,9 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
 template <int D>
 std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point<D>& target,
                                                const Body_options& options, Body_counts& counts) {
+  if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
+  detail::check_finite(target, "the target of a vertex");
+  detail::check_search(options.sweep);
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }
@@ -158,6 +191,10 @@ void Body<D>::leave_region(Body_counts& counts) {
 template <int D>
 void Body<D>::validate() const {
   state_->check_epoch();
+  if (state_->region.is_any_stale())
+    throw Error(Error_code::usage,
+                "a body that moved in a region free of walls is not registered yet: call "
+                "Body::refresh() before Body::validate()");
   const Snapshot<D>& snapshot = *state_->snapshot;
   const auto& [positions, particles, chains] = std::tie(state_->positions, state_->particles, state_->chains);
   Walk_counts counts;

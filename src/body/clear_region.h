@@ -37,8 +37,7 @@ class Clear_region {
 
   /// False where rounding leaves doubt; along the plane of a wall there is none.
   bool holds(const Point<D>& x) const { return box_.holds(x) && (planes_.empty() || is_before_planes(x)); }
-  /// True if it holds all of them.
-  /// \pre they are finite.
+  /// True if it holds all of them; false if one is not finite.
   /// Cost: half a nanosecond a point where no half-space cuts the box.
   bool holds_all(std::span<const Point<D>> points) const {
     return box_.holds_all(points) && (planes_.empty() || are_before_planes(points));

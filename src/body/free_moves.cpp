@@ -123,8 +123,7 @@ void Free_moves<D>::make(const Movable<D>& body, std::span<const Point<D>> targe
 }
 
 template <int D>
-std::uint32_t Free_moves<D>::next_left(std::uint32_t vertex) const {
-  if (left_.empty()) return vertex;
+std::uint32_t Free_moves<D>::find_left(std::uint32_t vertex) const {
   std::size_t word = vertex / bits;
   if (word >= word_count()) return static_cast<std::uint32_t>(vertices_);
   std::uint64_t rest = left_[word] & ~std::uint64_t{0} << vertex % bits;

@@ -46,7 +46,7 @@ class Free_moves {
   void make_none();
 
   /// The first vertex from a given one on whose move is left; where there is none, the number of vertices.
-  std::uint32_t next_left(std::uint32_t vertex) const;
+  std::uint32_t next_left(std::uint32_t vertex) const { return left_.empty() ? vertex : find_left(vertex); }
   /// Takes back the moves of the neighbours that come after a vertex, and leaves them: to be called before
   /// the vertex is tested. Returns how many there were.
   std::size_t take_back_after(const Movable<D>& body, std::uint32_t vertex);
@@ -65,6 +65,7 @@ class Free_moves {
     return (set[vertex / bits] >> vertex % bits & 1) != 0;
   }
 
+  std::uint32_t find_left(std::uint32_t vertex) const;
   void find_plain(const Movable<D>& body, std::span<const Point<D>> targets,
                   std::span<const std::uint64_t> is_supported, std::size_t word);
   bool are_in_body_region(const Movable<D>& body, std::span<const Point<D>> targets, std::size_t word) const;

@@ -34,7 +34,7 @@ class Open_box {
     return all_true(both(between(0, first, first), between(D - 2, last, last)));
   }
 
-  /// \pre the points are finite.
+  /// False if one of them is not finite.
   /// Cost: about half a nanosecond a point.
   bool holds_all(std::span<const Point<D>> points) const {
     if (points.size() % 2 != 0 && !holds(points.back())) return false;
@@ -42,8 +42,12 @@ class Open_box {
     // Two points at a time: D pairs of coordinates.
     const Pair_bounds<D> bounds(points.front().data(), points.size() / 2);
     Truth2 inside = between(0, bounds.low[0], bounds.high[0]);
-    for (std::size_t k = 1; k < D; ++k) inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
-    return all_true(inside);
+    Double2 sum = bounds.sum[0];
+    for (std::size_t k = 1; k < D; ++k) {
+      inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
+      sum += bounds.sum[k];
+    }
+    return all_true(both(inside, equal(sum, sum)));
   }
 
  private:

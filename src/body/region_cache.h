@@ -87,6 +87,11 @@ class Region_cache {
     std::fill_n(is_vertex_stale_.begin() + static_cast<std::ptrdiff_t>(first), count, true);
   }
   bool are_all_stale() const { return are_all_stale_; }
+  bool is_any_stale() const {
+    const auto is_set = [](char is_stale) { return is_stale != 0; };
+    return are_all_stale_ || std::ranges::any_of(is_vertex_stale_, is_set) ||
+           std::ranges::any_of(is_edge_stale_, is_set);
+  }
   /// Marks vertex by vertex what was marked at once.
   void spread_marks();
   bool is_vertex_stale(std::uint32_t vertex) const { return is_vertex_stale_[vertex]; }

@@ -2,6 +2,7 @@
 #include "registration.h"
 
 #include <cellwalk/internal/edge/chain_as_before.h>
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -109,6 +110,7 @@ class Registration {
   /// A particle for each side of the walls at a vertex that was linked with its cell, that of the cell first;
   /// for each side at all if its cell is not known.
   Sides sides(std::uint32_t v, const Locator<D>& locator) {
+    check_finite(soup_.points[v], fmt::format("vertex {} of the body", v));
     Location<D> here = locator.locate(soup_.points[v]);
     if (here.sides.empty())
       refuse_vertex(v, here.status == Location_status::solid ? "in a solid cell" : "outside the environment");

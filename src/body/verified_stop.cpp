@@ -42,7 +42,7 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
   Vector<D> lift{};
   for (;;) {
     const Point<D> target = particle.position + (1 - passed) * velocity + lift;
-    if (!is_finite(target)) return {};
+    if (!normals.empty() && !is_finite(target)) return {};  // at first move() refuses it
     const Walk_result<D> result = move<Exact>(snapshot, particle, target, counts);
     if (result.status == Walk_status::arrived) return velocity;
     Contact<D> contact = vertex_contact(snapshot, particle.position, target, *result.contact, counts);

@@ -55,7 +55,7 @@ std::vector<Cell> Cell_patcher<D>::replace(std::span<const Cell> removed, const 
                                            const Gluing& gluing, const std::optional<Point<D>>& added) {
   using Boundary = Boundary_index<D>;
   Map_storage<D>& storage = environment_.editable();
-  Snapshot<D>& snapshot = environment_.snapshot_;
+  Snapshot<D>& snapshot = *environment_.snapshot_;
   boost::container::small_vector<std::uint32_t, 32> points;  // of the removed cells
   for (const Cell c : removed)
     for (const std::uint32_t p : snapshot.view(c).vertices)

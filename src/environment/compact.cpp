@@ -16,8 +16,8 @@ template <int D>
 Compaction Environment<D>::compact() {
   Compaction result;
   std::vector<Half_facet> old_names, names;
-  Cell_soup<D> soup = soup_of(snapshot_, &old_names);
-  const Gluing gluing = gluing_of(snapshot_, old_names);
+  Cell_soup<D> soup = soup_of(*snapshot_, &old_names);
+  const Gluing gluing = gluing_of(*snapshot_, old_names);
 
   // Points in use keep their order.
   std::vector<char> is_used(soup.points.size(), 0);
@@ -39,14 +39,14 @@ Compaction Environment<D>::compact() {
     const std::vector<Dart<D>> darts = storage->dart_of_half_facet;
     assign_half_facets<D>(*storage, darts, names, snapshot.half_facet_slots());
   }
-  result.half_facets.assign(snapshot_.half_facet_slots(), Half_facet::none);
-  result.cells.assign(snapshot_.half_facet_slots() / 4, Cell::none);
+  result.half_facets.assign(snapshot_->half_facet_slots(), Half_facet::none);
+  result.cells.assign(snapshot_->half_facet_slots() / 4, Cell::none);
   for (std::size_t f = 0; f < names.size(); ++f) {
     result.half_facets[to_index(old_names[f])] = names[f];
-    result.cells[to_index(snapshot_.cell_of(old_names[f]))] = snapshot.cell_of(names[f]);
+    result.cells[to_index(snapshot_->cell_of(old_names[f]))] = snapshot.cell_of(names[f]);
   }
-  Snapshot_compiler<D>(snapshot).follow(snapshot_, {result.cells, result.half_facets});
-  snapshot_ = std::move(snapshot);
+  Snapshot_compiler<D>(snapshot).follow(*snapshot_, {result.cells, result.half_facets});
+  *snapshot_ = std::move(snapshot);
   storage_ = std::move(storage);
   boundary_.reset();
   stars_.reset();

@@ -113,7 +113,7 @@ void refuse_image(const char* what) {
 template <int D>
 Image_lists<D> Environment_image<D>::lists(const Environment<D>& environment, const Certificate& certificate,
                                            const Groups<D>& groups) {
-  const Snapshot<D>& s = environment.snapshot_;
+  const Snapshot<D>& s = *environment.snapshot_;
   Image_state<D> state;
   std::copy(s.frame_.centre.begin(), s.frame_.centre.end(), state.frame_centre.begin());
   state.frame_scale = s.frame_.scale;
@@ -162,7 +162,7 @@ Compiled_environment<D> Environment_image<D>::assemble(Snapshot<D> s, const Imag
   certificate.volume = state.volume;
   certificate.free_volume = state.free_volume;
   Environment<D> environment;
-  environment.snapshot_ = std::move(s);
+  *environment.snapshot_ = std::move(s);
   environment.allow_duplicates_ = state.allow_duplicates != 0;
   return {std::move(environment), certificate, std::move(groups)};
 }

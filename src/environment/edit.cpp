@@ -6,6 +6,7 @@
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 
@@ -19,12 +20,6 @@
 
 namespace cellwalk {
 namespace {
-
-template <int D>
-void check_finite(const Point<D>& position) {
-  if (!is_finite(position))
-    throw Error(Error_code::input, "the new position is not finite: correct its coordinates");
-}
 
 /// True if p lies strictly on the inner side of the plane of facet i.
 /// \pre the first D vertices of the loop span the facet, as in a Snapshot
@@ -66,7 +61,7 @@ void Environment<D>::check_half_facet(Half_facet facet) const {
 
 template <int D>
 void Environment<D>::check_cell_name(Cell cell) const {
-  if (snapshot_.is_cell(cell)) return;
+  if (snapshot_->is_cell(cell)) return;
   throw Error(Error_code::usage, "there is no cell with the name " + std::to_string(to_index(cell)));
 }
 
@@ -76,8 +71,8 @@ void Environment<D>::set_impassable(Half_facet facet, bool wall) {
   check_half_facet(facet);
   Map<D>& map = storage.map;
   const Dart<D> own = storage.dart_of_half_facet[to_index(facet)];
-  const std::string name = "facet " + std::to_string(snapshot_.facet_of(facet)) + " of cell " +
-                           std::to_string(snapshot_.index(snapshot_.cell_of(facet)));
+  const std::string name = "facet " + std::to_string(snapshot_->facet_of(facet)) + " of cell " +
+                           std::to_string(snapshot_->index(snapshot_->cell_of(facet)));
   if (map.template is_free<D>(own)) {
     if (wall) return;
     throw Error(Error_code::not_certified, name + " lies on the boundary: it must stay impassable");
@@ -88,17 +83,17 @@ void Environment<D>::set_impassable(Half_facet facet, bool wall) {
                 name + " parts a solid cell from a free one: it must stay impassable");
   for (const Dart<D> side : {own, other})
     for_each_dart_of_half_facet<D>(map, side, [&](Dart<D> d) { map.info(d).set_impassable(wall); });
-  snapshot_.set_impassable(facet, wall);
+  snapshot_->set_impassable(facet, wall);
 }
 
 template <int D>
 void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cell>& star,
                                       bool may_overlap) const {
   for (const Cell c : star) {
-    const Cell_check check = check_cell(snapshot_.view(c));
+    const Cell_check check = check_cell(snapshot_->view(c));
     if (check.defect != Cell_defect::none)
       throw Error(Error_code::not_certified, "point " + std::to_string(point) + " cannot move there: cell " +
-                                                 std::to_string(snapshot_.index(c)) + " would be wrong, " +
+                                                 std::to_string(snapshot_->index(c)) + " would be wrong, " +
                                                  describe(check));
   }
   // Every sign is affine in the position of the point, so the cells stay sound on the whole path from the old
@@ -109,13 +104,13 @@ void Environment<D>::check_moved_star(std::uint32_t point, const std::vector<Cel
 template <int D>
 void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector<Cell>& star) const {
   const std::vector<Half_facet> near =
-      boundary_->meeting(snapshot_.points(), detail::box_of<D>(snapshot_, star));
-  detail::certify_boundary_of_star<D>(snapshot_, star, near);
+      boundary_->meeting(snapshot_->points(), detail::box_of<D>(*snapshot_, star));
+  detail::certify_boundary_of_star<D>(*snapshot_, star, near);
   if (allow_duplicates_) return;
   // At the position of an inner vertex, the star would overlap the cells of that vertex.
-  const auto points = snapshot_.points();
+  const auto points = snapshot_->points();
   for (const Half_facet f : near)
-    for (const std::uint32_t p : snapshot_.loop(f))
+    for (const std::uint32_t p : snapshot_->loop(f))
       if (p != point && points[p] == points[point])
         throw Error(Error_code::not_certified, "point " + std::to_string(point) +
                                                    " cannot move there: point " + std::to_string(p) +
@@ -124,25 +119,25 @@ void Environment<D>::check_moved_boundary(std::uint32_t point, const std::vector
 
 template <int D>
 void Environment<D>::check_point(std::uint32_t point) const {
-  if (!snapshot_.is_point(point))
+  if (!snapshot_->is_point(point))
     throw Error(Error_code::usage, "there is no point " + std::to_string(point));
 }
 
 template <int D>
 void Environment<D>::check_move(std::uint32_t point, const Point<D>& position) const {
   check_point(point);
-  check_finite<D>(position);
+  detail::check_finite(position, "the new position");
 }
 
 template <int D>
 detail::Star_index<D>& Environment<D>::stars() {
-  if (!stars_) stars_ = std::make_unique<detail::Star_index<D>>(snapshot_);
+  if (!stars_) stars_ = std::make_unique<detail::Star_index<D>>(*snapshot_);
   return *stars_;
 }
 
 template <int D>
 detail::Boundary_index<D>& Environment<D>::boundary() {
-  if (!boundary_) boundary_ = std::make_unique<detail::Boundary_index<D>>(snapshot_);
+  if (!boundary_) boundary_ = std::make_unique<detail::Boundary_index<D>>(*snapshot_);
   return *boundary_;
 }
 
@@ -150,16 +145,16 @@ template <int D>
 std::vector<Cell> Environment<D>::cells_around(std::uint32_t point) {
   check_point(point);
   std::vector<Cell> cells;
-  stars().find_cells(snapshot_, point, cells);
+  stars().find_cells(*snapshot_, point, cells);
   return cells;
 }
 
 template <int D>
 bool Environment<D>::is_on_boundary(std::uint32_t point, const std::vector<Cell>& star) const {
   return std::any_of(star.begin(), star.end(), [&](Cell c) {
-    const Cell_view<D> view = snapshot_.view(c);
+    const Cell_view<D> view = snapshot_->view(c);
     for (std::size_t i = 0; i < view.facet_count(); ++i)
-      if (snapshot_.neighbour(Snapshot<D>::half_facet(c, i)) == Cell::none &&
+      if (snapshot_->neighbour(Snapshot<D>::half_facet(c, i)) == Cell::none &&
           detail::has_point(view, i, point))
         return true;
     return false;
@@ -171,27 +166,27 @@ template <int D>
 void Environment<D>::follow_move(std::uint32_t point, bool on_boundary) {
   if (storage_)
     for (const Map_vertex<D> vertex : storage_->vertices_of(point))
-      storage_->map.point_of_vertex_attribute(vertex) = to_map_point(snapshot_.point(point));
+      storage_->map.point_of_vertex_attribute(vertex) = to_map_point(snapshot_->point(point));
   if (on_boundary && boundary_)
-    follow<D>(boundary_, [&](detail::Boundary_index<D>& index) { index.follow(snapshot_.points(), point); });
+    follow<D>(boundary_, [&](detail::Boundary_index<D>& index) { index.follow(snapshot_->points(), point); });
 }
 
 template <int D>
 void Environment<D>::move_vertex(std::uint32_t point, const Point<D>& position) {
   check_move(point, position);
-  const Point<D> old_position = snapshot_.point(point);
+  const Point<D> old_position = snapshot_->point(point);
   if (position == old_position) return;
   const std::vector<Cell> star = cells_around(point);
   const bool on_boundary = is_on_boundary(point, star);
-  const bool is_way_free = on_boundary && boundary().is_way_free(snapshot_.points(), point, position);
-  snapshot_.move_point(point, position);
+  const bool is_way_free = on_boundary && boundary().is_way_free(snapshot_->points(), point, position);
+  snapshot_->move_point(point, position);
   try {
     check_moved_star(point, star, on_boundary && !is_way_free);
   } catch (...) {
-    snapshot_.move_point(point, old_position);
+    snapshot_->move_point(point, old_position);
     throw;
   }
-  snapshot_.update_geometry(star);
+  snapshot_->update_geometry(star);
   follow_move(point, on_boundary);
 }
 
@@ -199,17 +194,17 @@ template <int D>
 std::vector<Cell> Environment<D>::insert_point(Cell cell, const Point<D>& position) {
   editable();
   check_cell_name(cell);
-  check_finite<D>(position);
-  const Cell_view<D> view = snapshot_.view(cell);
-  const std::uint32_t point = snapshot_.next_point();
-  const bool is_solid = snapshot_.is_solid(cell);
+  detail::check_finite(position, "the new position");
+  const Cell_view<D> view = snapshot_->view(cell);
+  const std::uint32_t point = snapshot_->next_point();
+  const bool is_solid = snapshot_->is_solid(cell);
   Cell_soup<D> soup;
   for (std::size_t i = 0; i < view.facet_count(); ++i) {
     if (!is_strictly_inside(view, i, position))
       throw Error(Error_code::not_certified, "the new point does not lie strictly inside cell " +
-                                                 std::to_string(snapshot_.index(cell)) + ": facet " +
+                                                 std::to_string(snapshot_->index(cell)) + ": facet " +
                                                  std::to_string(i) + " is in the way");
-    const std::vector<std::uint32_t> base = snapshot_.loop(Snapshot<D>::half_facet(cell, i));
+    const std::vector<std::uint32_t> base = snapshot_->loop(Snapshot<D>::half_facet(cell, i));
     soup.add_facet(base);
     if constexpr (D == 2) {
       soup.add_facet({base[1], point});

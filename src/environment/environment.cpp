@@ -66,18 +66,18 @@ Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& opt
     check_map(storage);
     const Flat_cells<D> flat = flatten(storage);
     std::vector<Half_facet> slots;
-    environment.snapshot_ = Snapshot<D>::compile(flat.soup, flat.gluing, &slots);
-    assign_half_facets<D>(storage, flat.darts, slots, environment.snapshot_.half_facet_slots());
+    *environment.snapshot_ = Snapshot<D>::compile(flat.soup, flat.gluing, &slots);
+    assign_half_facets<D>(storage, flat.darts, slots, environment.snapshot_->half_facet_slots());
   } else {
     // Flattening the map would return exactly this soup.
-    environment.snapshot_ = Snapshot<D>::compile(soup, gluing);
+    *environment.snapshot_ = Snapshot<D>::compile(soup, gluing);
   }
-  done.certificate = cellwalk::certify(environment.snapshot_, environment.allow_duplicates_);
+  done.certificate = cellwalk::certify(*environment.snapshot_, environment.allow_duplicates_);
   return environment;
 }
 
 template <int D>
-const Map_storage<D>& Environment<D>::storage() const {
+const Map_storage<D>& Environment<D>::storage() const& {
   if (!storage_) throw Error(Error_code::usage, "the environment is frozen: thaw() it to use its map");
   return *storage_;
 }
@@ -92,14 +92,14 @@ template <int D>
 void Environment<D>::thaw() {
   if (storage_) return;
   std::vector<Half_facet> names;
-  const Cell_soup<D> cells = soup_of(snapshot_, &names);
-  std::unique_ptr<Map_storage<D>> storage = build_map(cells, gluing_of(snapshot_, names));
+  const Cell_soup<D> cells = soup_of(*snapshot_, &names);
+  std::unique_ptr<Map_storage<D>> storage = build_map(cells, gluing_of(*snapshot_, names));
   const std::vector<Dart<D>> darts = storage->dart_of_half_facet;
-  assign_half_facets<D>(*storage, darts, names, snapshot_.half_facet_slots());
-  storage->cell_slots = snapshot_.cell_slots();
+  assign_half_facets<D>(*storage, darts, names, snapshot_->half_facet_slots());
+  storage->cell_slots = snapshot_->cell_slots();
   if (storage->cell_slots != storage->cell_count)  // edits left indices unused
     for_each_parallel(names.size(), [&](std::size_t f) {
-      const std::uint32_t index = snapshot_.index(snapshot_.cell_of(names[f]));
+      const std::uint32_t index = snapshot_->index(snapshot_->cell_of(names[f]));
       for_each_dart_of_half_facet<D>(storage->map, darts[f],
                                      [&](Dart<D> d) { storage->map.info(d).set_cell(index); });
     });
@@ -108,16 +108,16 @@ void Environment<D>::thaw() {
 
 template <int D>
 Cell_soup<D> Environment<D>::soup() const {
-  return soup_of(snapshot_, nullptr);
+  return soup_of(*snapshot_, nullptr);
 }
 
 template <int D>
 Certificate Environment<D>::certify() const {
   // First the snapshot: a map that was made from one that is none need not agree with it.
-  Certificate certificate = cellwalk::certify(snapshot_, allow_duplicates_);
+  Certificate certificate = cellwalk::certify(*snapshot_, allow_duplicates_);
   if (storage_) {
     check_map(*storage_);
-    check_map_matches_snapshot(*storage_, snapshot_);
+    check_map_matches_snapshot(*storage_, *snapshot_);
   }
   return certificate;
 }

@@ -18,13 +18,13 @@ Environment_history Environment_image<D>::history(const Environment<D>& environm
     history.stars.emplace();
     environment.stars_->tell(history.stars->first, history.stars->other_parts);
   }
-  environment.snapshot_.clusters_.tell(history.cluster_size, history.cluster_places);
+  environment.snapshot_->clusters_.tell(history.cluster_size, history.cluster_places);
   return history;
 }
 
 template <int D>
 void Environment_image<D>::follow(Environment<D>& environment, const Environment_history& history) {
-  const Snapshot<D>& snapshot = environment.snapshot_;
+  const Snapshot<D>& snapshot = *environment.snapshot_;
   const auto is_good = [&](Cell cell) { return cell == Cell::none || snapshot.is_cell(cell); };
   if (history.stars) {
     const auto& [first, other_parts] = *history.stars;
@@ -36,7 +36,7 @@ void Environment_image<D>::follow(Environment<D>& environment, const Environment
     environment.stars_ = std::make_unique<Star_index<D>>(first, other_parts);
   }
   if (history.cluster_size != 0 &&
-      !environment.snapshot_.clusters_.lay_out(snapshot, history.cluster_size, history.cluster_places))
+      !environment.snapshot_->clusters_.lay_out(snapshot, history.cluster_size, history.cluster_places))
     throw Error(Error_code::input, "the history of an environment is damaged: it is not of this one");
 }
 

@@ -96,7 +96,7 @@ Star_check Vertex_mover<D>::check_cells() const {
 /// True if boundary facets at the point meet others on their way or at its end.
 template <int D>
 bool Vertex_mover<D>::runs_into_boundary() {
-  Snapshot<D>& snapshot = environment_.snapshot_;
+  Snapshot<D>& snapshot = *environment_.snapshot_;
   Predicate_counts counts;
   std::vector<Point<D>> polygon;
   Boundary_index<D>& boundary = environment_.boundary();
@@ -132,7 +132,7 @@ bool Vertex_mover<D>::runs_into_boundary() {
 
 template <int D>
 void Vertex_mover<D>::place() {
-  Snapshot<D>& snapshot = environment_.snapshot_;
+  Snapshot<D>& snapshot = *environment_.snapshot_;
   is_withdrawn_.resize(snapshot.half_facet_slots() / 4);
   Snapshot_compiler<D> compiler(snapshot);
   for (const Cell c : star_) {
@@ -149,12 +149,12 @@ void Vertex_mover<D>::place() {
 
 template <int D>
 void Vertex_mover<D>::take_back() {
-  environment_.snapshot_.move_point(point_, from_);
+  environment_.snapshot_->move_point(point_, from_);
 }
 
 template <int D>
 void Vertex_mover<D>::commit() {
-  Snapshot_compiler<D>(environment_.snapshot_).raise_epochs();
+  Snapshot_compiler<D>(*environment_.snapshot_).raise_epochs();
   has_made_ = true;
   environment_.follow_move(point_, is_on_boundary_);
 }
@@ -170,9 +170,9 @@ void Vertex_mover<D>::restore() {
       if (is_withdrawn_[i]) withdrawn_.push_back(Cell{static_cast<std::uint32_t>(i)});
   }
   if (std::exchange(has_made_, false))
-    environment_.snapshot_.update_geometry(withdrawn_);
+    environment_.snapshot_->update_geometry(withdrawn_);
   else
-    Snapshot_compiler<D>(environment_.snapshot_).certify_again(withdrawn_);
+    Snapshot_compiler<D>(*environment_.snapshot_).certify_again(withdrawn_);
   for (const Cell c : withdrawn_) is_withdrawn_[to_index(c)] = false;
   withdrawn_.clear();
 }

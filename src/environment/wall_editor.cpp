@@ -37,7 +37,7 @@ void Wall_editor<D>::set_solid(Cell cell, bool solid) {
     for_each_dart_of_half_facet<D>(storage.map,
                                    storage.dart_of_half_facet[to_index(Snapshot<D>::half_facet(cell, i))],
                                    [&](Dart<D> d) { storage.map.info(d).set_solid(solid); });
-  Snapshot_compiler<D>(environment_.snapshot_).set_solid(cell, solid);
+  Snapshot_compiler<D>(*environment_.snapshot_).set_solid(cell, solid);
 }
 
 template <int D>
@@ -72,14 +72,14 @@ template <int D>
 void Environment<D>::excavate(Cell cell) {
   detail::Wall_editor<D> editor(*this);
   editor.check(cell);
-  if (snapshot_.is_solid(cell)) editor.excavate(cell);
+  if (snapshot_->is_solid(cell)) editor.excavate(cell);
 }
 
 template <int D>
 void Environment<D>::fill(Cell cell) {
   detail::Wall_editor<D> editor(*this);
   editor.check(cell);
-  if (!snapshot_.is_solid(cell)) editor.fill(cell, editor.passages(cell, false));
+  if (!snapshot_->is_solid(cell)) editor.fill(cell, editor.passages(cell, false));
 }
 
 template void Environment<2>::excavate(Cell);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/query/edge_cells.h>
 #include <cellwalk/walk/walk.h>
@@ -153,6 +154,8 @@ Vector<D> direction(Random& random) {
 
 template <int D>
 Edge_cells count_edge_cells(const Snapshot<D>& snapshot, const Edge_cells_options& options) {
+  if (!(options.length >= 0 && std::isfinite(options.length)))
+    throw Error(Error_code::usage, "the length of edges must be a finite number of at least 0");
   Free_space<D> space(snapshot);
   Edge_cells result;
   result.wall_distance = space.wall_distance();

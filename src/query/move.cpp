@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/move.h>
 
 #include <vector>
@@ -61,6 +62,7 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const P
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
                       const Point<D>& to, const Move_options& options, Edge_counts& counts) {
+  detail::check_finite(to, "the target of a motion");
   return with_kernel(options.kernel, [&](auto policy) {
     return answer<decltype(policy)>(snapshot, locator, from, to, options, counts);
   });

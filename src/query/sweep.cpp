@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/all_chains.h>
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/sweep.h>
 
 #include <list>
@@ -55,6 +56,8 @@ Answer<D> to_answer(const Sweep_result<D>& result) {
 template <int D>
 Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
                        const Sweep_options& options, Edge_counts& counts) {
+  detail::check_finite(motion.target, "the target of a motion");
+  detail::check_search(options);
   const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {
     return to_answer(sweep_edge(snapshot, start.p, motion.target, start.q, start.chain, chosen, counts));
   };

@@ -44,6 +44,8 @@ Vertex_result<D> Reshaping<D>::move(std::uint32_t point, const Point<D>& target)
 
 template <int D>
 Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
+  state_->check_open();
+  for (const auto& [point, target] : moves) state_->mover.check(point, target);
   Move_report<D> report;
   std::vector<std::size_t> left(moves.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
@@ -172,6 +174,8 @@ Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& option
   detail::Tissue_patch<D>& tissue = state_->restored_tissue();
   if (!(options.opening > 0) || !std::isfinite(options.opening))
     throw Error(Error_code::input, "a cut is opened by a positive length");
+  if (!(options.snap >= 0 && options.snap <= 0.5))
+    throw Error(Error_code::input, "the share of an edge within which a cut passes its end lies in [0,0.5]");
   detail::Slitter<D> slitter(state_->environment, tissue, state_->toggle, blade, options);
   detail::Cutter<D> cutter(state_->environment, tissue, blade, options);
   cutter.prepare();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "check_motion.h"
 #include "contact_response.h"
 #include "rigid_motion.h"
 
@@ -78,14 +79,14 @@ void Deformable<D>::limit(double most) {
     for (Vector<D>& v : velocities_) v = (std::sqrt(most / left) * (1 - 0x1p-50)) * v;
 }
 
-/// Where the body would be without walls, and the velocities that take it there. False if that is not finite.
+/// Where the body would be without walls, and the velocities that take it there.
 ///
 /// The motion of the whole keeps its momenta, and is followed along its arc. The rest y of the shape and its
 /// velocity u, seen from the goals and from the whole, become y' = (1 - a) y + (1 - a^2) h u and u' = (y' -
 /// y) / h, a being the stiffness: stable for all a and h; with a = 1 there is no deformation after a step, as
 /// a tends to 0 nothing is lost.
 template <int D>
-bool Deformable<D>::predict(double dt) {
+void Deformable<D>::predict(double dt) {
   const double stiffness = matching_.material().stiffness, kept = 1 - stiffness * stiffness;
   const auto positions = body_.positions();
   const detail::Rigid_frame<D> here(positions);
@@ -98,18 +99,18 @@ bool Deformable<D>::predict(double dt) {
     velocities_[i] = turn(velocities_[i] - motion.at(arm));
     moved_[i] = centre + turn(arm);
   }
-  if (!std::ranges::all_of(moved_, is_finite<D>)) return false;
+  detail::check_motion<D>(moved_);
   matching_.goals(moved_, targets_);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     velocities_[i] = kept * velocities_[i] + (stiffness / dt) * (targets_[i] - moved_[i]);
     targets_[i] = moved_[i] + dt * velocities_[i];
   }
-  if (!std::ranges::all_of(targets_, is_finite<D>)) return false;
+  detail::check_motion<D>(targets_);
   const detail::Rigid_frame<D> there(targets_);
   const detail::Rigid_motion<D> whole{motion.velocity, there.spin_of(momentum)};
   for (std::size_t i = 0; i < targets_.size(); ++i)
     velocities_[i] = velocities_[i] + whole.at(there.arm(targets_[i]));
-  return std::ranges::all_of(velocities_, is_finite<D>);
+  detail::check_motion<D>(velocities_);
 }
 
 template <int D>
@@ -117,13 +118,11 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
   const double dt = conditions.time_step, stiffness = matching_.material().stiffness;
   const double before = kinetic_energy(), height_before = height_energy(conditions.gravity);
   for (Vector<D>& v : velocities_) v = v + dt * conditions.gravity;
-  const double gained = std::max(0.0, kinetic_energy() - before);  // from gravity
-  if (!predict(dt)) {
-    std::ranges::fill(velocities_, Vector<D>{});
-    std::ranges::copy(body_.positions(), targets_.begin());
-    stored_ = 0;
-    return;
-  }
+  const double accelerated = kinetic_energy();
+  detail::check_motion<D>(velocities_);
+  if (!std::isfinite(accelerated) || !std::isfinite(height_before)) detail::refuse_motion("its energy");
+  const double gained = std::max(0.0, accelerated - before);  // from gravity
+  predict(dt);
   const std::vector<Contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   std::ranges::copy(body_.positions(), moved_.begin());
@@ -145,6 +144,8 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
   level += height_before - height_energy(conditions.gravity);
   limit(level);
   stored_ = (1 - stiffness * stiffness) * std::max(0.0, level - kinetic_energy());
+  detail::check_motion<D>(velocities_);
+  if (!std::isfinite(stored_)) detail::refuse_motion("its energy");
 }
 
 template class Deformable<2>;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/records/scene_shape.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/elastic_foundation.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "contact_yield.h"
@@ -15,6 +19,15 @@ namespace {
 
 /// A yield that is a smaller share of the environment's diagonal is recovered at once.
 constexpr double least_share = 0x1p-24;
+
+/// The largest coordinate; infinite if one is no number.
+template <std::size_t D>
+double most_part(const std::array<double, D>& v) {
+  double most = 0;
+  for (const double x : v)
+    most = std::isnan(x) ? std::numeric_limits<double>::infinity() : std::max(most, std::abs(x));
+  return most;
+}
 
 }  // namespace
 
@@ -107,6 +120,13 @@ void Elastic_foundation<D>::press(const World<D>& world) {
   std::sort(active.begin(), active.end());
   active.erase(std::unique(active.begin(), active.end()), active.end());
   active_ = std::move(active);
+  if (std::isfinite(force())) return;
+  const auto most =
+      std::ranges::max_element(active_, {}, [&](std::uint32_t point) { return most_part(yields_[point]); });
+  throw Error(Error_code::input,
+              "soft walls: the force on point " + std::to_string(*most) + " after step " +
+                  std::to_string(world.steps_done()) +
+                  " is not finite: take a smaller time step, slower motion, or a greater compliance");
 }
 
 template <int D>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "check_motion.h"
+
 namespace cellwalk {
 namespace {
 
@@ -71,7 +73,6 @@ Point<D> Rigid_body<D>::on_path() const {
 template <int D>
 void Rigid_body<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
   const double dt = conditions.time_step;
-  const double angle_before = angle_;
   Point<D> origin;
   if (guide_) {
     travelled_ = std::min(path_length_, travelled_ + guide_->speed * dt);
@@ -84,13 +85,7 @@ void Rigid_body<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
   const bool turns = speed(spin_) > 0;
   for (std::size_t i = 0; i < shape_.size(); ++i)
     targets_[i] = origin + (turns ? turned(shape_[i], spin_, angle_) : shape_[i]);
-  if (!std::ranges::all_of(targets_, is_finite<D>)) {
-    velocity_ = {};
-    angle_ = angle_before;
-    turning_ = 0;
-    std::ranges::copy(body_.positions(), targets_.begin());
-    return;
-  }
+  detail::check_motion<D>(targets_);
   const std::vector<Contact<D>>& contacts = report.contacts;
   const std::size_t first = contacts.size();
   body_.step(targets_, conditions.body, report, counts);
@@ -102,6 +97,7 @@ void Rigid_body<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     const Vector<D> along = velocity_ - into * normal;
     velocity_ = (1 - conditions.friction) * along - (conditions.restitution * into) * normal;
   }
+  if (!is_finite(velocity_)) detail::refuse_motion("its velocity");
   if (contacts.size() > first) turning_ = -turning_;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "check_motion.h"
 #include "rod_shape.h"
 
 namespace cellwalk {
@@ -150,10 +151,7 @@ void Rod<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report,
   if (catheter_.steering != Steering::tip)
     detail::bend_tip<D>(before, twist_before, x, state(), bend(), targets_);
   detail::relax<D>(state(), bend(), targets_);
-  if (!std::ranges::all_of(targets_, is_finite<D>)) {
-    std::ranges::copy(x, targets_.begin());
-    return;
-  }
+  detail::check_motion<D>(targets_);
   body_.step(targets_, conditions.body, report, counts);
 }
 

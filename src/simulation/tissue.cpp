@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "check_motion.h"
 #include "contact_yield.h"
 #include "neighbour_lists.h"
 
@@ -246,6 +247,8 @@ std::vector<Vertex_move<D>> Tissue<D>::targets(const World<D>& world) {
     keep_volumes();
   }
   drag_followers();
+  for (std::uint32_t v = 0; v < wanted_.size(); ++v)
+    if (!is_finite(wanted_[v])) detail::refuse_motion("tissue: the motion of point " + std::to_string(v));
   std::vector<Vertex_move<D>> moves;
   for (std::uint32_t v = 0; v < wanted_.size(); ++v)
     if (length(wanted_[v] - before_[v]) > least_move_) moves.push_back({v, wanted_[v]});

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <string>
 #include <utility>
 
+#include "check_motion.h"
 #include "star_smoother.h"
 
 namespace cellwalk {
@@ -196,6 +198,8 @@ std::vector<Vertex_move<D>> Wall_pulsation<D>::targets(double time) const {
       const double share = way / pulsation_.amplitude;
       target = target + (share * share) * mover.bend;
     }
+    if (!is_finite(target))
+      detail::refuse_motion("pulsation: the motion of point " + std::to_string(mover.point));
     result.push_back({mover.point, target});
   }
   return result;

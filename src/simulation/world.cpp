@@ -7,8 +7,19 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "check_motion.h"
 
 namespace cellwalk {
+namespace {
+
+[[noreturn]] void refuse_particle(std::size_t particle, std::uint32_t step) {
+  detail::refuse_motion(fmt::format("particle {} in step {}: its motion", particle, step));
+}
+
+}  // namespace
+
 template <int D>
 void World<D>::check_epoch() const {
   snapshot_->check_epoch(epoch_, "this World was made: make a new one");
@@ -17,10 +28,17 @@ void World<D>::check_epoch() const {
 template <int D>
 void World<D>::step() {
   check_epoch();
+  if (is_stepping_) throw Error(Error_code::usage, "a step of this World failed: make a new one");
+  if (!std::isfinite((steps_done_ + 1.0) * scene_.time_step))
+    throw Error(
+        Error_code::input,
+        fmt::format("the time after step {} is not finite: take a smaller time step", steps_done_ + 1));
+  is_stepping_ = true;
   ++steps_done_;
   contacts_.clear();
   step_free();
   step_bodies();
+  is_stepping_ = false;
 }
 
 /// Opens the environment with all that moves in it, and calls use(reshaping).
@@ -94,8 +112,10 @@ void World<D>::step_free() {
   const Wall_response response{scene_.restitution, scene_.friction};
   for (std::size_t i = own_particles_.first; i < own_particles_.second; ++i) {
     const Vector<D> displacement = dt * (velocities_[i] + dt * scene_.gravity);
+    if (!is_finite(particles_[i].position + displacement)) refuse_particle(i, steps_done_);
     velocities_[i] =
         (1 / dt) * advance(*snapshot_, particles_[i], displacement, response, timed_contacts_, counts_);
+    if (!is_finite(velocities_[i])) refuse_particle(i, steps_done_);
     record_contacts(i);
   }
 }
@@ -110,10 +130,18 @@ void World<D>::step_bodies() {
                     [&](const auto& range) {
                       for (std::size_t own = range.begin(); own < range.end(); ++own) {
                         const std::uint32_t i = own_bodies_[own];
-                        body_steps_[i].report.clear();
-                        bodies_[i].step(conditions_, body_steps_[i].report, body_steps_[i].counts);
+                        auto& [report, counts, refusal] = body_steps_[i];
+                        report.clear();
+                        try {
+                          bodies_[i].step(conditions_, report, counts);
+                        } catch (const Error& error) {
+                          refusal = error;
+                        }
                       }
                     });
+  for (const std::uint32_t i : own_bodies_)
+    if (const std::optional<Error>& refusal = body_steps_[i].refusal)
+      throw Error(refusal->code(), fmt::format("body {} in step {}: {}", i, steps_done_, refusal->what()));
   for (const std::uint32_t i : own_bodies_)
     for (Contact<D> met : body_steps_[i].report.contacts) {
       met.normal = met.normal + Vector<D>{};

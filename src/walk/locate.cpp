@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
@@ -150,6 +151,7 @@ template <int D>
 Location<D> Locator<D>::locate(const Point<D>& p) const {
   const Snapshot<D>& s = index_->snapshot;
   s.check_geometry_epoch(index_->geometry_epoch, "this Locator was made: make a new one");
+  detail::check_finite(p, "the point to be located");
   Location<D> location;
   std::vector<std::uint32_t> candidates;
   for (auto it = index_->tree.qbegin(bgi::intersects(Index::box(p, p))); it != index_->tree.qend(); ++it)

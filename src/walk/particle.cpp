@@ -6,7 +6,7 @@ namespace cellwalk {
 
 template <int D>
 bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point) {
-  if (!snapshot.is_cell(cell)) return false;
+  if (!snapshot.is_cell(cell) || !is_finite(point)) return false;
   const Cell_view<D> view = snapshot.view(cell);
   Predicate_counts counts;
   for (std::size_t f = 0; f < view.facet_count(); ++f) {

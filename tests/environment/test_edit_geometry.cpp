@@ -92,7 +92,8 @@ TEST(EditGeometry, TurnsLoopsWhoseFirstVerticesComeToLieOnOneLine) {
     }
     // And back: what is certified then is what was before.
     environment.move_vertex(v, octahedron().points[v]);
-    EXPECT_EQ(test::facts(snapshot), test::facts(Environment<3>::build(octahedron()).snapshot()));
+    const auto built = Environment<3>::build(octahedron());
+    EXPECT_EQ(test::facts(snapshot), test::facts(built.snapshot()));
   }
   EXPECT_EQ(turned, 2u) << "of each cell, the loop in which one of the vertices came second";
 }
@@ -101,7 +102,8 @@ TEST(EditGeometry, CertifyNoticesALoopByWhichNoSideCanBeTold) {
   // A point moved behind the environment's back: all cells are sound, but walks could not see the wall.
   std::size_t refused = 0;
   for (std::uint32_t v = 0; v < 4; ++v) {
-    Snapshot<3> snapshot = Environment<3>::build(octahedron()).snapshot();
+    const auto environment = Environment<3>::build(octahedron());
+    Snapshot<3> snapshot = environment.snapshot();
     snapshot.move_point(v, {2, 2, 0});
     if (blind_loops(snapshot) == 0) continue;
     ++refused;

@@ -79,7 +79,8 @@ void expect_soup_round_trip() {
     const Cell_soup<D> again = environment.soup();
     EXPECT_EQ(again.points, soup.points);
     EXPECT_EQ(again.solid, soup.solid);
-    EXPECT_EQ(test::facts(Environment<D>::build(again).snapshot()), test::facts(environment.snapshot()));
+    const auto rebuilt = Environment<D>::build(again);
+    EXPECT_EQ(test::facts(rebuilt.snapshot()), test::facts(environment.snapshot()));
   }
 }
 
@@ -109,7 +110,8 @@ TEST(Environment, MovesAsAWhole) {
 
 TEST(Environment, DropsUnusedPoints) {
   Cell_soup<3> soup = tetrahedral_grid({.cells = {2, 2, 2}});
-  const auto expected = test::facts(Environment<3>::build(soup).snapshot());
+  const auto built = Environment<3>::build(soup);
+  const auto expected = test::facts(built.snapshot());
   // Unused points before, between and behind; even in a used place, or nowhere.
   const double infinity = std::numeric_limits<double>::infinity();
   soup.points.insert(soup.points.begin() + 5, {infinity, 0, 0});
@@ -175,7 +177,8 @@ void expect_flipped() {
     Build_report report;
     const Environment<D> environment = Environment<D>::build(inverted, {}, &report);
     EXPECT_TRUE(report.flipped);
-    EXPECT_EQ(test::facts(environment.snapshot()), test::facts(Environment<D>::build(soup).snapshot()));
+    const auto built = Environment<D>::build(soup);
+    EXPECT_EQ(test::facts(environment.snapshot()), test::facts(built.snapshot()));
   }
 }
 

@@ -37,7 +37,7 @@ TEST_F(Loading, AnImportReportsItsStages) {
   Import_options options;
   options.on_stage = [&begun](const std::string& stage) { begun.push_back(stage); };
   const Imported_environment imported = import_environment(path, options);
-  EXPECT_EQ(std::get<Environment<2>>(imported.environment).snapshot().cell_count(), 2u);
+  EXPECT_EQ(of_dimension<2>(imported.environment).snapshot().cell_count(), 2u);
   EXPECT_EQ(begun, (std::vector<std::string>{"reading " + path, "splitting, gluing and certifying " + path}));
   ASSERT_EQ(imported.report.stages.size(), 2u);
   EXPECT_EQ(imported.report.stages[0].title, "read");
@@ -60,7 +60,9 @@ TEST_F(Loading, CellsTakeNoObstacles) {
 TEST_F(Loading, LoadingRepairsNothing) {
   const std::string inverted = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n";
   const std::string path = write("inverted.off", inverted);
-  EXPECT_EQ(std::get<Environment<2>>(import_environment(path, {}).environment).snapshot().cell_count(), 1u);
+  const Imported_environment imported = import_environment(path, {});
+  EXPECT_EQ(of_dimension<2>(imported.environment).snapshot().cell_count(), 1u);
+  EXPECT_THROW(of_dimension<3>(imported.environment), Error);
   try {
     load_environment(path, {});
     FAIL() << "an inverted mesh was loaded";

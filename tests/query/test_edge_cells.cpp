@@ -16,7 +16,8 @@ constexpr Build_options plain{.split = false, .keep_map = false};
 
 template <int D>
 Edge_cells count(Cell_soup<D> soup, const Edge_cells_options& options) {
-  return count_edge_cells(Environment<D>::build(std::move(soup), plain).snapshot(), options);
+  const auto environment = Environment<D>::build(std::move(soup), plain);
+  return count_edge_cells(environment.snapshot(), options);
 }
 
 /// The mean is that far from walls, or a little less: an edge in a grid of n cells, of length d along an

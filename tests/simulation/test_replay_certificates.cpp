@@ -88,8 +88,9 @@ void expect_recorded_answers(const Any_trace& trace, const Snapshot<3>& snapshot
 
 TEST(ReplayCertificates, GiveTheAnswersOfAGrid) {
   const Trace trace = test::random_trace({});
-  expect_recorded_answers(trace, trace_environment(trace).snapshot());
-  expect_recorded_answers(mapped(trace, sheared<3>()), trace_environment(trace, sheared<3>()).snapshot());
+  const Environment<3> grid = trace_environment(trace), sheared_grid = trace_environment(trace, sheared<3>());
+  expect_recorded_answers(trace, grid.snapshot());
+  expect_recorded_answers(mapped(trace, sheared<3>()), sheared_grid.snapshot());
 }
 
 TEST(ReplayCertificates, GiveTheAnswersWhereMuchTouches) {
@@ -97,7 +98,8 @@ TEST(ReplayCertificates, GiveTheAnswersWhereMuchTouches) {
   options.bodies = 8;
   options.seed = 100;  // that no other test has
   const Trace trace = test::touching_trace(options);
-  expect_recorded_answers(trace, trace_environment(trace).snapshot(), true);
+  const Environment<3> environment = trace_environment(trace);
+  expect_recorded_answers(trace, environment.snapshot(), true);
 }
 
 TEST(ReplayCertificates, GiveTheAnswersOfManyBodies) {

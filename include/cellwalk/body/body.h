@@ -48,9 +48,11 @@ class Body {
   /// way of an edge that may pass walls on several sides: if one of its faces lies on another side of them,
   /// the body is refused, although another way would do. Faces in the plane are not looked at.
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
-  ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has
+  ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has;
+  ///        Error(input) naming a vertex that is not finite
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
+  Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
   Body(const Body& other);
   Body(Body&& other) noexcept;
   Body& operator=(const Body& other);
@@ -73,15 +75,17 @@ class Body {
   std::span<const std::array<std::uint32_t, 2>> edges() const;
   std::span<const std::array<std::uint32_t, 3>> faces() const;
   /// The other ends of the edges of a vertex, ascending.
+  /// \throw Error(usage) if there is no such vertex
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
   /// Moves the vertices one after the other to their targets, as far as walls allow. What meets a wall is
   /// decided by options.edges, what its vertex does then by options.policy. Appends to the report what is
   /// asked for.
-  /// \pre one finite target a vertex
-  /// \throw Error(usage) for Edge_rule::at_target without Contact_policy::reject, Reported::blocked without
-  ///        Edge_rule::at_target, Edge_rule::at_target if a vertex has more than 64 edges, and
-  ///        Sweep::faces after moves that left the faces alone and let a wall pierce one
+  /// \throw Error(usage) unless there is one target a vertex, for Edge_rule::at_target without
+  ///        Contact_policy::reject, Reported::blocked without Edge_rule::at_target, Edge_rule::at_target if a
+  ///        vertex has more than 64 edges, a search of a tolerance not in (0,1] off regions, and Sweep::faces
+  ///        after moves that left the faces alone and let a wall pierce one; Error(input) naming a target
+  ///        that is not finite. Then nothing has moved.
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
   /// sweep an edge, and locating the contacts that are reported or slid along. The first time faces are swept
   /// after moves that left them alone, all are registered. By Edge_rule::at_target with Touch::stop rational
@@ -93,8 +97,8 @@ class Body {
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by
   /// Contact_policy::reject and Edge_rule::swept, of the options but the sweep nothing counts. Gives a region
   /// free of walls up.
-  /// \pre the target is finite
-  /// \throw Error(usage) for Sweep::faces after moves with another sweep that let a wall pierce a face
+  /// \throw Error(usage) if there is no such vertex, and for Sweep::faces after moves with another sweep that
+  ///        let a wall pierce a face; Error(input) if the target is not finite. Then nothing has changed.
   std::optional<Contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
                                         const Body_options& options, Body_counts& counts);
 
@@ -105,18 +109,20 @@ class Body {
   /// The particles and chains.
   /// \pre nothing is stale, see refresh(), and no edit since
   std::span<const Particle<D>> particles() const;
+  /// \throw Error(usage) if there is no such edge
   const Chain& chain(std::size_t edge) const;
 
   /// The cell of a vertex, which may be stale: then it is found by a walk in the region, which is not
   /// counted, and the body stays stale.
   /// \pre no edit since the body was registered
+  /// \throw Error(usage) if there is no such vertex
   /// Cost: nothing unless it is stale; else that of a walk.
   Cell cell_of(std::uint32_t vertex) const;
 
   /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge
   /// has a valid chain from cell to cell, no wall pierces a face.
-  /// \pre nothing is stale, see refresh()
-  /// \throw Error(other) naming the first vertex, edge or face that violates them
+  /// \throw Error(usage) if something is stale, see refresh(); Error(other) naming the first vertex, edge or
+  ///        face that violates them
   void validate() const;
 
  private:

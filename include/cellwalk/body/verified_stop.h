@@ -36,7 +36,8 @@ struct Wall_response {
 /// walls, or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
 /// appended to `met`, their times as shares of the unit of time: the first is exact, those after it follow
 /// from positions that are rounded.
-/// \pre velocity is finite, response is in range
+/// \pre response is in range
+/// \throw Error(usage) as move(); Error(input) if the point where it would be is not finite; nothing changes
 template <int D>
 Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> velocity,
                   const Wall_response& response, std::vector<Contact<D>>& met, Walk_counts& counts);

@@ -57,10 +57,22 @@ struct Sweep_options {
   double tolerance = 0x1p-20;  ///< of dichotomic searches: length of the final interval of time, in (0,1]
 };
 
+namespace detail {
+
+inline bool bisects(Contact_search search) {
+  return search == Contact_search::dichotomic || search == Contact_search::dichotomic_segment;
+}
+/// \throw Error(usage) for a dichotomic search whose tolerance does not lie in (0,1]: it need not end
+void check_search(const Sweep_options& options);
+
+}  // namespace detail
+
 /// Moves p to a target, with an edge from it to q, which stands still: free if it is on some sides of walls.
 /// \param before the chain of the edge before the move
-/// \pre p and q satisfy I1, the target is finite, options.tolerance lies in (0,1]
-/// \throw Error(usage) for p or q in a cell that an edit removed, if its name is not reused
+/// \pre p and q satisfy I1
+/// \throw Error(usage) for p or q without a cell, or in one that an edit removed, if its name is not reused,
+///        and for a dichotomic search unless options.tolerance lies in (0,1]; Error(input) for a target or q
+///        that is not finite
 /// Degenerate cases: all are decided, see sweep_triangle().
 /// Cost: that of the walk and the sweep, and of the search: exact: none; dichotomic: log2(1/tolerance)
 /// sweeps; dichotomic_segment: as many walks of p and of the edge; exhaustive: some rational arithmetic for
@@ -110,6 +122,7 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, con
 
 /// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed
 /// wall or is blocked.
+/// \throw Error as walk()
 /// Cost: that of a walk and a flood along it, and rational arithmetic for each wall near it.
 template <int D>
 std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
@@ -119,6 +132,7 @@ std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particl
 /// position; for a = q the first point at which a wall meets the segment ab. This is a hit in the sense of
 /// traces: it depends on the geometry only, not on the side of a wall on which the edge lies.
 /// \pre a lies in the closure of `start`, a free cell
+/// \throw Error(usage) if there is no such cell; Error(input) for a corner that is not finite
 /// Cost: as first_touch().
 template <int D>
 std::optional<Contact<D>> closed_meeting(const Snapshot<D>& snapshot, Cell start,

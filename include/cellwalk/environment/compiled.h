@@ -7,6 +7,7 @@
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/groups.h>
+#include <cellwalk/kernel/of_dimension.h>
 
 #include <cstddef>
 #include <functional>
@@ -30,6 +31,7 @@ struct Compiled_environment {
   Certificate certificate;     ///< of when the image was written
   Groups<D> groups;
 };
+/// of_dimension<3>(any) is that of three dimensions, or an Error.
 using Any_compiled_environment = std::variant<Compiled_environment<2>, Compiled_environment<3>>;
 
 /// True if bytes begin as those of an image do.

@@ -8,6 +8,7 @@
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/environment/split.h>
+#include <cellwalk/internal/environment/held_snapshot.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>
@@ -69,6 +70,10 @@ struct Compaction {
 
 /// A certified cell complex. Cells are identified by Snapshot's Cell. Their indices are those of the soup
 /// (after a split, of the split soup); point indices are those of the soup without the dropped points.
+///
+/// It can be moved, in a struct or a vector with all that lies in it: the snapshot stays where it is, so that
+/// bodies, particles and locators go on. What was moved from throws Error(usage), but can be assigned to. No
+/// Reshaping of it may be open. Assigning to an environment ends it, as its destructor does.
 template <int D>
 class Environment {
  public:
@@ -87,11 +92,14 @@ class Environment {
   Environment& operator=(Environment&&) noexcept;
   ~Environment();
 
-  const Snapshot<D>& snapshot() const { return snapshot_; }
+  /// Lives as long as the environment, wherever that is moved: not beyond the statement of a temporary one.
+  const Snapshot<D>& snapshot() const& { return *snapshot_; }
+  const Snapshot<D>& snapshot() const&& = delete;
 
   /// The map and the dart of each half-facet.
   /// \throw Error(usage) once frozen
-  const Map_storage<D>& storage() const;
+  const Map_storage<D>& storage() const&;
+  const Map_storage<D>& storage() const&& = delete;
   bool is_frozen() const { return !storage_; }
   /// Drops the map: vertices can still be moved, but no facet be opened or closed, no cell be filled or
   /// excavated, and no point inserted.
@@ -179,7 +187,7 @@ class Environment {
   void follow_move(std::uint32_t point, bool on_boundary);
 
   std::unique_ptr<Map_storage<D>> storage_;
-  Snapshot<D> snapshot_;
+  detail::Held_snapshot<D> snapshot_;
   /// Built when a vertex of the boundary first moves.
   std::unique_ptr<detail::Boundary_index<D>> boundary_;
   /// Built when a vertex first moves.

@@ -3,6 +3,8 @@
 #ifndef CELLWALK_KERNEL_EXACT_TIME_H
 #define CELLWALK_KERNEL_EXACT_TIME_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <compare>
 #include <memory>
 

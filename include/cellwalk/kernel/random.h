@@ -4,6 +4,8 @@
 #ifndef CELLWALK_KERNEL_RANDOM_H
 #define CELLWALK_KERNEL_RANDOM_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <random>

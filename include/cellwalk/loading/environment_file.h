@@ -8,6 +8,7 @@
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/of_dimension.h>
 #include <cellwalk/loading/mesher.h>
 
 #include <filesystem>
@@ -19,6 +20,7 @@
 
 namespace cellwalk {
 
+/// of_dimension<3>(any) is that of three dimensions, or an Error.
 using Any_environment = std::variant<Environment<2>, Environment<3>>;
 /// Of the same dimension.
 using Any_groups = std::variant<Groups<2>, Groups<3>>;

@@ -34,7 +34,7 @@ struct Edge_cells {
 ///
 /// In cells whose facets have an area of F in the volume V, an edge of length L far from walls lies in
 /// 1 + L F / (2 V) cells on average, in 2D in 1 + 2 L F / (pi V).
-/// \pre options.length >= 0 is finite
+/// \throw Error(usage) unless options.length is finite and at least 0
 /// Degenerate cases: no edge, and a wall distance of 0, if there is no free space, or if its volume or the
 /// area of its walls is not a positive finite double. The cells are those that a walk visits: an edge through
 /// a ridge or vertex does not lie in all of the cells there.

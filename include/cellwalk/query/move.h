@@ -51,7 +51,8 @@ struct Move_options {
 /// to each of them: the side on which the motion gets furthest is chosen, in ties that with the cell of
 /// lowest index. With an exact kernel the time of a contact is exact; otherwise it is that of the walk,
 /// rounded.
-/// \pre the locator is that of the snapshot; both points are finite; Touch::stop only with the exact kernel
+/// \pre the locator is that of the snapshot; Touch::stop only with the exact kernel
+/// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate()
 /// Cost: that of locating the start and of the walk, for each side. Thread-safe, if each thread has its own
 /// counts.
 template <int D>

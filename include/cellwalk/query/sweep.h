@@ -23,7 +23,9 @@ struct Edge_motion {
 /// An end on a wall with free space on several sides may belong to each of them, and the edge may pass walls
 /// in its line on several sides. Those are chosen with which the motion gets furthest, by exact times; in
 /// ties the cell of p of lowest index, then that of q. Other searches for the contact use these.
-/// \pre the locator is that of the snapshot; all points are finite; options.tolerance lies in (0,1]
+/// \pre the locator is that of the snapshot
+/// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate(), and for a
+///        dichotomic search unless options.tolerance lies in (0,1]
 /// Cost: that of locating two points, finding a chain and sweep_edge(), for each combination of sides.
 /// Thread-safe, if each thread has its own counts.
 template <int D>

@@ -66,7 +66,8 @@ template <int D>
 class Reshaping {
  public:
   /// \param environment its certificates near vertices that move are withdrawn until close()
-  /// \throw Error(usage) for a body of another environment, or one registered before an edit
+  /// \throw Error(usage) for a body of another environment, or one registered before an edit, for a null one,
+  ///        and for a particle without a cell or a finite position
   /// Cost: reading the positions of all residents.
   Reshaping(Environment<D>& environment, const Residents<D>& residents, const Reshape_options& options = {});
   /// Closes it.
@@ -89,7 +90,8 @@ class Reshaping {
 
   /// Moves many vertices, in order and backwards in turn, in rounds until all have arrived or none gets on.
   /// Each may appear once.
-  /// \throw Error as above; the moves before that are made
+  /// \throw Error as above, for a point that does not exist or a target that is not finite before any move;
+  ///        otherwise the moves before that are made
   Move_report<D> move(std::span<const Vertex_move<D>> moves);
 
   /// Says what move() would do by At_contact::hold, and where the vertex would be then; nothing moves. For

@@ -36,8 +36,8 @@ class Deformable {
   Deformable(Body<D> body, const Shape_material& material, const Vector<D>& velocity,
              const Spin<D>& spin = {});
 
-  /// Advances by one time step. Contacts are appended. A body whose motion is not finite stays in place, and
-  /// loses its velocity.
+  /// Advances by one time step. Contacts are appended.
+  /// \throw Error(input) naming the first vertex whose motion is not finite, and as Body::step
   /// Cost: that of Shape_matching::goals and of Body::step.
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
@@ -58,7 +58,7 @@ class Deformable {
 
  private:
   double height_energy(const Vector<D>& gravity) const;
-  bool predict(double dt);
+  void predict(double dt);
   void limit(double most);
   /// All parts of its state that the scene and the environment do not tell.
   template <class Archive>

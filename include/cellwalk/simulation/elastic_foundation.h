@@ -33,6 +33,7 @@ class Elastic_foundation {
                      std::span<const Scene_shape<D>> fixed);
 
   /// Recovers, and yields to the contacts of bodies in the last step of a world.
+  /// \throw Error(input) naming a vertex if yields or forces are not finite
   void press(const World<D>& world);
 
   /// Where a vertex that yields is to be if without yielding it were elsewhere.

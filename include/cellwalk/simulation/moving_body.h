@@ -24,6 +24,7 @@ class Moving_body {
 
   /// Advances by one time step. The contacts, which conditions.body must request, are appended to the
   /// report.
+  /// \throw Error(input) naming the first vertex whose motion is not finite, and as Body::step
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts) {
     std::visit([&](auto& moving) { moving.step(conditions, report, counts); }, kind_);
   }

@@ -36,8 +36,8 @@ class Rigid_body {
   Rigid_body(Body<D> body, Guided_motion<D> guide, const Spin<D>& spin = {});
 
   /// Advances by one time step. The contacts, which conditions.body must request, are appended to the
-  /// report. Thrown bodies bounce off the walls they meet. A body whose motion is not finite stays in
-  /// place, and loses its velocity and spin.
+  /// report. Thrown bodies bounce off the walls they meet.
+  /// \throw Error(input) naming the first vertex whose motion is not finite, and as Body::step
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 
   Body<D>& body() { return body_; }

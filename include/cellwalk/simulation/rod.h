@@ -47,6 +47,7 @@ class Rod {
 
   /// Pushes the rod by one step. Contacts are appended. Of the conditions only the options for bodies are
   /// used.
+  /// \throw Error(input) naming the first vertex whose motion is not finite, and as Body::step
   /// Cost: about 1 us a vertex, and that of Body::step.
   void step(const Dynamics_options<D>& conditions, Step_report<D>& report, Body_counts& counts);
 

@@ -8,6 +8,7 @@
 
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/internal/simulation/saved_parts.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/records/scene.h>
 #include <cellwalk/reshape/reshaping.h>
@@ -49,12 +50,16 @@ class World {
   ///        is not finite
   World(const Snapshot<D>& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
         const Body_options& options = {});
+  World(const Snapshot<D>&& snapshot, const Scene<D>& scene, std::vector<Body_soup<D>> shapes = {},
+        const Body_options& options = {}) = delete;
 
   /// The maximum number of positions tried for each copy of a body.
   static constexpr int most_tries = 1000;
 
   /// Advances everything by one time step: free particles under gravity, in order, then the bodies in order.
-  /// \throw Error(usage) if the environment was edited since the world was made
+  /// \throw Error(usage) if the environment was edited since the world was made; Error(input) naming the
+  ///        step and the first particle or body whose motion is not finite, or if the time is not. Some have
+  ///        moved then, and the world throws Error(usage) from then on.
   void step();
 
   /// Moves points of the environment with everything in it, one after the other; what they meet stays where
@@ -147,14 +152,16 @@ class World {
   std::vector<Particle<D>> particles_;
   std::vector<Vector<D>> velocities_;
   std::uint32_t steps_done_ = 0;
+  bool is_stepping_ = false;  ///< and so after a step that failed
   std::vector<Body_soup<D>> shapes_;
   std::vector<Moving_body<D>> bodies_;
   std::vector<std::optional<std::size_t>> entry_of_;  ///< of each body
   Dynamics_options<D> conditions_;
   std::vector<Run_contact<D>> contacts_;
   struct Body_step {
-    Step_report<D> report;  ///< of the latest step
-    Body_counts counts;     ///< of all steps
+    Step_report<D> report;           ///< of the latest step
+    Body_counts counts;              ///< of all steps
+    std::optional<Error> refusal{};  ///< if the latest step failed
   };
   std::vector<Body_step> body_steps_;  ///< of each body; bodies move in parallel
   std::vector<Contact<D>> timed_contacts_;

@@ -43,13 +43,14 @@ class Locator {
  public:
   /// Cost: about 0.5 us a cell.
   explicit Locator(const Snapshot<D>& snapshot);
+  explicit Locator(const Snapshot<D>&& snapshot) = delete;
   ~Locator();
   Locator(Locator&&) noexcept;
   Locator& operator=(Locator&&) noexcept;
 
   /// Exact in every position, also in disconnected free space.
-  /// \pre p is finite
-  /// \throw Error(usage) if points were moved or cells replaced since the locator was made
+  /// \throw Error(usage) if points were moved or cells replaced since the locator was made; Error(input) for
+  ///        a point that is not finite
   /// Cost: about 1 us (logarithmic in the number of cells).
   Location<D> locate(const Point<D>& p) const;
 

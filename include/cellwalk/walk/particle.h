@@ -21,7 +21,7 @@ struct Particle {
 };
 
 /// True if a point lies in the closure of a cell, by exact predicates: invariant I1 of a particle. False if
-/// the cell does not exist (any more).
+/// the cell does not exist (any more), or a coordinate is not finite.
 template <int D>
 bool in_closure(const Snapshot<D>& snapshot, Cell cell, const Point<D>& point);
 

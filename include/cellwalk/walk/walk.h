@@ -93,9 +93,10 @@ struct Walk_result {
 
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing it is. Paper:
 /// section II.
-/// \pre particle.position lies in the closure of particle.cell; the target is finite
-/// \throw Error(usage) for a particle in a cell that an edit removed, if its name is not reused: locate yours
-///        again then; Error(not_certified) where an exact walk has no way on or no end: nothing was certified
+/// \pre particle.position lies in the closure of particle.cell
+/// \throw Error(usage) for a particle without a cell, or in one that an edit removed, if its name is not
+///        reused: locate yours again after cells were replaced; Error(input) for a target that is not finite;
+///        Error(not_certified) where an exact walk has no way on or no end: nothing was certified
 /// Degenerate cases: a motion may pass exactly through passable edges and vertices. At an exit on a ridge or
 /// vertex the walk continues through its star, along passable facets. If several sides qualify, it takes one
 /// on which it gets furthest; of these the geometry determines one (docs/walk.md, choices). Inexact policies
@@ -117,6 +118,14 @@ namespace detail {
 
 /// \throw Error(usage) for a particle in a cell that does not exist
 [[noreturn]] void refuse_removed_cell();
+
+/// The planes of a cell can be read, if there was ever one of its name.
+/// \throw Error(usage) if there was not
+template <int D>
+inline void check_has_planes(const Snapshot<D>& snapshot, Cell cell) {
+  if (to_index(cell) >= snapshot.half_facet_slots() / 4) [[unlikely]]
+    refuse_removed_cell();
+}
 
 /// The cell of a particle, if planes are undecided; they are for each cell that an edit removed.
 /// \throw Error(usage) if the cell was removed
@@ -156,9 +165,11 @@ Walk_result<D> move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle, 
 }  // namespace detail
 
 /// Moves a particle to the target if the walk arrives; otherwise leaves it in place and returns the contact.
+/// \throw Error as walk(), with nothing changed
 template <class Kernel = Exact, int D>
 inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                            Walk_counts& counts, const Walk_options& options = {}) {
+  detail::check_has_planes(snapshot, particle.cell);
   if constexpr (Kernel::uses_certificates) {
     if (options.strategy == Walk_strategy::certified &&
         detail::certainly_inside(snapshot, particle.cell, target, counts)) {

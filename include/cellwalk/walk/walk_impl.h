@@ -5,6 +5,7 @@
 #ifndef CELLWALK_WALK_WALK_IMPL_H
 #define CELLWALK_WALK_WALK_IMPL_H
 
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/in_boundary.h>
@@ -63,6 +64,10 @@ class Particle_walk {
     in_boundary_ = !starts_inside_;
     if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
       planes_b_ = snapshot.frame().map(b_, y_b_);
+    check_has_planes(snapshot, cell_);
+    if (planes_b_) return;  // what lies in the frame is finite
+    check_finite(b_, "the target of a motion");
+    map_start();
   }
 
   Walk_result<D> run() {
@@ -280,6 +285,7 @@ class Particle_walk {
     if (!mapped_a_) {
       mapped_a_ = true;
       planes_a_ = snapshot_.frame().map(a_, y_a_);
+      if (!planes_a_) check_finite(a_, "the position of a particle");
     }
     return planes_a_;
   }

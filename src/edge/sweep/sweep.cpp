@@ -3,6 +3,8 @@
 #include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
+#include <cellwalk/internal/kernel/check_finite.h>
+#include <cellwalk/kernel/error.h>
 
 #include <utility>
 #include <vector>
@@ -133,6 +135,11 @@ Sweep_result<D> sweep_on_sides(const Snapshot<D>& snapshot, const Particle<D>& p
 
 }  // namespace
 
+void detail::check_search(const Sweep_options& options) {
+  if (bisects(options.search) && !(options.tolerance > 0 && options.tolerance <= 1))
+    throw Error(Error_code::usage, "the tolerance of a dichotomic search must lie in (0,1]");
+}
+
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                  const Particle<D>& q, const Chain& before, const Sweep_options& options,
@@ -154,6 +161,9 @@ Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, con
 template <int D>
 std::optional<Contact<D>> closed_meeting(const Snapshot<D>& snapshot, Cell start,
                                          const Swept_triangle<D>& triangle, Edge_counts& counts) {
+  if (!snapshot.is_cell(start)) detail::refuse_removed_cell();
+  for (const Point<D>& x : {triangle.a, triangle.b, triangle.q})
+    detail::check_finite(x, "a corner of a swept triangle");
   return detail::first_touch(snapshot, start, triangle, counts, true);
 }
 
@@ -173,6 +183,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts) {
   if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // the walk of p checks that of p
+  detail::check_finite(q.position, "the end of an edge that stands still");
+  detail::check_search(options);
   Walk_result<D> walked;
   const auto sweep = [&](const Sweep_options& chosen, detail::Sides_taken* choices) {
     return sweep_on_sides(snapshot, p, target, q, before, chosen, counts, choices, walked);

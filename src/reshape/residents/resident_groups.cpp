@@ -16,12 +16,19 @@ void sort_unique(std::vector<Member>& members) {
   members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
+[[noreturn]] void refuse_particle(std::size_t number) {
+  throw Error(Error_code::usage, "particle " + std::to_string(number) +
+                                     " of those listed does not lie in its cell: locate it again");
+}
+
 }  // namespace
 
 template <int D>
 Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents<D>& residents)
     : snapshot_(snapshot) {
   for (Body<D>* body : residents.bodies) {
+    if (body == nullptr)
+      throw Error(Error_code::usage, "a body listed is null: list bodies only, each where it is in memory");
     Resident_group<D>& group = groups_.emplace_back();
     group.body.emplace(*body);
     if (&group.body->snapshot() != &snapshot)
@@ -34,7 +41,10 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
   for (const std::span<Particle<D>> particles : residents.particles) {
     Resident_group<D>& group = groups_.emplace_back();
     group.particles = particles;
-    for (const Particle<D>& p : particles) group.reach.extend(p.position);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (particles[i].cell == Cell::none || !is_finite(particles[i].position)) refuse_particle(i);
+      group.reach.extend(particles[i].position);
+    }
   }
   std::size_t edges = 0;
   for (const Resident_group<D>& group : groups_) {
@@ -59,8 +69,7 @@ std::size_t Resident_groups<D>::open(const Box<D>& box) {
       for (std::size_t i = 0; i < group.particles.size(); ++i)
         if (const Particle<D>& p = group.particles[i];
             !in_closure(snapshot_, p.cell, p.position) || snapshot_.is_solid(p.cell))
-          throw Error(Error_code::usage, "particle " + std::to_string(i) +
-                                             " of those listed does not lie in its cell: locate it again");
+          refuse_particle(i);
     }
     group.is_open = true;
     ++open_;

@@ -25,7 +25,7 @@ class Cell_patcher {
  public:
   explicit Cell_patcher(Environment<D>& environment) : environment_(environment) {}
 
-  const Snapshot<D>& snapshot() const { return environment_.snapshot_; }
+  const Snapshot<D>& snapshot() const { return *environment_.snapshot_; }
 
   /// Fetches into the cache what replace() reads of the map, while the caller does something else.
   void prefetch(std::span<const Cell> cells) const;

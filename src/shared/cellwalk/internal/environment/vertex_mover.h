@@ -36,8 +36,10 @@ class Vertex_mover {
   Vertex_mover& operator=(const Vertex_mover&) = delete;
   ~Vertex_mover();
 
-  const Snapshot<D>& snapshot() const { return environment_.snapshot_; }
+  const Snapshot<D>& snapshot() const { return *environment_.snapshot_; }
 
+  /// \throw Error(usage) if there is no such point; Error(input) for a target that is not finite
+  void check(std::uint32_t point, const Point<D>& target) const { environment_.check_move(point, target); }
   /// Looks at the cells around a point and decides whether it may move to a target, as far as the shape of
   /// the environment goes. Its whole way is looked at: no cell is flat or inverted on it, and no boundary
   /// facet at the point meets another one. Nothing is changed.

@@ -19,7 +19,7 @@ class Wall_editor {
   /// \pre no certificates of the environment are withdrawn while this changes anything
   explicit Wall_editor(Environment<D>& environment) : environment_(environment) {}
 
-  const Snapshot<D>& snapshot() const { return environment_.snapshot_; }
+  const Snapshot<D>& snapshot() const { return *environment_.snapshot_; }
 
   /// \throw Error(usage) if the environment is frozen, or has no such facet
   void check(Half_facet facet) const;

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/environment/held_snapshot.h>
+#include <cellwalk/kernel/error.h>
+
+namespace cellwalk {
+
+void detail::refuse_moved_from() {
+  throw Error(Error_code::usage, "this environment was moved elsewhere: use the one that it was moved to");
+}
+
+}  // namespace cellwalk
