@@ -50,7 +50,7 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
   const auto shorten = [](auto& list, std::size_t size) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
   };
-  Obstruction first;
+  Obstruction last;
   follows_all_ = false;
   for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
     obstruction_ = {};
@@ -60,9 +60,15 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
     if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
     if (choice_ == 0) note_first_choice(before);
     if (obstruction_.meeting == Encounter::apart) return {};
-    if (choice_ == 0) first = std::move(obstruction_);
+    if (choice_ == 0 || goes_further(obstruction_, last)) last = std::move(obstruction_);
   }
-  return first;
+  return last;
+}
+
+/// True if a choice of sides goes further than another one: nothing is passed by it, or later.
+template <int D>
+bool Vertex_trial<D>::goes_further(const Obstruction& one, const Obstruction& other) {
+  return other.hit && (!one.hit || other.hit->time < one.hit->time);
 }
 
 template <int D>
@@ -263,16 +269,22 @@ void Vertex_trial<D>::block(Star_meeting met, Member member, Body_feature featur
 }
 
 template <int D>
-void Vertex_trial<D>::commit() {
-  for (const Moved_vertex& moved : moved_) {
-    groups_.particle(moved.member) = moved.now;
-    if (!moved.keeps_cell) groups_.enter_vertex(moved.member);
+void Vertex_trial<D>::prepare() {
+  for (const Moved_vertex& moved : moved_)
+    if (!moved.keeps_cell) groups_.enter_vertex(moved.member, moved.now.cell);
+  for (const auto& [edge, chain] : chains_) {
+    const Member first{edge.group, groups_.all()[edge.group].edges[edge.number][0]};
+    const Moved_vertex* moved = find(first);
+    groups_.enter_edge(edge, moved ? moved->now.cell : groups_.particle(first).cell, chain,
+                       groups_.chain(edge));
   }
-  for (auto& [edge, chain] : chains_) {
-    std::swap(groups_.chain(edge), chain);
-    groups_.enter_edge(edge, chain);
-  }
-  for (const auto& [face, walls] : rests_) groups_.rest(face, walls);
+}
+
+template <int D>
+void Vertex_trial<D>::commit() noexcept {
+  for (const Moved_vertex& moved : moved_) groups_.particle(moved.member) = moved.now;
+  for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
+  for (auto& [face, walls] : rests_) groups_.rest(face, std::move(walls));
 }
 
 template class Vertex_trial<2>;
