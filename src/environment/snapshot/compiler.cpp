@@ -283,6 +283,7 @@ template <int D>
 Snapshot_compiler<D>::Wall_change::Wall_change(Snapshot<D>& snapshot, std::span<const Half_facet> closed,
                                                std::span<const Half_facet> opened, Cell turned)
     : s_(snapshot), closed_(closed), opened_(opened), turned_(turned) {
+  s_.edits_.reserve_turned(2 * (closed.size() + opened.size()));
   try {
     for (const Half_facet f : closed_) set(f, true);
     if (turned_ != Cell::none) turn(turned_);

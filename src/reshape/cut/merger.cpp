@@ -34,6 +34,12 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
   if (std::ranges::any_of(star, [&](Cell c) { return has_both(c) && s.is_solid(c); }))
     return "a solid cell has both points";
   if (std::ranges::none_of(star, has_both)) return "no free cell has both points";
+  const auto is_on_boundary = [&](Cell c) {
+    return std::ranges::any_of(s.view(c).vertices, [&](std::uint32_t corner) {
+      return corner != point && s.neighbour(facet_off(s, c, corner)) == Cell::none;
+    });
+  };
+  if (std::ranges::any_of(star, is_on_boundary)) return "the boundary has the point";
   for (const Cell c : star) {
     const auto old = corners_of(s, c);
     const bool vanishes = has_both(c);
@@ -45,7 +51,6 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
       const Cell other = s.neighbour(facet);
       walls[k] = s.is_impassable(facet);
       if (old[k] == point) continue;
-      if (other == Cell::none) return "the boundary has the point";
       if (vanishes || !has_corner(s, other, onto)) continue;
       walls[k] = !is_sewn(c, other, point, onto);
       if (!walls[k]) opened.push_back({soup.cell_count(), old[k]});

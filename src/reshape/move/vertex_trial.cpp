@@ -50,18 +50,27 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
   const auto shorten = [](auto& list, std::size_t size) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
   };
-  Obstruction last;
-  follows_all_ = false;
-  for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
+  const auto try_choice = [&] {
     obstruction_ = {};
     shorten(moved_, moved);
     shorten(chains_, chains);
     shorten(rests_, rests);
     if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
+    return obstruction_.meeting == Encounter::apart;
+  };
+  Obstruction last;
+  follows_all_ = to_dead_end_ = false;
+  dead_ends_ = 0;
+  for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
+    const bool is_free = try_choice();
     if (choice_ == 0) note_first_choice(before);
-    if (obstruction_.meeting == Encounter::apart) return {};
+    if (is_free) return {};
     if (choice_ == 0 || goes_further(obstruction_, last)) last = std::move(obstruction_);
   }
+  // It is blocked. A side on which a vertex gets not to the end may go further than others.
+  follows_all_ = to_dead_end_ = true;
+  for (choice_ = 0; !any_ && last.hit && choice_ < std::min(dead_ends_, most_choices); ++choice_)
+    if (!try_choice() && goes_further(obstruction_, last)) last = std::move(obstruction_);
   return last;
 }
 
@@ -117,7 +126,9 @@ void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
     if (!moved || !moved->keeps_cell) continue;
     const Particle<D>& p = groups_.particle(moved->member);
     if (!star.meet(std::span<const Point<D>>(&p.position, 1), false).touches) continue;
-    const std::size_t sides = follow_vertex(star, p).choices;
+    const Followed_vertex followed = follow_vertex(star, p);
+    dead_ends_ = std::max(dead_ends_, followed.dead_ends);
+    const std::size_t sides = followed.choices;
     if (sides == 1) continue;
     follows_all_ = true;
     choices_ = std::max(choices_, choice_ + 1 + sides);
@@ -136,8 +147,9 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex followed = follow_vertex(star, p, choice_);
+    Followed_vertex followed = follow_vertex(star, p, choice_, to_dead_end_);
     choices_ = std::max(choices_, followed.choices);
+    dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
     if (followed.is_free) {
       vertex.now = star.registered_in(followed.cells.end, p);

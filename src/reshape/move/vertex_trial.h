@@ -92,7 +92,9 @@ class Vertex_trial {
   /// all of them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
-  bool follows_all_ = false;  ///< also what keeps its cell
+  bool follows_all_ = false;   ///< also what keeps its cell
+  std::size_t dead_ends_ = 0;  ///< the most sides on which a vertex is blocked after a while, not on others
+  bool to_dead_end_ = false;   ///< these are tried
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
   Obstruction obstruction_;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "side_choice.h"
 
+#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +20,36 @@ void Side_choice<D>::add_vertex(std::uint32_t vertex) {
   std::erase_if(of_vertex.sides, [&](const Particle<D>& side) {
     return std::binary_search(left_.begin(), left_.end(), side.cell);
   });
+  if (of_vertex.sides.size() > 1) {
+    std::vector<std::pair<Side_order, Particle<D>>> sides;
+    for (const Particle<D>& side : of_vertex.sides) sides.emplace_back(order_of(side), side);
+    std::ranges::sort(sides, {}, &std::pair<Side_order, Particle<D>>::first);
+    for (std::size_t k = 0; k < sides.size(); ++k) of_vertex.sides[k] = sides[k].second;
+  }
   of_vertex.may_be.assign(of_vertex.sides.size(), true);
+}
+
+/// The key of the order in which sides are tried, which depends on geometry only: whether the displaced vertex
+/// is elsewhere, and the least corners of the cells that are linked there then.
+template <int D>
+typename Side_choice<D>::Side_order Side_choice<D>::order_of(const Particle<D>& side) const {
+  const Point<D>& x = side.position;
+  Side_order order{true, {}};
+  Link_search<D> links(snapshot_, side.cell);
+  while (links.next()) {
+    bool holds_displaced = true;
+    links.expand_all(
+        [&](const Cell_view<D>& cell, std::size_t i) {
+          const int at = detail::side<Exact>(cell, i, x, counts_);
+          holds_displaced &= at < 0 || (at == 0 && displaced_side(cell, i) < 0);
+          return at == 0 && lies_in(cell, i, x, counts_) &&
+                 !closing_.has(Snapshot<D>::half_facet(links.cell(), i));
+        },
+        [](const Cell_view<D>&, std::size_t, Half_facet) {});
+    if (holds_displaced) order.first = false;
+    take_least(snapshot_.view(links.cell()), order.second);
+  }
+  return order;
 }
 
 template <int D>

@@ -71,6 +71,8 @@ class Side_choice {
   };
   using Vertices = std::map<std::uint32_t, Vertex>;
 
+  using Side_order = std::pair<bool, std::vector<Point<D>>>;
+  Side_order order_of(const Particle<D>& side) const;
   bool may_change(std::uint32_t vertex) const;
   const std::optional<Chain>& chain_between(std::uint32_t edge, std::size_t of_u, std::size_t of_v);
   bool narrow();
