@@ -162,18 +162,12 @@ void compare(test::Listing listing, std::size_t worlds) {
     tally.in_other_cells += twins.in_other_cells;
     Reshaping<D> here(twins.one.environment, twins.one.residents());
     Reshaping<D> there(twins.other.environment, twins.other.residents());
-    const auto change = [&](int count) {
-      for (int k = 0; k < count; ++k)
-        ASSERT_NO_FATAL_FAILURE(change_somewhere(twins, here, there, random, tally)) << "change " << k;
-    };
-    // Where things may go on on several sides, the one that they take is not that in the mirror: then only the
-    // first change tells.
-    const bool is_mirrored = listing == test::Listing::mirrored;
-    if (!is_mirrored || number % 3 != 0)
-      ASSERT_NO_FATAL_FAILURE(change(is_mirrored ? 1 : random.chance(0.5)));
-    if (!is_mirrored || number % 3 == 0)
+    // Where things may go on on several sides, the one that they take is not that in the mirror: only the first
+    // change tells.
+    if (number % 3 == 0)
       ASSERT_NO_FATAL_FAILURE(cut_both<D>(here, there, listing, random, tally));
-    if (!is_mirrored) ASSERT_NO_FATAL_FAILURE(change(12));
+    else
+      ASSERT_NO_FATAL_FAILURE(change_somewhere(twins, here, there, random, tally));
     here.close();
     there.close();
     for (const auto& body : twins.one.bodies) ASSERT_NO_THROW(body->validate());
@@ -184,15 +178,15 @@ void compare(test::Listing listing, std::size_t worlds) {
       "refused, %zu facets slit\n",
       D, tally.worlds, tally.in_other_cells, tally.changes, tally.made, tally.held, tally.split,
       tally.refused, tally.slits);
-  EXPECT_GT(tally.in_other_cells, tally.worlds / 2);
+  if (listing == test::Listing::other_order) EXPECT_GT(tally.in_other_cells, tally.worlds / 2);
   EXPECT_GT(tally.made, tally.changes / 10);
-  EXPECT_GT(tally.held, tally.changes / 20);
+  EXPECT_GT(tally.held, tally.changes / 40);
   EXPECT_GT(tally.slits, tally.worlds / 4);
   EXPECT_GT(tally.refused, tally.worlds / 20);
 }
 
-TEST(Listings, InAnotherOrder2D) { compare<2>(test::Listing::other_order, 100); }
-TEST(Listings, InAnotherOrder3D) { compare<3>(test::Listing::other_order, 40); }
+TEST(Listings, InAnotherOrder2D) { compare<2>(test::Listing::other_order, 400); }
+TEST(Listings, InAnotherOrder3D) { compare<3>(test::Listing::other_order, 90); }
 TEST(Listings, Mirrored2D) { compare<2>(test::Listing::mirrored, 300); }
 TEST(Listings, Mirrored3D) { compare<3>(test::Listing::mirrored, 90); }
 

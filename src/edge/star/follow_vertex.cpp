@@ -29,11 +29,7 @@ class Vertex_search {
       const bool is_end = k + 1 == times_.size();
       std::vector<Cell_class> next =
           continued(times_[k], is_end ? times_[k] : time_between(times_[k], times_[k + 1]));
-      if (next.empty()) {
-        result.block = block(layers_.back(), times_[k]);
-        result.cells = way(k, choice % layers_.back().size(), choice);
-        return result;
-      }
+      if (next.empty()) break;
       for (std::size_t n = 0; n < layers_.back().size(); ++n)
         if (std::ranges::none_of(next, [&](const Cell_class& one) { return one.continues(n); }))
           dead_ends_.emplace_back(k, n);
@@ -46,10 +42,12 @@ class Vertex_search {
       result.cells = way(layer, number, choice);
       return result;
     }
-    result.is_free = true;
-    result.dead_ends = dead_ends_.size();
+    const std::size_t last = layers_.size() - 1;
+    result.is_free = last == times_.size();
     result.choices = most;
-    result.cells = way(times_.size(), choice % layers_.back().size(), choice);
+    result.dead_ends = dead_ends_.size();
+    result.cells = way(last, choice % layers_.back().size(), choice);
+    if (!result.is_free) result.block = block(layers_.back(), times_[last]);
     return result;
   }
 

@@ -148,7 +148,8 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
     Followed_vertex followed = follow_vertex(star, p, choice_, to_dead_end_);
-    choices_ = std::max(choices_, followed.choices);
+    // Of a vertex that is blocked, sides matter to its edges until then.
+    if (followed.is_free || !any_) choices_ = std::max(choices_, followed.choices);
     dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
     if (followed.is_free) {

@@ -42,8 +42,7 @@ typename Side_choice<D>::Side_order Side_choice<D>::order_of(const Particle<D>& 
         [&](const Cell_view<D>& cell, std::size_t i) {
           const int at = detail::side<Exact>(cell, i, x, counts_);
           holds_displaced &= at < 0 || (at == 0 && displaced_side(cell, i) < 0);
-          return at == 0 && lies_in(cell, i, x, counts_) &&
-                 !closing_.has(Snapshot<D>::half_facet(links.cell(), i));
+          return at == 0 && in_facet(cell, i, x) && !closing_.has(Snapshot<D>::half_facet(links.cell(), i));
         },
         [](const Cell_view<D>&, std::size_t, Half_facet) {});
     if (holds_displaced) order.first = false;

@@ -37,8 +37,8 @@ struct Cells_of_vertex {
 
 struct Followed_vertex {
   bool is_free = false;
-  std::size_t choices = 0;    ///< if it is free: the most sides on which it may be at one time
-  std::size_t dead_ends = 0;  ///< if it is free: sides on which it is blocked after a while
+  std::size_t choices = 0;    ///< the most sides on which it may be at one time
+  std::size_t dead_ends = 0;  ///< sides on which it is blocked before it is so on others, if at all
   Cells_of_vertex cells;
   std::optional<Star_block> block;  ///< if it is not free
 };
