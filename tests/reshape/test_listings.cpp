@@ -162,8 +162,8 @@ void compare(test::Listing listing, std::size_t worlds) {
     tally.in_other_cells += twins.in_other_cells;
     Reshaping<D> here(twins.one.environment, twins.one.residents());
     Reshaping<D> there(twins.other.environment, twins.other.residents());
-    // Where things may go on on several sides, the one that they take is not that in the mirror: only the first
-    // change tells.
+    // Where things may go on on several sides, the one that they take is not that in the mirror: only the
+    // first change tells.
     if (number % 3 == 0)
       ASSERT_NO_FATAL_FAILURE(cut_both<D>(here, there, listing, random, tally));
     else

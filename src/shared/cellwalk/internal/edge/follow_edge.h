@@ -47,8 +47,8 @@ struct Followed_vertex {
 /// be. If it may be on several sides of walls, those whose rims pass it, one of them is chosen, at each time.
 /// \param choice the number of that side, modulo theirs; the first is that of the particle displaced by (e,
 ///        e^2, e^3), e small
-/// \param to_dead_end choose among the sides on which it is blocked after a while, if there are any: as long as
-///        it is not, more of its edges may be free
+/// \param to_dead_end choose among the sides on which it is blocked after a while, if there are any: as long
+///        as it is not, more of its edges may be free
 /// Cost: exact numbers for each facet at the vertex of the environment.
 template <int D>
 Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice = 0,
