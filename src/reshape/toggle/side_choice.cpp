@@ -29,8 +29,8 @@ void Side_choice<D>::add_vertex(std::uint32_t vertex) {
   of_vertex.may_be.assign(of_vertex.sides.size(), true);
 }
 
-/// The key of the order in which sides are tried, which depends on geometry only: whether the displaced vertex
-/// is elsewhere, and the least corners of the cells that are linked there then.
+/// The key of the order in which sides are tried, which depends on geometry only: whether the displaced
+/// vertex is elsewhere, and the least corners of the cells that are linked there then.
 template <int D>
 typename Side_choice<D>::Side_order Side_choice<D>::order_of(const Particle<D>& side) const {
   const Point<D>& x = side.position;
