@@ -86,7 +86,7 @@ void cut_many(std::size_t worlds) {
   // In the plane no edge is a facet of both.
   if (D == 3) EXPECT_GT(fixed, count / 20);
   EXPECT_GT(slit, count / 4);
-  EXPECT_GT(opened, count);
+  EXPECT_GT(opened, count / 2);
 }
 
 TEST(FreeSpace, IsNotTakenByCuts2D) { cut_many<2>(150); }
