@@ -227,6 +227,8 @@ class Refusals(unittest.TestCase):
         self.refused(ValueError, r"pieces\[0, 2\] is 3", lambda e: e.cut(blade, pieces=numpy.array([[0, 1, 3]])))
         self.refused(cellwalk.InputError, "opened by a positive length", lambda e: e.cut(blade, opening=0.0))
         self.refused(cellwalk.InputError, "a blade has at least", lambda e: e.cut(blade[:2].copy()))
+        self.refused(cellwalk.InputError, "not convex at corner", lambda e: e.cut(numpy.array([[1.5, -1, -1], [1.5, 4, 4], [1.5, 4, -1], [1.5, -1, 4.0]])))
+        self.refused(cellwalk.InputError, "off the plane of others", lambda e: e.cut(numpy.array([[1.5, -1, -1], [1.5, 4, -1], [1.5, 4, 4], [2.5, -1, 4.0]])))
         self.refused(TypeError, "blade must be a C-contiguous", lambda e: e.cut(blade.tolist()))
         with plane().editing() as edits:
             with self.assertRaisesRegex(cellwalk.UsageError, "sweep is for 3D"):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/body/body_access.h>
 
+#include <utility>
 #include <vector>
 
 #include "body_state.h"
@@ -84,9 +85,9 @@ bool Body_access<D>::has_supporting_walls() const {
 }
 
 template <int D>
-void Body_access<D>::rest(std::uint32_t face, const Supporting_walls& walls) {
+void Body_access<D>::rest(std::uint32_t face, Supporting_walls&& walls) noexcept {
   state_->may_have_supporting_walls |= !walls.empty();
-  state_->supporting_walls[face] = walls;
+  state_->supporting_walls[face] = std::move(walls);
 }
 
 template <int D>

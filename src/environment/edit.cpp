@@ -81,9 +81,9 @@ void Environment<D>::set_impassable(Half_facet facet, bool wall) {
   if (!wall && map.info(own).is_solid() != map.info(other).is_solid())
     throw Error(Error_code::not_certified,
                 name + " parts a solid cell from a free one: it must stay impassable");
+  snapshot_->set_impassable(facet, wall);  // first: it takes memory
   for (const Dart<D> side : {own, other})
     for_each_dart_of_half_facet<D>(map, side, [&](Dart<D> d) { map.info(d).set_impassable(wall); });
-  snapshot_->set_impassable(facet, wall);
 }
 
 template <int D>

@@ -155,7 +155,6 @@ void Vertex_mover<D>::take_back() {
 template <int D>
 void Vertex_mover<D>::commit() {
   Snapshot_compiler<D>(*environment_.snapshot_).raise_epochs();
-  has_made_ = true;
   environment_.follow_move(point_, is_on_boundary_);
 }
 
@@ -169,10 +168,7 @@ void Vertex_mover<D>::restore() {
     for (std::size_t i = 0; i < is_withdrawn_.size(); ++i)
       if (is_withdrawn_[i]) withdrawn_.push_back(Cell{static_cast<std::uint32_t>(i)});
   }
-  if (std::exchange(has_made_, false))
-    environment_.snapshot_->update_geometry(withdrawn_);
-  else
-    Snapshot_compiler<D>(*environment_.snapshot_).certify_again(withdrawn_);
+  Snapshot_compiler<D>(*environment_.snapshot_).certify_again(withdrawn_);
   for (const Cell c : withdrawn_) is_withdrawn_[to_index(c)] = false;
   withdrawn_.clear();
 }

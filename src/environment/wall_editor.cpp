@@ -2,6 +2,8 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/wall_editor.h>
 
+#include <utility>
+
 #include "environment/snapshot/compiler.h"
 
 namespace cellwalk {
@@ -31,36 +33,46 @@ std::vector<Half_facet> Wall_editor<D>::passages(Cell cell, bool to_solid) const
 }
 
 template <int D>
-void Wall_editor<D>::set_solid(Cell cell, bool solid) {
+void Wall_editor<D>::change(Cell turned, std::span<const Half_facet> closed,
+                            std::span<const Half_facet> opened) {
   Map_storage<D>& storage = environment_.editable();
-  for (std::size_t i = 0; i < snapshot().facet_count(cell); ++i)
-    for_each_dart_of_half_facet<D>(storage.map,
-                                   storage.dart_of_half_facet[to_index(Snapshot<D>::half_facet(cell, i))],
-                                   [&](Dart<D> d) { storage.map.info(d).set_solid(solid); });
-  Snapshot_compiler<D>(*environment_.snapshot_).set_solid(cell, solid);
+  typename Snapshot_compiler<D>::Wall_change change(*environment_.snapshot_, closed, opened, turned);
+  // Nothing takes memory from here on.
+  change.keep();
+  const auto mark = [&](Half_facet side, const auto& set) {
+    for_each_dart_of_half_facet<D>(storage.map, storage.dart_of_half_facet[to_index(side)],
+                                   [&](Dart<D> d) { set(storage.map.info(d)); });
+  };
+  for (const auto& [facets, wall] : {std::pair(closed, true), std::pair(opened, false)})
+    for (const Half_facet f : facets)
+      for (const Half_facet side : {f, snapshot().opposite(f)})
+        mark(side, [wall = wall](Dart_info& info) { info.set_impassable(wall); });
+  for (std::size_t i = 0; i < snapshot().facet_count(turned); ++i)
+    mark(Snapshot<D>::half_facet(turned, i),
+         [&](Dart_info& info) { info.set_solid(snapshot().is_solid(turned)); });
 }
 
 template <int D>
 void Wall_editor<D>::fill(Cell cell, std::span<const Half_facet> passages) {
-  for (const Half_facet f : passages) set_wall(f, true);
-  set_solid(cell, true);
-}
-
-template <int D>
-void Wall_editor<D>::take_back_fill(Cell cell, std::span<const Half_facet> passages) {
-  set_solid(cell, false);
-  for (const Half_facet f : passages) set_wall(f, false);
+  change(cell, passages, {});
 }
 
 template <int D>
 void Wall_editor<D>::excavate(Cell cell) {
-  for (const Half_facet f : passages(cell, true)) set_wall(f, true);
-  set_solid(cell, false);
+  std::vector<Half_facet> opened;
   for (std::size_t i = 0; i < snapshot().facet_count(cell); ++i) {
     const Half_facet f = Snapshot<D>::half_facet(cell, i);
     const Cell other = snapshot().neighbour(f);
-    if (other != Cell::none && !snapshot().is_solid(other)) set_wall(f, false);
+    if (other != Cell::none && !snapshot().is_solid(other)) opened.push_back(f);
   }
+  change(cell, passages(cell, true), opened);
+}
+
+template <int D>
+void Wall_editor<D>::with_walls(std::span<const Half_facet> walls, Cell filled,
+                                const std::function<void()>& use) {
+  const typename Snapshot_compiler<D>::Wall_change change(*environment_.snapshot_, walls, {}, filled);
+  use();
 }
 
 template class Wall_editor<2>;

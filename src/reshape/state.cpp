@@ -60,6 +60,7 @@ Vertex_result<D> Reshaping_state<D>::attempt(std::uint32_t point, const Point<D>
       counts.near += trial.near();
       counts.certified += trial.certified();
     }
+    if (is_free && kind != Attempt::nothing) trial.prepare();
   } catch (...) {
     mover.take_back();
     throw;

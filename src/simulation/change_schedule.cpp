@@ -97,6 +97,11 @@ Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environme
         planned_.emplace_back(Planned{i, change.kind, change.step, change.until, {}, {}, {}, {}});
     if (change.kind == Change_kind::cut) {
       planned.blade = change.blade;
+      try {
+        blade_of<D>(change.blade);
+      } catch (const Error& e) {
+        throw Error(e.code(), fmt::format("changes[{}].cut: {}", i, e.what()));
+      }
       continue;
     }
     if (change.kind == Change_kind::sew) {

@@ -220,5 +220,21 @@ TEST_F(Edit, RefusesWhatIsWrongAndWritesNothing) {
          {"changes.json: changes[0].sew: no cut comes before it: cut first, or let it last"});
 }
 
+/// Before anything is changed, also by changes that come first.
+TEST_F(Edit, RefusesBladesThatAreNone) {
+  succeed({"generate", "tets", "--cells", "2", "-o", "env.ovm"});
+  const auto refuse = [&](const std::string& blade, const std::string& said) {
+    write("changes.json", R"({"changes": [{"fill": {"box": [[-9, -9, -9], [9, 9, 9]]}}, {"cut": {"blade": )" +
+                              blade + "}}]}");
+    expect_failure(3, {"edit", "env.ovm", "changes.json", "-o", "out.ovm"},
+                   {"changes.json: changes[1].cut: " + said});
+    EXPECT_FALSE(exists("out.ovm"));
+  };
+  refuse("[[0, 0.3, 0], [2, 0.3, 2], [2, 0.3, 0], [0, 0.3, 2]]", "the blade is not convex at corner");
+  refuse("[[0, 0.3, 0], [2, 0.3, 0], [2, 0.3, 2], [0, 1.7, 2]]", "corner 1 of the blade lies off the plane");
+  refuse("[[0, 0.3, 0], [2, 0.3, 2], [1, 0.3, 1]]", "the corners of the blade lie in line");
+  refuse("[[0, 0.3, 0], [2, 0.3, 2]], \"sweep\": [1, 0, 1]", "a piece of the blade has no extent");
+}
+
 }  // namespace
 }  // namespace cellwalk::test

@@ -29,11 +29,14 @@ struct Relisted {
 };
 
 /// Points, cells and facets in another order; loops start elsewhere (2D: those of cells).
+/// \param keeps_points points stay in their order
 template <int D>
-Relisted<D> relisted(const Cell_soup<D>& soup, std::uint64_t seed) {
+Relisted<D> relisted(const Cell_soup<D>& soup, std::uint64_t seed, bool keeps_points = false) {
   Random random(seed);
   Relisted<D> result;
-  const auto points = shuffled(soup.points.size(), random), cells = shuffled(soup.cell_count(), random);
+  auto points = shuffled(soup.points.size(), random);
+  const auto cells = shuffled(soup.cell_count(), random);
+  if (keeps_points) std::iota(points.begin(), points.end(), 0);
   std::vector<std::uint32_t>& new_point = result.new_point;
   new_point.resize(points.size());
   for (std::uint32_t k = 0; k < points.size(); ++k) {

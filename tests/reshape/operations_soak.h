@@ -257,6 +257,13 @@ class Operations {
     return false;
   }
 
+  /// A line, a triangle, or two triangles that bend.
+  static Blade<D> blade_of(const std::vector<Point<D>>& points) {
+    if constexpr (D == 3)
+      if (points.size() == 4) return {points, {{0, 1, 2}, {0, 2, 3}}};
+    return blade_along<D>(points);
+  }
+
   void cut(Reshaping<D>& reshaping) {
     if (snapshot_.cell_count() > most_cells) return;
     const Point<D> middle = centroid(snapshot_, world_.cell());
@@ -268,7 +275,7 @@ class Operations {
       }
     Cut_report report;
     try {
-      report = reshaping.cut(blade_along<D>(points),
+      report = reshaping.cut(blade_of(points),
                              {.opening = std::ldexp(0.02, 4 * static_cast<int>(random_.below(3)))});
     } catch (const Error& e) {
       ASSERT_EQ(e.code(), Error_code::input) << e.what();  // the points lie in line

@@ -131,9 +131,9 @@ void cut_at_any_scale() {
     for (Point<D>& x : soup.points) x = scale * x;
     auto environment = Environment<D>::build(std::move(soup));
     std::vector<Point<D>> points = straight_blade<D>();
-    points[0][0] += 0.3;
     for (Point<D>& x : points) x = scale * x;
     Blade<D> by = blade<D>(points);
+    by.points[0][0] += 0.3 * scale;  // in space its two triangles bend
     Reshaping<D> reshaping(environment, {});
     const Cut_report report = reshaping.cut(by, {.opening = 0.02 * scale});
     reshaping.close();

@@ -23,12 +23,16 @@ struct Blade {
 };
 
 /// The surface of a convex polygon, its corners in order around it (2D: a line through the points in order).
-/// \throw Error(input) for fewer than 3 points (2D: 2), or points that are not finite
+/// Corners may lie on its sides.
+/// \throw Error(input) for fewer than 3 points (2D: 2), points that are not finite, and a polygon that is not
+///        planar, not convex, without extent, or winds around more than once. Planes and sides are met up to
+///        1e-9 of its size, and rounding of its coordinates; the rest is exact.
 template <int D>
 Blade<D> blade_along(std::span<const Point<D>> points);
 
 /// The surface that a line through points in order sweeps.
-/// \throw Error(input) for fewer than 2 points, points that are not finite, or a displacement of no length
+/// \throw Error(input) for fewer than 2 points, points that are not finite, a displacement of no length, and
+///        one along a piece of the line
 Blade<3> swept_blade(std::span<const Point<3>> line, const Vector<3>& displacement);
 
 template <int D>

@@ -145,9 +145,10 @@ class Reshaping {
   Replacement insert_point(Cell cell, const Point<D>& position);
 
   /// Replaces the cells around an edge by those that a new point joined to both ends makes of them. The
-  /// position need not be on the edge. If a wall has the edge, it must lie on it exactly, and nothing may lie
-  /// in these cells, nor rest on their walls: then walls stay where they are. Refused otherwise, and if the
-  /// boundary has the edge.
+  /// position need not be on the edge. If a wall has the edge, it must lie on it exactly, and nothing may
+  /// have to lie in these cells, nor rest on their walls: then walls stay where they are. Refused otherwise,
+  /// and if the boundary has the edge.
+  /// Degenerate cases: what lies on the border of these cells may be on their side of it, or be beside them.
   Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
 
   /// Replaces the two cells of a facet by three around the edge that joins their other vertices (2D: by two
@@ -188,12 +189,11 @@ class Reshaping {
   /// it is a wall if one was on either side of the cell that vanished. A cut is closed by merging the points
   /// that it made with those that they were taken back from: Cut_report::points. Refused if a cell would be
   /// flat or inverted, if a solid cell has both points or no free one, if the boundary has the point, and if
-  /// anything is registered in the free cells around it, or a face of a body lies near; held_by has all that.
+  /// anything has to lie in the free cells around it, or a face of a body lies near; held_by has all that.
   /// Later new points may get the index of the point; those before keep theirs.
   /// \throw Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
   ///        a simplex, if frozen, for a particle near that is not in its cell, and after close()
-  /// Degenerate cases: what lies on the border of the cells around the point counts if it is registered in
-  /// one of them.
+  /// Degenerate cases: as split_edge().
   /// Cost: 3 to 5 us a new cell, whatever the size of the environment.
   Replacement merge(std::uint32_t point, std::uint32_t onto);
 
@@ -201,8 +201,9 @@ class Reshaping {
   /// facets that then lie along it are parted: the cells in front of the blade are taken back, and free ones
   /// fill the gap. At its rim inside solid cells the cut ends at facets, up to a cell before or beyond the
   /// blade, and on the boundary of the environment it stays closed. Membranes of triangles (2D: segments) are
-  /// slit as wide as the opening, but where something is registered beside them. All else is never refused;
-  /// where something could not be split or parted, the cut is incomplete, and the report says how much of it.
+  /// slit as wide as the opening, but where something has to lie beside them. Solid only retreats. All else
+  /// is never refused; where something could not be split or parted, the cut is incomplete, and the report
+  /// says how much of it.
   /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
   ///        Error(usage) if frozen or closed, and for a particle near not in its cell; before any change
   /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.

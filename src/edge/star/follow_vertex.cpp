@@ -4,6 +4,7 @@
 #include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "star_clock.h"
@@ -20,7 +21,7 @@ class Vertex_search {
     complete_times(times_);
   }
 
-  Followed_vertex run(std::size_t choice) {
+  Followed_vertex run(std::size_t choice, bool to_dead_end) {
     Followed_vertex result;
     layers_.push_back({Cell_class{{p_.cell}, {}}});
     std::size_t most = 1;
@@ -28,17 +29,25 @@ class Vertex_search {
       const bool is_end = k + 1 == times_.size();
       std::vector<Cell_class> next =
           continued(times_[k], is_end ? times_[k] : time_between(times_[k], times_[k + 1]));
-      if (next.empty()) {
-        result.block = block(times_[k]);
-        result.cells = way(choice);
-        return result;
-      }
+      if (next.empty()) break;
+      for (std::size_t n = 0; n < layers_.back().size(); ++n)
+        if (std::ranges::none_of(next, [&](const Cell_class& one) { return one.continues(n); }))
+          dead_ends_.emplace_back(k, n);
       most = std::max(most, next.size());
       layers_.push_back(std::move(next));
     }
-    result.is_free = true;
+    if (to_dead_end && !dead_ends_.empty()) {
+      const auto [layer, number] = dead_ends_[choice % dead_ends_.size()];
+      result.block = block(std::span(&layers_[layer][number], 1), times_[layer]);
+      result.cells = way(layer, number, choice);
+      return result;
+    }
+    const std::size_t last = layers_.size() - 1;
+    result.is_free = last == times_.size();
     result.choices = most;
-    result.cells = way(choice);
+    result.dead_ends = dead_ends_.size();
+    result.cells = way(last, choice % layers_.back().size(), choice);
+    if (!result.is_free) result.block = block(layers_.back(), times_[last]);
     return result;
   }
 
@@ -47,6 +56,8 @@ class Vertex_search {
   struct Cell_class {
     std::vector<Cell> cells;
     std::vector<std::size_t> parents;  ///< by number, those in the interval before that it continues
+
+    bool continues(std::size_t number) const { return std::ranges::find(parents, number) != parents.end(); }
   };
 
   /// Some cells and all that are linked with them at a time.
@@ -104,12 +115,11 @@ class Vertex_search {
     return true;
   }
 
-  /// A way through the layers found so far: where there are several classes, that with a number, modulo
-  /// theirs.
-  Cells_of_vertex way(std::size_t choice) const {
+  /// A way through the layers up to a class of one: where there are several classes, that with the number of
+  /// the choice, modulo theirs.
+  Cells_of_vertex way(std::size_t layer, std::size_t number, std::size_t choice) const {
     Cells_of_vertex cells;
-    std::size_t number = choice % layers_.back().size();
-    for (std::size_t k = layers_.size(); k-- > 1;) {
+    for (std::size_t k = layer; k > 0; --k) {
       const Cell_class& here = layers_[k][number];
       const bool has_own = std::ranges::find(here.cells, p_.cell) != here.cells.end();
       const Cell cell = has_own ? p_.cell : here.cells.front();
@@ -123,11 +133,11 @@ class Vertex_search {
     return cells;
   }
 
-  /// The wall that holds the particle at a time with its lowest feature.
-  std::optional<Star_block> block(const Fraction& time) const {
+  /// The wall that holds the particle, in some classes until then, at a time with its lowest feature.
+  std::optional<Star_block> block(std::span<const Cell_class> classes, const Fraction& time) const {
     const Moving_star<D>& star = clock_.star();
     std::vector<Cell> last;
-    for (const Cell_class& one : layers_.back()) last.insert(last.end(), one.cells.begin(), one.cells.end());
+    for (const Cell_class& one : classes) last.insert(last.end(), one.cells.begin(), one.cells.end());
     std::optional<Star_block> first;
     for (const Cell c : linked_at(std::move(last), time)) {
       const Cell_view<D> cell = snapshot_.view(c);
@@ -148,16 +158,18 @@ class Vertex_search {
   const Particle<D>& p_;
   std::vector<Fraction> times_;
   std::vector<std::vector<Cell_class>> layers_;  ///< before the start, in each interval, and at the end
+  std::vector<std::pair<std::size_t, std::size_t>> dead_ends_;  ///< layers and classes that nothing continues
 };
 
 }  // namespace
 
 template <int D>
-Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice) {
-  return Vertex_search<D>(star, p).run(choice);
+Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice,
+                              bool to_dead_end) {
+  return Vertex_search<D>(star, p).run(choice, to_dead_end);
 }
 
-template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t);
-template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t);
+template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t, bool);
+template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t, bool);
 
 }  // namespace cellwalk::detail

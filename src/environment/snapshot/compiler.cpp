@@ -279,6 +279,68 @@ void Snapshot_compiler<D>::link_boundary(Half_facet f) {
   s_.links_[to_index(f)] = Snapshot<D>::link_mask | Snapshot<D>::wall_bit;
 }
 
+template <int D>
+Snapshot_compiler<D>::Wall_change::Wall_change(Snapshot<D>& snapshot, std::span<const Half_facet> closed,
+                                               std::span<const Half_facet> opened, Cell turned)
+    : s_(snapshot), closed_(closed), opened_(opened), turned_(turned) {
+  s_.edits_.reserve_turned(2 * (closed.size() + opened.size()));
+  try {
+    for (const Half_facet f : closed_) set(f, true);
+    if (turned_ != Cell::none) turn(turned_);
+    for (const Half_facet f : opened_) set(f, false);
+  } catch (...) {  // exact numbers take memory
+    put_back();
+    throw;
+  }
+}
+
+template <int D>
+void Snapshot_compiler<D>::Wall_change::set(Half_facet f, bool wall) {
+  const Cell a = s_.cell_of(f), b = s_.neighbour(f);
+  const std::size_t first = before_.size();
+  // All facets that two cells share carry the same convex-pair condition.
+  for (std::size_t i = 0; i < s_.facet_count(a); ++i) {
+    const Half_facet own = s_.half_facet(a, i);
+    if (s_.neighbour(own) != b) continue;
+    for (const Half_facet h : {own, s_.opposite(own)}) before_.push_back({h, s_.links_[to_index(h)]});
+  }
+  for (const Half_facet h : {f, s_.opposite(f)}) {
+    std::uint32_t& word = s_.links_[to_index(h)];
+    word = wall ? word | Snapshot<D>::wall_bit : word & ~Snapshot<D>::wall_bit;
+  }
+  const bool is_pair = !wall && Snapshot_compiler(s_).is_convex_pair(f);
+  for (std::size_t k = first; k < before_.size(); ++k) {
+    std::uint32_t& word = s_.links_[to_index(before_[k].facet)];
+    constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
+    word = is_pair ? word | bit : word & ~bit;
+  }
+  for (const Cell c : {a, b}) s_.forget(c);
+}
+
+template <int D>
+void Snapshot_compiler<D>::Wall_change::turn(Cell c) noexcept {
+  s_.shape_[to_index(c)] ^= Snapshot<D>::solid_bit;
+  s_.forget(c);
+  is_turned_ = !is_turned_;
+}
+
+template <int D>
+void Snapshot_compiler<D>::Wall_change::put_back() noexcept {
+  for (auto link = before_.rbegin(); link != before_.rend(); ++link) {
+    s_.links_[to_index(link->facet)] = link->word;
+    s_.forget(s_.cell_of(link->facet));
+  }
+  if (is_turned_) turn(turned_);
+}
+
+template <int D>
+void Snapshot_compiler<D>::Wall_change::keep() noexcept {
+  is_kept_ = true;
+  for (const Half_facet f : closed_) s_.edits_.note_turned(++s_.epoch_, f, s_.opposite(f));
+  if (is_turned_) ++s_.epoch_;
+  for (const Half_facet f : opened_) s_.edits_.note_turned(++s_.epoch_, f, s_.opposite(f));
+}
+
 template class Snapshot_compiler<2>;
 template class Snapshot_compiler<3>;
 

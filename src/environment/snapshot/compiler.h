@@ -5,6 +5,8 @@
 
 #include <cellwalk/environment/snapshot.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
@@ -40,13 +42,7 @@ class Snapshot_compiler {
   /// Withdraws what planes and convex pairs certify of a cell, before its points move: all of it is decided
   /// exactly until Snapshot::update_geometry(). Also of the other sides of its facets.
   void withdraw(Cell c);
-  /// Makes a cell solid or free. Its facets are left as they are.
-  void set_solid(Cell c, bool solid) {
-    std::uint32_t& word = s_.shape_[to_index(c)];
-    word = solid ? word | Snapshot<D>::solid_bit : word & ~Snapshot<D>::solid_bit;
-    s_.forget(c);
-    ++s_.epoch_;
-  }
+  class Wall_change;
   /// What is known of many cells at once was wrong of a cell if it was found since its points began to move.
   void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
@@ -57,8 +53,7 @@ class Snapshot_compiler {
     s_.edits_ = before.edits_;
     s_.edits_.note_renamed(s_.epoch_, std::move(names));
   }
-  /// Makes certificates of cells anew whose points are where they were when these were withdrawn: all is as
-  /// it was, and no epoch rises.
+  /// Makes certificates of cells anew that were withdrawn. No epoch rises: it did when points moved.
   void certify_again(std::span<const Cell> cells) {
     const std::uint64_t epoch = s_.epoch_, geometry_epoch = s_.geometry_epoch_;
     s_.update_geometry(cells);
@@ -102,6 +97,44 @@ class Snapshot_compiler {
 
   Snapshot<D>& s_;
   std::mutex shapes_mutex_;
+};
+
+/// Facets that become walls or passable, and a cell that becomes solid or free with them: tried, and then
+/// kept or put back.
+template <int D>
+class Snapshot_compiler<D>::Wall_change {
+ public:
+  /// Makes the change, but for epochs and the list of edits, so that what reads the snapshot can tell what
+  /// comes of it.
+  /// \param closed passable facets, each seen from one side
+  /// \param opened walls, not on the boundary, each seen from one side
+  /// \param turned a solid cell that becomes free, or a free one that becomes solid; or none
+  /// \throw std::bad_alloc, with nothing changed
+  Wall_change(Snapshot<D>& snapshot, std::span<const Half_facet> closed, std::span<const Half_facet> opened,
+              Cell turned = Cell::none);
+  Wall_change(const Wall_change&) = delete;
+  Wall_change& operator=(const Wall_change&) = delete;
+  /// Puts all back, unless it was kept.
+  ~Wall_change() {
+    if (!is_kept_) put_back();
+  }
+  /// Keeps the change, and raises the epoch by one for each facet and the cell.
+  void keep() noexcept;
+
+ private:
+  void set(Half_facet f, bool wall);
+  void turn(Cell c) noexcept;
+  void put_back() noexcept;
+
+  struct Link {
+    Half_facet facet;
+    std::uint32_t word;
+  };
+  Snapshot<D>& s_;
+  std::span<const Half_facet> closed_, opened_;
+  Cell turned_;
+  boost::container::small_vector<Link, 16> before_;
+  bool is_turned_ = false, is_kept_ = false;
 };
 
 template <int D>

@@ -106,6 +106,11 @@ std::vector<Cell> Edits_since::parts_of(Cell cell) const {
   return parts;
 }
 
+void Edit_log::reserve_turned(std::size_t sides) {
+  const std::size_t size = turned_.size() + sides;
+  if (turned_.capacity() < size) turned_.reserve(std::max(size, 2 * turned_.capacity()));
+}
+
 void Edit_log::note_turned(std::uint64_t epoch, Half_facet one, Half_facet other) {
   for (const Half_facet f : {one, other})
     if (f != Half_facet::none) add(turned_, {epoch, to_index(f)}, lost_at_);

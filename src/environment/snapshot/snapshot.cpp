@@ -97,19 +97,10 @@ void Snapshot<D>::refuse_edited(const char* what_and_advice) {
 
 template <int D>
 void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
-  const Half_facet g = opposite(f);
-  if (g == Half_facet::none || is_impassable(f) == wall) return;  // the boundary stays a wall
-  for (const Half_facet h : {f, g}) {
-    std::uint32_t& word = links_[to_index(h)];
-    word = wall ? word | wall_bit : word & ~wall_bit;
-  }
-  // Other facets shared by the two cells carry the same convex-pair condition.
-  const Cell a = cell_of(f), b = cell_of(g);
-  Snapshot_compiler<D> compiler(*this);
-  for (std::size_t i = 0; i < facet_count(a); ++i)
-    if (neighbour(half_facet(a, i)) == b) compiler.write_convex_pair(half_facet(a, i));
-  for (const Cell c : {a, b}) forget(c);
-  edits_.note_turned(++epoch_, f, g);
+  if (neighbour(f) == Cell::none || is_impassable(f) == wall) return;  // the boundary stays a wall
+  const std::span<const Half_facet> one(&f, 1), none;
+  typename Snapshot_compiler<D>::Wall_change change(*this, wall ? one : none, wall ? none : one);
+  change.keep();
 }
 
 template <int D>

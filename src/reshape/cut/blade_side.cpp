@@ -9,60 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
-namespace cellwalk {
-namespace {
-
-template <int D>
-void check_finite(std::span<const Point<D>> points) {
-  for (const Point<D>& x : points)
-    if (!is_finite(x))
-      throw Error(Error_code::input, "a point of the blade is not finite: correct its coordinates");
-}
-
-template <int D>
-void check_points(std::span<const Point<D>> points, std::size_t least) {
-  if (points.size() < least)
-    throw Error(Error_code::input, "a blade has at least " + std::to_string(least) + " points");
-  check_finite<D>(points);
-}
-
-}  // namespace
-
-template <int D>
-Blade<D> blade_along(std::span<const Point<D>> points) {
-  check_points<D>(points, D);
-  Blade<D> blade;
-  blade.points.assign(points.begin(), points.end());
-  const auto count = static_cast<std::uint32_t>(points.size());
-  if constexpr (D == 2)
-    for (std::uint32_t k = 1; k < count; ++k) blade.pieces.push_back({k - 1, k});
-  else
-    for (std::uint32_t k = 2; k < count; ++k) blade.pieces.push_back({0, k - 1, k});
-  return blade;
-}
-
-Blade<3> swept_blade(std::span<const Point<3>> line, const Vector<3>& displacement) {
-  check_points<3>(line, 2);
-  if (!is_finite(displacement) || !(length(displacement) > 0))
-    throw Error(Error_code::input, "a blade is swept by a displacement of some finite length");
-  Blade<3> blade;
-  for (const Point<3>& x : line) {
-    blade.points.push_back(x);
-    blade.points.push_back(x + displacement);
-  }
-  for (std::uint32_t k = 3; k < blade.points.size(); k += 2) {
-    blade.pieces.push_back({k - 3, k - 1, k - 2});
-    blade.pieces.push_back({k - 2, k - 1, k});
-  }
-  return blade;
-}
-
-template Blade<2> blade_along(std::span<const Point<2>>);
-template Blade<3> blade_along(std::span<const Point<3>>);
-
-namespace detail {
+namespace cellwalk::detail {
 namespace {
 
 int sign(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
@@ -134,23 +82,16 @@ Vector<3> normal_of(const std::array<Point<3>, 3>& p) { return unit_normal(p[0],
 
 template <int D>
 Blade_side<D>::Blade_side(const Blade<D>& blade) {
-  check_finite<D>(blade.points);
+  check_blade(blade);
   for (const auto& piece : blade.pieces) {
     Corners corners;
     Box<D> box;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      if (piece[k] >= blade.points.size())
-        throw Error(Error_code::input, "a piece of the blade names point " + std::to_string(piece[k]) +
-                                           " of " + std::to_string(blade.points.size()));
       corners[k] = blade.points[piece[k]];
       box.extend(corners[k]);
     }
-    const Vector<D> normal = normal_of(corners);
-    if (normal == Vector<D>{})
-      throw Error(Error_code::input,
-                  "a piece of the blade has no extent: its corners coincide or lie in line");
     pieces_.push_back(corners);
-    normals_.push_back(normal);
+    normals_.push_back(normal_of(corners));
     boxes_.push_back(box);
     box_.extend(box);
   }
@@ -213,5 +154,4 @@ double Blade_side<D>::side(const Point<D>& x) const {
 template class Blade_side<2>;
 template class Blade_side<3>;
 
-}  // namespace detail
-}  // namespace cellwalk
+}  // namespace cellwalk::detail

@@ -13,10 +13,15 @@
 
 namespace cellwalk::detail {
 
+/// \throw Error(input) for a point that is not finite, for a piece that names no point, or has no extent, and
+///        for two pieces whose sides do not agree
+template <int D>
+void check_blade(const Blade<D>& blade);
+
 template <int D>
 class Blade_side {
  public:
-  /// \throw Error(input) for a point that is not finite, and a piece that names no point, or has no extent
+  /// \throw Error(input) as check_blade()
   explicit Blade_side(const Blade<D>& blade);
 
   /// \throw Error(input) for a corner of a piece that lies so far off an environment, given by its box, that
@@ -43,6 +48,8 @@ class Blade_side {
   Box<D> box_;
 };
 
+extern template void check_blade(const Blade<2>&);
+extern template void check_blade(const Blade<3>&);
 extern template class Blade_side<2>;
 extern template class Blade_side<3>;
 

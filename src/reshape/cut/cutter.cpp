@@ -9,32 +9,17 @@
 #include <cmath>
 #include <utility>
 
+#include "simplices.h"
+
 namespace cellwalk::detail {
 namespace {
 
-/// A point on an edge of walls goes off into the solid by so many units in the last place, doubled so often.
-constexpr int most_shifts = 8;
 /// A vertex that is parted goes less far where there is no room, halved so often.
 constexpr int most_halvings = 24;
 /// A blade so near, in half sides of the frame of planes, needs no look at all points.
 constexpr double near_enough = 0x1p18;
 /// Steps towards a direction that is inside of all facets.
 constexpr int most_turns = 200;
-
-double unit_in_last_place(double size) { return std::nextafter(size, 2 * size + 1) - size; }
-
-Vector<2> normal_of(const Point<2>& a, const Point<2>& b) { return unit_normal(a, b); }
-Vector<3> normal_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) { return unit_normal(a, b, c); }
-
-/// The unit normal of a facet, into its cell.
-template <int D>
-Vector<D> inward_normal(const Snapshot<D>& snapshot, Half_facet facet) {
-  const auto loop = snapshot.loop(facet);
-  if constexpr (D == 2)
-    return normal_of(snapshot.point(loop[0]), snapshot.point(loop[1]));
-  else
-    return -1.0 * normal_of(snapshot.point(loop[0]), snapshot.point(loop[1]), snapshot.point(loop[2]));
-}
 
 }  // namespace
 
@@ -105,45 +90,13 @@ void Cutter<D>::label(std::span<const Cell> near) {
 }
 
 template <int D>
-Point<D> Cutter<D>::crossing(std::uint32_t u, std::uint32_t v, double share) const {
-  return point_on<D>(snapshot().point(u), snapshot().point(v), share);
-}
-
-/// The mean direction from walls at an edge into solid cells; zero if it has none.
-template <int D>
-Vector<D> Cutter<D>::into_solid(std::uint32_t u, std::uint32_t v) {
-  const Snapshot<D>& s = snapshot();
-  Vector<D> sum{};
-  for (const Cell c : environment_.cells_around(u)) {
-    if (!s.is_solid(c)) continue;
-    const Cell_view<D> view = s.view(c);
-    for (std::size_t f = 0; f < view.facet_count(); ++f) {
-      const Half_facet facet = Snapshot<D>::half_facet(c, f);
-      const Cell other = s.neighbour(facet);
-      if (other != Cell::none && !s.is_solid(other) && has_point(view, f, u) && has_point(view, f, v))
-        sum = sum + inward_normal(s, facet);
-    }
-  }
-  return normalized(sum, Vector<D>{});
-}
-
-template <int D>
 bool Cutter<D>::split_edge(std::uint32_t u, std::uint32_t v, double share) {
-  const Point<D> middle = crossing(u, v, share);
-  const Vector<D> inward = into_solid(u, v);
-  double size = 0;
-  for (const double x : middle) size = std::max(size, std::abs(x));
-  for (int k = 0; k <= most_shifts; ++k) {
-    const double shift = k == 0 ? 0 : std::ldexp(unit_in_last_place(size), k);
-    if (const auto point =
-            patch_.split_edge(u, v, middle + shift * inward, Tissue_patch<D>::Walls::retreat)) {
-      sides_[*point] = Side::on;
-      report_.points.push_back({*point, {u, v}, share});
-      return true;
-    }
-    if (inward == Vector<D>{}) break;
-  }
-  return false;
+  const Point<D> middle = point_on<D>(snapshot().point(u), snapshot().point(v), share);
+  const auto point = patch_.split_edge(u, v, middle, Tissue_patch<D>::Walls::retreat);
+  if (!point) return false;
+  sides_[*point] = Side::on;
+  report_.points.push_back({*point, {u, v}, share});
+  return true;
 }
 
 template <int D>

@@ -42,9 +42,7 @@ class Cutter {
   std::vector<Cell> near_cells() const;
   void label(std::span<const Cell> near);
   void split();
-  Point<D> crossing(std::uint32_t u, std::uint32_t v, double share) const;
   bool split_edge(std::uint32_t u, std::uint32_t v, double share);
-  Vector<D> into_solid(std::uint32_t u, std::uint32_t v);
   void find_facets();
   void part();
   void part(std::uint32_t vertex);

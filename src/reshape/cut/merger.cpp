@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "reshape/replace/patch.h"
+#include "reshape/toggle/shrinkage.h"
 #include "simplices.h"
 
 namespace cellwalk::detail {
@@ -33,6 +34,12 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
   if (std::ranges::any_of(star, [&](Cell c) { return has_both(c) && s.is_solid(c); }))
     return "a solid cell has both points";
   if (std::ranges::none_of(star, has_both)) return "no free cell has both points";
+  const auto is_on_boundary = [&](Cell c) {
+    return std::ranges::any_of(s.view(c).vertices, [&](std::uint32_t corner) {
+      return corner != point && s.neighbour(facet_off(s, c, corner)) == Cell::none;
+    });
+  };
+  if (std::ranges::any_of(star, is_on_boundary)) return "the boundary has the point";
   for (const Cell c : star) {
     const auto old = corners_of(s, c);
     const bool vanishes = has_both(c);
@@ -44,7 +51,6 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
       const Cell other = s.neighbour(facet);
       walls[k] = s.is_impassable(facet);
       if (old[k] == point) continue;
-      if (other == Cell::none) return "the boundary has the point";
       if (vanishes || !has_corner(s, other, onto)) continue;
       walls[k] = !is_sewn(c, other, point, onto);
       if (!walls[k]) opened.push_back({soup.cell_count(), old[k]});
@@ -56,31 +62,6 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
     add_cell(soup, simplex, walls, s.is_solid(c));
   }
   return "";
-}
-
-/// All that is registered in some free cells, and the faces near them.
-template <int D>
-std::vector<Resident> Merger<D>::find_holders(std::span<const Cell> free) {
-  const Snapshot<D>& s = snapshot();
-  const auto is_among = [&](Cell c) { return std::ranges::find(free, c) != free.end(); };
-  std::vector<Member> vertices, edges;
-  groups_.find(free, vertices, edges);
-  std::vector<Resident> holders;
-  holders.reserve(vertices.size() + edges.size());
-  for (const Member v : vertices) holders.push_back(groups_.at(v, Body_feature::vertex));
-  for (const Member e : edges) {  // the table may still name cells that an edge has left
-    const auto ends = groups_.all()[e.group].edges[e.number];
-    if (std::ranges::any_of(ends,
-                            [&](std::uint32_t v) {
-                              return is_among(groups_.particle({e.group, v}).cell);
-                            }) ||
-        std::ranges::any_of(groups_.chain(e), [&](Half_facet f) { return is_among(s.neighbour(f)); }))
-      holders.push_back(groups_.at(e, Body_feature::edge));
-  }
-  for (const Member f : groups_.faces_near(box_of<D>(s, free)))
-    holders.push_back(groups_.at(f, Body_feature::face));
-  std::sort(holders.begin(), holders.end());
-  return holders;
 }
 
 template <int D>
@@ -95,13 +76,17 @@ Replacement Merger<D>::merge(std::uint32_t point, std::uint32_t onto) {
   std::vector<Cell> free;
   std::ranges::copy_if(star, std::back_inserter(free), [&](Cell c) { return !s.is_solid(c); });
   counts_.opened += groups_.open(box_of<D>(s, star));
-  if (groups_.has_open()) {
-    result.held_by = find_holders(free);
-    if (!result.held_by.empty()) {
-      result.reason = "something lies in the free cells around the point";
-      return result;
-    }
+  Wall_editor<D> editor(environment_);
+  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
+  result.held_by = leaving.holders();
+  for (const Member f : groups_.faces_near(box_of<D>(s, free)))
+    result.held_by.push_back(groups_.at(f, Body_feature::face));
+  if (!result.held_by.empty()) {
+    std::sort(result.held_by.begin(), result.held_by.end());
+    result.reason = "something lies in the free cells around the point";
+    return result;
   }
+  leaving.make();
   relinker_.note(free);
   is_broken_ = true;
   result.cells = patcher_.replace(star, soup, glue_patch(soup));

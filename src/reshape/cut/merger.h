@@ -47,7 +47,6 @@ class Merger {
   std::string add_cells(std::span<const Cell> star, std::uint32_t point, std::uint32_t onto,
                         Cell_soup<D>& soup, std::vector<Seam>& opened) const;
   bool is_sewn(Cell kept, Cell gap, std::uint32_t point, std::uint32_t onto) const;
-  std::vector<Resident> find_holders(std::span<const Cell> free);
 
   Environment<D>& environment_;
   Resident_groups<D>& groups_;

@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/star_index.h>
+#include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/records/cell_soup.h>
 
@@ -58,6 +59,16 @@ Half_facet facet_off(const Snapshot<D>& snapshot, Cell cell, std::uint32_t corne
   std::size_t f = 0;
   while (has_point(view, f, corner)) ++f;
   return Snapshot<D>::half_facet(cell, f);
+}
+
+/// The unit normal of a facet, into its cell.
+template <int D>
+Vector<D> inward_normal(const Snapshot<D>& snapshot, Half_facet facet) {
+  const auto loop = snapshot.loop(facet);
+  if constexpr (D == 2)
+    return unit_normal(snapshot.point(loop[0]), snapshot.point(loop[1]));
+  else
+    return -1.0 * unit_normal(snapshot.point(loop[0]), snapshot.point(loop[1]), snapshot.point(loop[2]));
 }
 
 }  // namespace cellwalk::detail

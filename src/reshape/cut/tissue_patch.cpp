@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "reshape/replace/patch.h"
+#include "reshape/toggle/shrinkage.h"
 #include "simplices.h"
 
 namespace cellwalk::detail {
@@ -97,18 +99,35 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
   return true;
 }
 
-/// True if boundary facets at an edge that is split at a position stay in their planes.
+/// True if boundary facets at an edge that is split at a position stay in their planes, and solid goes into
+/// no free cell there.
 template <int D>
-bool Tissue_patch<D>::keeps_boundary(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
-                                     const Point<D>& position) const {
+bool Tissue_patch<D>::keeps_solid_off(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
+                                      const Point<D>& position) const {
   const Snapshot<D>& s = snapshot();
   for (const Cell c : cells) {
     const Cell_view<D> view = s.view(c);
-    for (std::size_t f = 0; f < view.facet_count(); ++f)
-      if (s.neighbour(Snapshot<D>::half_facet(c, f)) == Cell::none && has_point(view, f, edge[0]) &&
-          has_point(view, f, edge[1]) && side<Exact>(view, f, position, counts_.walk) != 0)
-        return false;
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      if (!has_point(view, f, edge[0]) || !has_point(view, f, edge[1])) continue;
+      const Cell other = s.neighbour(Snapshot<D>::half_facet(c, f));
+      const bool is_free_side = other != Cell::none && !s.is_solid(c) && s.is_solid(other);
+      if (other != Cell::none && !is_free_side) continue;
+      const int where = side<Exact>(view, f, position, counts_.walk);
+      if (is_free_side ? where < 0 : where != 0) return false;
+    }
   }
+  return true;
+}
+
+/// Registers all that is in some free cells in others. False, with nothing changed, if something must be
+/// there, or a face lies near.
+template <int D>
+bool Tissue_patch<D>::all_leave(std::span<const Cell> free) {
+  if (!groups_.faces_near(box_of<D>(snapshot(), free)).empty()) return false;
+  Wall_editor<D> editor(environment_);
+  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
+  if (!leaving.holders().empty()) return false;
+  leaving.make();
   return true;
 }
 
@@ -131,9 +150,42 @@ void Tissue_patch<D>::open_groups(std::uint32_t u, std::uint32_t v) {
   counts_.opened += groups_.open(box_of<D>(snapshot(), cells_at(u, v)));
 }
 
+/// The mean direction from walls at an edge into solid cells; zero if it has none.
+template <int D>
+Vector<D> Tissue_patch<D>::into_solid(std::uint32_t u, std::uint32_t v) const {
+  const Snapshot<D>& s = snapshot();
+  Vector<D> sum{};
+  for (const Cell c : environment_.cells_around(u)) {
+    if (!s.is_solid(c)) continue;
+    const Cell_view<D> view = s.view(c);
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      const Half_facet facet = Snapshot<D>::half_facet(c, f);
+      const Cell other = s.neighbour(facet);
+      if (other != Cell::none && !s.is_solid(other) && has_point(view, f, u) && has_point(view, f, v))
+        sum = sum + inward_normal(s, facet);
+    }
+  }
+  return normalized(sum, Vector<D>{});
+}
+
 template <int D>
 std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::uint32_t v,
                                                          const Point<D>& position, Walls walls_there) {
+  const Vector<D> inward = into_solid(u, v);
+  double size = 0;
+  for (const double x : position) size = std::max(size, std::abs(x));
+  const double unit = std::nextafter(size, 2 * size + 1) - size;
+  for (int k = 0; k <= most_shifts; ++k) {
+    const double shift = k == 0 ? 0 : std::ldexp(unit, k);
+    if (const auto point = split_at(u, v, position + shift * inward, walls_there)) return point;
+    if (inward == Vector<D>{}) break;
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<std::uint32_t> Tissue_patch<D>::split_at(std::uint32_t u, std::uint32_t v,
+                                                       const Point<D>& position, Walls walls_there) {
   const Snapshot<D>& s = snapshot();
   const std::vector<Cell> cells = cells_at(u, v);
   std::vector<Cell> free;
@@ -161,12 +213,11 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::u
     }
   }
   counts_.opened += groups_.open(box_of<D>(s, cells));
-  relinker_.note(free);
   const bool may_be = walls_there == Walls::retreat
                           ? may_move_walls(cells, u, v, position)
-                          : keeps_boundary(cells, edge, position) && !relinker_.has_any() &&
-                                groups_.faces_near(box_of<D>(s, free)).empty();
+                          : keeps_solid_off(cells, edge, position) && all_leave(free);
   if (!may_be) return std::nullopt;
+  relinker_.note(free);
   is_broken_ = true;
   const std::vector<Cell> added = replace(cells, soup, position);
   free.clear();

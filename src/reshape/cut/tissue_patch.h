@@ -41,12 +41,14 @@ class Tissue_patch {
     /// Solid retreats: the point lies on the free side of no wall. No wall there parts free cells from each
     /// other, free cells meet the edge on one side only, and no body's face rests on a wall there.
     retreat,
-    /// They go wherever the point is: nothing is registered in the free cells around, and no face lies near.
+    /// Membranes go wherever the point is: all that is registered in the free cells around can be in others,
+    /// and is then, and no face lies near. From walls to solid, solid retreats.
     move_among_nothing
   };
 
-  /// Splits an edge of walls at a point on or near it, which lies on the planes of all boundary facets at the
-  /// edge. Returns the new point; none if the walls would do otherwise, or a cell would be flat or inverted.
+  /// Splits an edge of walls at a point near it, or some units in the last place off that into the solid. It
+  /// lies on the planes of all boundary facets at the edge, and on the free side of no wall between solid and
+  /// free. Returns the new point; none if the walls would do otherwise, or a cell would be flat or inverted.
   std::optional<std::uint32_t> split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position,
                                           Walls walls);
 
@@ -62,14 +64,20 @@ class Tissue_patch {
 
  private:
   static constexpr std::size_t corner_count = static_cast<std::size_t>(D) + 1;
+  /// The point goes off into the solid by so many units in the last place, doubled so often.
+  static constexpr int most_shifts = 8;
   using Simplex = std::array<std::uint32_t, corner_count>;
   /// A facet of a simplex that lacks one of its corners.
   bool is_wall_off(Cell cell, std::uint32_t corner) const;
   std::vector<Cell> cells_at(std::uint32_t u, std::uint32_t v) const;
   bool may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
                       const Point<D>& position) const;
-  bool keeps_boundary(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
-                      const Point<D>& position) const;
+  bool keeps_solid_off(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
+                       const Point<D>& position) const;
+  bool all_leave(std::span<const Cell> free);
+  Vector<D> into_solid(std::uint32_t u, std::uint32_t v) const;
+  std::optional<std::uint32_t> split_at(std::uint32_t u, std::uint32_t v, const Point<D>& position,
+                                        Walls walls);
   bool is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const;
   std::vector<Cell> replace(std::span<const Cell> removed, const Cell_soup<D>& soup, const Point<D>& added);
 

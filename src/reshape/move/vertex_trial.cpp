@@ -50,19 +50,34 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
   const auto shorten = [](auto& list, std::size_t size) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
   };
-  Obstruction first;
-  follows_all_ = false;
-  for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
+  const auto try_choice = [&] {
     obstruction_ = {};
     shorten(moved_, moved);
     shorten(chains_, chains);
     shorten(rests_, rests);
     if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
+    return obstruction_.meeting == Encounter::apart;
+  };
+  Obstruction last;
+  follows_all_ = to_dead_end_ = false;
+  dead_ends_ = 0;
+  for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
+    const bool is_free = try_choice();
     if (choice_ == 0) note_first_choice(before);
-    if (obstruction_.meeting == Encounter::apart) return {};
-    if (choice_ == 0) first = std::move(obstruction_);
+    if (is_free) return {};
+    if (choice_ == 0 || goes_further(obstruction_, last)) last = std::move(obstruction_);
   }
-  return first;
+  // It is blocked. A side on which a vertex gets not to the end may go further than others.
+  follows_all_ = to_dead_end_ = true;
+  for (choice_ = 0; !any_ && last.hit && choice_ < std::min(dead_ends_, most_choices); ++choice_)
+    if (!try_choice() && goes_further(obstruction_, last)) last = std::move(obstruction_);
+  return last;
+}
+
+/// True if a choice of sides goes further than another one: nothing is passed by it, or later.
+template <int D>
+bool Vertex_trial<D>::goes_further(const Obstruction& one, const Obstruction& other) {
+  return other.hit && (!one.hit || other.hit->time < one.hit->time);
 }
 
 template <int D>
@@ -111,7 +126,9 @@ void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
     if (!moved || !moved->keeps_cell) continue;
     const Particle<D>& p = groups_.particle(moved->member);
     if (!star.meet(std::span<const Point<D>>(&p.position, 1), false).touches) continue;
-    const std::size_t sides = follow_vertex(star, p).choices;
+    const Followed_vertex followed = follow_vertex(star, p);
+    dead_ends_ = std::max(dead_ends_, followed.dead_ends);
+    const std::size_t sides = followed.choices;
     if (sides == 1) continue;
     follows_all_ = true;
     choices_ = std::max(choices_, choice_ + 1 + sides);
@@ -130,8 +147,10 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex followed = follow_vertex(star, p, choice_);
-    choices_ = std::max(choices_, followed.choices);
+    Followed_vertex followed = follow_vertex(star, p, choice_, to_dead_end_);
+    // Of a vertex that is blocked, sides matter to its edges until then.
+    if (followed.is_free || !any_) choices_ = std::max(choices_, followed.choices);
+    dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
     if (followed.is_free) {
       vertex.now = star.registered_in(followed.cells.end, p);
@@ -263,16 +282,22 @@ void Vertex_trial<D>::block(Star_meeting met, Member member, Body_feature featur
 }
 
 template <int D>
-void Vertex_trial<D>::commit() {
-  for (const Moved_vertex& moved : moved_) {
-    groups_.particle(moved.member) = moved.now;
-    if (!moved.keeps_cell) groups_.enter_vertex(moved.member);
+void Vertex_trial<D>::prepare() {
+  for (const Moved_vertex& moved : moved_)
+    if (!moved.keeps_cell) groups_.enter_vertex(moved.member, moved.now.cell);
+  for (const auto& [edge, chain] : chains_) {
+    const Member first{edge.group, groups_.all()[edge.group].edges[edge.number][0]};
+    const Moved_vertex* moved = find(first);
+    groups_.enter_edge(edge, moved ? moved->now.cell : groups_.particle(first).cell, chain,
+                       groups_.chain(edge));
   }
-  for (auto& [edge, chain] : chains_) {
-    std::swap(groups_.chain(edge), chain);
-    groups_.enter_edge(edge, chain);
-  }
-  for (const auto& [face, walls] : rests_) groups_.rest(face, walls);
+}
+
+template <int D>
+void Vertex_trial<D>::commit() noexcept {
+  for (const Moved_vertex& moved : moved_) groups_.particle(moved.member) = moved.now;
+  for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
+  for (auto& [face, walls] : rests_) groups_.rest(face, std::move(walls));
 }
 
 template class Vertex_trial<2>;

@@ -30,7 +30,8 @@ struct Obstruction {
   Body_feature feature = Body_feature::vertex;  ///< which kind of member was hit: its number is that of one
 };
 
-/// One after the other: run() decides about a move, commit() registers what it touched. Kept for its memory.
+/// One after the other: run() decides about a move, prepare() finds the memory that commit() needs, and that
+/// registers what the move touched. Kept for its memory.
 template <int D>
 class Vertex_trial {
  public:
@@ -43,9 +44,11 @@ class Vertex_trial {
   /// What run() looked at by the first choice of sides, and how much of that certificates decided.
   std::uint64_t near() const { return near_; }
   std::uint64_t certified() const { return certified_; }
+  /// Before commit(), since it takes memory. If no commit() follows, it does no harm.
+  void prepare();
   /// Registers the residents near.
-  /// \pre run() found no obstruction, or clear() was called
-  void commit();
+  /// \pre run() found no obstruction, or clear() was called; then prepare() was
+  void commit() noexcept;
   /// Nothing is near.
   void clear() {
     moved_.clear();
@@ -63,6 +66,7 @@ class Vertex_trial {
   void find_groups_near(const Moving_star<D>& star);
   Obstruction try_group(const Moving_star<D>& star, std::uint32_t group);
   void note_first_choice(const Reshape_counts& before);
+  static bool goes_further(const Obstruction& one, const Obstruction& other);
   static void note(Obstruction& first, Obstruction next);
   bool try_vertices(const Moving_star<D>& star, std::span<const Member> vertices);
   bool try_vertex(const Moving_star<D>& star, Moved_vertex& vertex);
@@ -88,7 +92,9 @@ class Vertex_trial {
   /// all of them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
-  bool follows_all_ = false;  ///< also what keeps its cell
+  bool follows_all_ = false;   ///< also what keeps its cell
+  std::size_t dead_ends_ = 0;  ///< the most sides on which a vertex is blocked after a while, not on others
+  bool to_dead_end_ = false;   ///< these are tried
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
   Obstruction obstruction_;

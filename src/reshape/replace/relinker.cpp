@@ -135,13 +135,9 @@ void Relinker<D>::write_chain(Member edge, std::span<const Cell> sorted, Chain& 
 }
 
 template <int D>
-bool Relinker<D>::has_any() const {
-  // An edge without a vertex there enters and leaves: a letter of it is of one of the cells.
-  const auto passes = [&](Member edge) {
-    return std::ranges::any_of(groups_.chain(edge), [&](Half_facet f) { return find(f) != nullptr; });
-  };
-  const auto is_kept = [&](Member face) { return groups_.all()[face.group].body->keeps_faces(); };
-  return !vertices_.empty() || std::ranges::any_of(faces_, is_kept) || std::ranges::any_of(edges_, passes);
+bool Relinker<D>::has_rests() const {
+  return std::ranges::any_of(faces_,
+                             [&](Member face) { return groups_.all()[face.group].body->keeps_faces(); });
 }
 
 template <int D>
@@ -164,20 +160,27 @@ std::size_t Relinker<D>::relink(std::span<const Cell> added) {
       edge = e;
       write_chain(e, sorted, chain);
     }
-  for (const Moved& moved : moved_) groups_.particle(moved.member) = moved.now;
-  for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
+  std::vector<std::pair<Member, Supporting_walls>> rests;
   for (const Member face : faces_) {
-    Supporting_walls walls = groups_.all()[face.group].body->supporting_walls(face.number);
+    auto& [of, walls] =
+        rests.emplace_back(face, groups_.all()[face.group].body->supporting_walls(face.number));
     for (Half_facet& w : walls)
       if (const Side* side = find(w)) w = side->now;
     // A face that is not swept may have left its walls, and they may be gone.
     walls.erase(std::remove(walls.begin(), walls.end(), Half_facet::none), walls.end());
     std::sort(walls.begin(), walls.end());
-    groups_.rest(face, walls);
   }
+  for (const auto& [edge, chain] : chains_) {
+    const Member first{edge.group, groups_.all()[edge.group].edges[edge.number][0]};
+    const Moved* moved = find(first);
+    groups_.enter_edge_among(edge, moved ? moved->now.cell : groups_.particle(first).cell, chain, sorted);
+  }
+  for (const Moved& moved : moved_) groups_.enter_vertex(moved.member, moved.now.cell);
+  // Nothing takes memory from here on.
+  for (const Moved& moved : moved_) groups_.particle(moved.member) = moved.now;
+  for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
+  for (auto& [face, walls] : rests) groups_.rest(face, std::move(walls));
   groups_.forget(removed_);
-  for (const auto& [edge, chain] : chains_) groups_.enter_edge_among(edge, sorted);
-  for (const Moved& moved : moved_) groups_.enter_vertex(moved.member);
   return chains_.size();
 }
 

@@ -26,8 +26,8 @@ class Relinker {
   /// Notes what lies in cells that will be replaced.
   /// \pre they are simplices, all facets between them are passable, and the groups near them are open
   void note(std::span<const Cell> removed);
-  /// True if anything lies in them, or rests on their walls.
-  bool has_any() const;
+  /// True if a face that is kept rests on their walls.
+  bool has_rests() const;
   /// Registers it in the cells that have replaced them. Returns the number of chains that are new.
   /// \throw Error(other) if something has no place there
   std::size_t relink(std::span<const Cell> added);

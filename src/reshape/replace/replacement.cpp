@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "reshape/toggle/shrinkage.h"
 #include "wall_edge.h"
 
 namespace cellwalk::detail {
@@ -327,6 +329,19 @@ Patch<D> Replacer<D>::collapsed(std::uint32_t u, std::uint32_t onto, std::string
   return patch;
 }
 
+/// Registers all that is in the free ones of some cells in others. False, with nothing changed, if something
+/// must be there.
+template <int D>
+bool Replacer<D>::all_leave(std::span<const Cell> cells) {
+  std::vector<Cell> free;
+  std::ranges::copy_if(cells, std::back_inserter(free), [&](Cell c) { return !snapshot().is_solid(c); });
+  Wall_editor<D> editor(environment_);
+  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
+  if (!leaving.holders().empty()) return false;
+  leaving.make();
+  return true;
+}
+
 template <int D>
 Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position) {
   std::string reason;
@@ -337,7 +352,9 @@ Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Poin
   reason = check_wall_edge<D>(snapshot(), patch.removed, {u, v}, position, soup);
   if (!reason.empty()) return refused(std::move(reason));
   prepare(patch);
-  if (relinker_.has_any()) return refused("a wall has the edge, and something lies in the cells around it");
+  if (relinker_.has_rests() || !all_leave(patch.removed))
+    return refused("a wall has the edge, and something lies in the cells around it");
+  relinker_.note(patch.removed);
   return replace(patch, soup, glue_patch(soup));
 }
 

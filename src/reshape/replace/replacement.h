@@ -49,6 +49,7 @@ class Replacer {
 
  private:
   void prepare(const Patch<D>& patch);
+  bool all_leave(std::span<const Cell> cells);
   Replacement replace(const Patch<D>& patch, const Cell_soup<D>& soup, const Gluing& gluing);
   void check_edit() const;
   void check_simplices(const std::vector<Cell>& cells) const;

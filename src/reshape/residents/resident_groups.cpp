@@ -11,6 +11,9 @@
 namespace cellwalk::detail {
 namespace {
 
+/// So many entries may be outdated or not before all are made anew.
+std::size_t most_for(std::size_t entries) { return 4 * entries + 4096; }
+
 void sort_unique(std::vector<Member>& members) {
   std::sort(members.begin(), members.end());
   members.erase(std::unique(members.begin(), members.end()), members.end());
@@ -71,20 +74,21 @@ std::size_t Resident_groups<D>::open(const Box<D>& box) {
             !in_closure(snapshot_, p.cell, p.position) || snapshot_.is_solid(p.cell))
           refuse_particle(i);
     }
+    enter_all(g);
     group.is_open = true;
     ++open_;
     ++opened;
-    enter_all(g);
   }
-  if (opened != 0) most_entries_ = 4 * entries_.size() + 4096;
+  if (opened != 0) most_entries_ = most_for(entries_.size());
   return opened;
 }
 
 template <int D>
 void Resident_groups<D>::enter_all(std::uint32_t group) {
   const Resident_group<D>& of = groups_[group];
-  for (std::uint32_t v = 0; v < of.particles.size(); ++v) enter_vertex({group, v});
-  for (std::uint32_t e = 0; e < of.edges.size(); ++e) enter_edge({group, e}, {});
+  for (std::uint32_t v = 0; v < of.particles.size(); ++v) enter_vertex({group, v}, of.particles[v].cell);
+  for (std::uint32_t e = 0; e < of.edges.size(); ++e)
+    enter_edge({group, e}, of.particles[of.edges[e][0]].cell, chain({group, e}), {});
 }
 
 template <int D>
@@ -112,6 +116,8 @@ bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_opt
   Particle<D>& particle = group.particles[vertex.number];
   const Point<D> from = particle.position, target = from + by;
   if (target == from || !is_finite(target)) return false;
+  const std::size_t most_entries =
+      std::exchange(most_entries_, 0);  // if memory runs out, all is entered anew
   if (group.body) {
     Body_counts uncounted;
     group.body->push(vertex.number, target, options, uncounted);
@@ -121,14 +127,16 @@ bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_opt
     advance(snapshot_, particle, by, {.restitution = 0, .most_contacts = options.most_contacts}, met,
             uncounted);
   }
-  if (particle.position == from) return false;
-  group.reach.extend(particle.position);
-  enter_vertex(vertex);
-  if (group.body)
+  const bool has_moved = particle.position != from;
+  if (has_moved) {
+    group.reach.extend(particle.position);
+    enter_vertex(vertex, particle.cell);
     for (std::uint32_t e = 0; e < group.edges.size(); ++e)
       if (group.edges[e][0] == vertex.number || group.edges[e][1] == vertex.number)
-        enter_edge({vertex.group, e}, {});
-  return true;
+        enter_edge({vertex.group, e}, group.particles[group.edges[e][0]].cell, chain({vertex.group, e}), {});
+  }
+  most_entries_ = most_entries;
+  return has_moved;
 }
 
 template <int D>
@@ -141,6 +149,7 @@ Resident Resident_groups<D>::at(Member member, Body_feature feature) const {
 template <int D>
 void Resident_groups<D>::find(std::span<const Cell> cells, std::vector<Member>& vertices,
                               std::vector<Member>& edges) {
+  if (entries_.size() >= most_entries_) enter_anew();
   vertices.clear();
   edges.clear();
   const std::uint64_t last_search = lists_;
@@ -191,46 +200,40 @@ void Resident_groups<D>::enter(Cell cell, Member member, bool is_edge) {
   place->second = static_cast<std::uint32_t>(entries_.size() - 1);
 }
 
-template <int D>
-void Resident_groups<D>::enter_vertex(Member vertex) {
-  enter(particle(vertex).cell, vertex, false);
-  drop_outdated();
-}
-
 /// It is known in the cells behind facets with which its chains begin and end alike.
 template <int D>
-void Resident_groups<D>::enter_edge(Member edge, const Chain& before) {
-  const auto [u, v] = groups_[edge.group].edges[edge.number];
-  enter(particle({edge.group, u}).cell, edge, true);
-  const Chain& now = chain(edge);
-  const auto [first, of_before] = std::ranges::mismatch(now, before);
-  auto last = now.end();
-  for (auto old = before.end(); last != first && old != of_before && *(old - 1) == *(last - 1); --old) --last;
-  for (auto f = first; f != last; ++f) enter(snapshot_.neighbour(*f), edge, true);
-  drop_outdated();
+void Resident_groups<D>::enter_edge(Member edge, Cell first, const Chain& now, const Chain& before) {
+  enter(first, edge, true);
+  const auto [begin, of_before] = std::ranges::mismatch(now, before);
+  auto end = now.end();
+  for (auto old = before.end(); end != begin && old != of_before && *(old - 1) == *(end - 1); --old) --end;
+  for (auto f = begin; f != end; ++f) enter(snapshot_.neighbour(*f), edge, true);
 }
 
 /// Enters all anew, once most of what is entered may be outdated.
 template <int D>
-void Resident_groups<D>::drop_outdated() {
-  if (entries_.size() < most_entries_ || most_entries_ == 0) return;
-  most_entries_ = 0;
-  first_.clear();
-  entries_.clear();
-  for (std::uint32_t g = 0; g < groups_.size(); ++g)
-    if (groups_[g].is_open) enter_all(g);
-  most_entries_ = 4 * entries_.size() + 4096;
+void Resident_groups<D>::enter_anew() {
+  auto first = std::exchange(first_, {});
+  auto entries = std::exchange(entries_, {});
+  try {
+    for (std::uint32_t g = 0; g < groups_.size(); ++g)
+      if (groups_[g].is_open) enter_all(g);
+  } catch (...) {
+    std::swap(first, first_);
+    std::swap(entries, entries_);
+    throw;
+  }
+  most_entries_ = most_for(entries_.size());
 }
 
 template <int D>
-void Resident_groups<D>::enter_edge_among(Member edge, std::span<const Cell> among) {
-  const auto [u, v] = groups_[edge.group].edges[edge.number];
+void Resident_groups<D>::enter_edge_among(Member edge, Cell first, const Chain& now,
+                                          std::span<const Cell> among) {
   const auto enter_in = [&](Cell c) {
     if (std::ranges::binary_search(among, c)) enter(c, edge, true);
   };
-  enter_in(particle({edge.group, u}).cell);
-  for (const Half_facet f : chain(edge)) enter_in(snapshot_.neighbour(f));
-  drop_outdated();
+  enter_in(first);
+  for (const Half_facet f : now) enter_in(snapshot_.neighbour(f));
 }
 
 template <int D>

@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace cellwalk::detail {
@@ -53,9 +54,9 @@ class Resident_groups {
   Particle<D>& particle(Member vertex) { return groups_[vertex.group].particles[vertex.number]; }
   Chain& chain(Member edge) { return groups_[edge.group].body->chain(edge.number); }
 
-  /// Sets the walls on which a face rests.
-  void rest(Member face, const Supporting_walls& walls) {
-    groups_[face.group].body->rest(face.number, walls);
+  /// Sets the walls on which a face rests. Takes no memory.
+  void rest(Member face, Supporting_walls&& walls) noexcept {
+    groups_[face.group].body->rest(face.number, std::move(walls));
   }
   /// The vertices of a feature of a resident.
   std::vector<Member> vertices_of(const Resident& resident) const;
@@ -70,12 +71,15 @@ class Resident_groups {
   /// The faces of bodies that keep faces, and are open, whose boxes meet a box.
   std::vector<Member> faces_near(const Box<D>& box) const;
 
-  /// Enters a vertex into the table of cells, or an edge, after it was registered anew. Old entries stay.
-  void enter_vertex(Member vertex);
+  // Entries into the table of cells, for what is to be registered anew: they come first, since they take
+  // memory. Old ones stay, and those of what is not registered anew after all do no harm.
+  void enter_vertex(Member vertex, Cell cell) { enter(cell, vertex, false); }
+  /// \param first the cell of its first end then
+  /// \param now its chain then
   /// \param before its chain at the last time
-  void enter_edge(Member edge, const Chain& before);
+  void enter_edge(Member edge, Cell first, const Chain& now, const Chain& before);
   /// The same, into those of its cells that are among some, which are ascending.
-  void enter_edge_among(Member edge, std::span<const Cell> among);
+  void enter_edge_among(Member edge, Cell first, const Chain& now, std::span<const Cell> among);
   /// Drops the entries of cells that are gone.
   void forget(std::span<const Cell> cells);
 
@@ -91,7 +95,7 @@ class Resident_groups {
   };
   void enter(Cell cell, Member member, bool is_edge);
   void enter_all(std::uint32_t group);
-  void drop_outdated();
+  void enter_anew();
   std::size_t body_count() const;
 
   const Snapshot<D>& snapshot_;
@@ -99,7 +103,7 @@ class Resident_groups {
   std::size_t open_ = 0;
   std::unordered_map<std::uint32_t, std::uint32_t> first_;  ///< entry of each cell
   std::vector<Entry> entries_;
-  std::size_t most_entries_ = 0;         ///< before outdated ones are dropped
+  std::size_t most_entries_ = 0;         ///< with more, outdated ones are dropped; 0: some are missing
   std::vector<std::size_t> first_edge_;  ///< of each group, when all edges are numbered
   std::vector<std::uint64_t> seen_;      ///< of each edge, the last list of a cell that had it
   std::uint64_t lists_ = 0;              ///< searched so far

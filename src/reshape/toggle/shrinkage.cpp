@@ -5,6 +5,7 @@
 #include <cellwalk/internal/walk/signs.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace cellwalk::detail {
 namespace {
@@ -24,62 +25,79 @@ bool are_in_line(const Point<D>& p, const Point<D>& q, const Point<D>& r) {
 }  // namespace
 
 template <int D>
-Shrinkage<D>::Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Half_facet> walls,
-                        Cell filled, Walk_counts& counts)
+Shrinkage<D>::Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Half_facet closed,
+                        Walk_counts& counts)
     : editor_(editor),
       snapshot_(editor.snapshot()),
       groups_(groups),
-      walls_(walls),
-      filled_(filled),
+      aim_(Aim::close),
+      walls_{closed},
       counts_(counts) {
-  for (const Half_facet f : walls) {
+  find_box();
+}
+
+template <int D>
+Shrinkage<D>::Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Cell filled, Walk_counts& counts)
+    : Shrinkage(editor, groups, std::span<const Cell>(&filled, 1), counts) {
+  aim_ = Aim::fill;
+  closing_.filled = filled;
+}
+
+template <int D>
+Shrinkage<D>::Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Cell> left,
+                        Walk_counts& counts)
+    : editor_(editor),
+      snapshot_(editor.snapshot()),
+      groups_(groups),
+      aim_(Aim::leave),
+      filled_(left.begin(), left.end()),
+      counts_(counts) {
+  std::sort(filled_.begin(), filled_.end());
+  for (const Cell c : filled_)
+    for (const Half_facet f : editor_.passages(c, false))
+      if (!is_filled(snapshot_.neighbour(f))) walls_.push_back(f);
+  find_box();
+}
+
+template <int D>
+void Shrinkage<D>::find_box() {
+  for (const Half_facet f : walls_) {
     both_sides_.push_back(f);
     both_sides_.push_back(snapshot_.opposite(f));
     for (const std::uint32_t p : snapshot_.loop(f)) box_.extend(snapshot_.point(p));
   }
-  if (filled != Cell::none) {
-    const Cell_view<D> cell = snapshot_.view(filled);
+  for (const Cell c : filled_) {
+    const Cell_view<D> cell = snapshot_.view(c);
     for (std::size_t v = 0; v < cell.vertex_count(); ++v) box_.extend(cell.point(v));
   }
   std::sort(both_sides_.begin(), both_sides_.end());
-  closing_ = {both_sides_, filled};
+  closing_.facets = both_sides_;
+}
+
+template <int D>
+std::vector<Resident> Shrinkage<D>::holders() {
+  groups_.open(box_);
+  if (!groups_.has_open()) return {};
+  const Cell own = aim_ == Aim::close ? snapshot_.cell_of(walls_.front()) : Cell::none;
+  groups_.find(aim_ == Aim::close ? std::span(&own, 1) : std::span<const Cell>(filled_), vertices_, edges_);
+  const auto& groups = groups_.all();
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    if (groups[g].is_open && groups[g].reach.meets(box_)) try_group(g);
+  std::sort(held_by_.begin(), held_by_.end());
+  held_by_.erase(std::unique(held_by_.begin(), held_by_.end()), held_by_.end());
+  return held_by_;
 }
 
 template <int D>
 void Shrinkage<D>::make() {
-  if (filled_ != Cell::none)
-    editor_.fill(filled_, walls_);
-  else
-    editor_.set_wall(walls_.front(), true);
-}
-
-template <int D>
-void Shrinkage<D>::take_back() {
-  if (filled_ != Cell::none)
-    editor_.take_back_fill(filled_, walls_);
-  else
-    editor_.set_wall(walls_.front(), false);
-}
-
-template <int D>
-std::vector<Resident> Shrinkage<D>::run() {
-  groups_.open(box_);
-  if (groups_.has_open()) {
-    const Cell cell = filled_ != Cell::none ? filled_ : snapshot_.cell_of(walls_.front());
-    groups_.find(std::array{cell}, vertices_, edges_);
-    const auto& groups = groups_.all();
-    for (std::uint32_t g = 0; g < groups.size(); ++g)
-      if (groups[g].is_open && groups[g].reach.meets(box_)) try_group(g);
-    std::sort(held_by_.begin(), held_by_.end());
-    held_by_.erase(std::unique(held_by_.begin(), held_by_.end()), held_by_.end());
-    if (!held_by_.empty()) return held_by_;
-  }
-  make();
+  for (Group& group : free_) group.choice.prepare();
+  if (aim_ == Aim::fill) editor_.fill(filled_.front(), walls_);
+  if (aim_ == Aim::close) editor_.set_wall(walls_.front(), true);
+  // Nothing takes memory from here on.
   for (Group& group : free_) {
     group.choice.commit();
-    for (const auto& [face, walls] : group.rests) groups_.rest({group.number, face}, walls);
+    for (auto& [face, walls] : group.rests) groups_.rest({group.number, face}, std::move(walls));
   }
-  return {};
 }
 
 /// True if an edge is at what is closed, so that its chain may have to change.
@@ -88,7 +106,7 @@ template <int D>
 bool Shrinkage<D>::touches(std::uint32_t group, std::uint32_t edge, bool& is_parted) const {
   const auto [u, v] = groups_.all()[group].edges[edge];
   const Particle<D>&p = groups_.particle({group, u}), &q = groups_.particle({group, v});
-  bool result = filled_ != Cell::none && (p.cell == filled_ || q.cell == filled_);
+  bool result = is_filled(p.cell) || is_filled(q.cell);
   for (const Half_facet f : groups_.chain({group, edge})) {
     if (!closing_.has(f)) continue;
     result = true;
@@ -107,12 +125,12 @@ bool Shrinkage<D>::is_near(const std::array<Point<D>, 3>& corners) const {
     return std::all_of(corners.begin(), corners.end(),
                        [&](const Point<D>& x) { return at * side<Exact>(cell, i, x, counts_) > 0; });
   };
-  if (filled_ == Cell::none) {
+  if (aim_ == Aim::close) {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(walls_.front()));
     const std::size_t i = snapshot_.facet_of(walls_.front());
     return !lies_on(cell, i, 1) && !lies_on(cell, i, -1);
   }
-  const Cell_view<D> cell = snapshot_.view(filled_);
+  const Cell_view<D> cell = snapshot_.view(filled_.front());
   for (std::size_t i = 0; i < cell.facet_count(); ++i)
     if (lies_on(cell, i, 1)) return false;
   return true;
@@ -123,7 +141,7 @@ void Shrinkage<D>::find_near_faces(std::uint32_t group) {
   faces_.clear();
   in_plane_.clear();
   const Resident_group<D>& of = groups_.all()[group];
-  if (D == 2 || !of.body || !of.body->keeps_faces()) return;  // in the plane bodies keep no faces
+  if (D == 2 || aim_ == Aim::leave || !of.body || !of.body->keeps_faces()) return;  // in 2D bodies keep none
   for (std::uint32_t f = 0; f < of.faces.size(); ++f) {
     Near_face face{f, {}};
     for (std::size_t k = 0; k < 3; ++k) face.corners[k] = of.particles[of.faces[f][k]].position;
@@ -137,7 +155,7 @@ template <int D>
 bool Shrinkage<D>::is_parted(std::uint32_t group, const Near_face& face) {
   if constexpr (D == 3) {
     for (const Half_facet rest : groups_.all()[group].body->supporting_walls(face.number))
-      if (filled_ != Cell::none && snapshot_.cell_of(rest) == filled_) return true;
+      if (is_filled(snapshot_.cell_of(rest))) return true;
     for (const Half_facet wall : walls_) {
       const Face_at_facet place = place_of_face(snapshot_, wall, face.corners, counts_);
       if (place == Face_at_facet::pierced) return true;
@@ -168,7 +186,7 @@ void Shrinkage<D>::demand(std::uint32_t group, std::size_t choice, Side_choice<D
   of_group.forget_demands();
   for (std::size_t n = 0; n < in_plane_.size(); ++n) {
     const auto& [number, wall] = in_plane_[n];
-    const bool is_other = filled_ != Cell::none || (choice >> std::min(n, most_free_faces - 1) & 1) != 0;
+    const bool is_other = aim_ == Aim::fill || (choice >> std::min(n, most_free_faces - 1) & 1) != 0;
     const auto face = std::ranges::find(faces_, number, &Near_face::number);
     const auto& sides = groups_.all()[group].body->sides(number);
     for (std::size_t k = 0; k < 3; ++k)
@@ -183,10 +201,10 @@ void Shrinkage<D>::try_group(std::uint32_t group) {
   const auto hold = [&](std::uint32_t number, Body_feature feature) {
     held_by_.push_back(groups_.at({group, number}, feature));
   };
-  Group result{group, {snapshot_, groups_, group, closing_, counts_}, {}};
+  Group result{group, {snapshot_, groups_, group, closing_, filled_, counts_}, {}};
   Side_choice<D>& choice = result.choice;
   bool is_any = false;
-  if (filled_ != Cell::none)
+  if (aim_ != Aim::close)
     for (const Member v : vertices_)
       if (v.group == group) {
         choice.add_vertex(v.number);
@@ -209,11 +227,11 @@ void Shrinkage<D>::try_group(std::uint32_t group) {
   }
   if (!is_any && faces_.empty()) return;
   choice.complete();
-  choice.find_holders(held_by_);
+  choice.find_holders(held_by_, aim_ == Aim::leave);
   if (held_by_.size() != held_before) return;
   for (const auto& [edge, tip] : tips) choice.add_tip(edge, tip);
 
-  const std::size_t bits = filled_ != Cell::none ? 0 : std::min(in_plane_.size(), most_free_faces);
+  const std::size_t bits = aim_ != Aim::close ? 0 : std::min(in_plane_.size(), most_free_faces);
   const std::size_t ways = std::size_t{1} << bits;
   std::vector<Resident> failed;
   for (std::size_t k = 0; k < ways; ++k) {
@@ -257,25 +275,25 @@ bool Shrinkage<D>::stand(std::uint32_t group, Group& of_group, std::uint32_t& fa
     of_group.rests.clear();
     for (const Near_face& face : faces_)  // while all is as it was
       for (const std::uint32_t e : of.body->sides(face.number)) choice.chain(e);
-    make();
     bool is_free = true;
-    for (const Near_face& face : faces_) {
-      const auto& at = of.faces[face.number];
-      const auto& sides = of.body->sides(face.number);
-      const auto side_chain = [&](std::size_t k) -> Side_chain {
-        return {&choice.chain(sides[k]), at[k] > at[(k + 1) % 3]};
-      };
-      const Face_registration found = stand_among_walls(
-          snapshot_, {choice.particle(at[0]), choice.particle(at[1]), choice.particle(at[2])},
-          {side_chain(0), side_chain(1), side_chain(2)}, of.body->supporting_walls(face.number), counts_);
-      if (found.piercing != Half_facet::none) {
-        failed = face.number;
-        is_free = false;
-        break;
+    editor_.with_walls(walls_, aim_ == Aim::fill ? filled_.front() : Cell::none, [&] {
+      for (const Near_face& face : faces_) {
+        const auto& at = of.faces[face.number];
+        const auto& sides = of.body->sides(face.number);
+        const auto side_chain = [&](std::size_t k) -> Side_chain {
+          return {&choice.chain(sides[k]), at[k] > at[(k + 1) % 3]};
+        };
+        Face_registration found = stand_among_walls(
+            snapshot_, {choice.particle(at[0]), choice.particle(at[1]), choice.particle(at[2])},
+            {side_chain(0), side_chain(1), side_chain(2)}, of.body->supporting_walls(face.number), counts_);
+        if (found.piercing != Half_facet::none) {
+          failed = face.number;
+          is_free = false;
+          return;
+        }
+        of_group.rests.emplace_back(face.number, std::move(found.supporting_walls));
       }
-      of_group.rests.emplace_back(face.number, found.supporting_walls);
-    }
-    take_back();
+    });
     return is_free;
   } else {
     return true;

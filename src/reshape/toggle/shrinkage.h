@@ -8,6 +8,7 @@
 #include <cellwalk/internal/edge/closing_face.h>
 #include <cellwalk/internal/environment/wall_editor.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -19,18 +20,26 @@
 
 namespace cellwalk::detail {
 
-/// One change: a facet that is closed, or a cell that is filled.
+/// One change: a facet that is closed, a cell that is filled, or cells that all leaves, where it can be in
+/// others as well.
 template <int D>
 class Shrinkage {
  public:
-  /// \param walls the facets that become walls, each seen from one side: of a cell to be filled, from there
-  /// \param filled that cell, or none
-  Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Half_facet> walls,
-            Cell filled, Walk_counts& counts);
+  /// \param closed a passable facet, seen from either side
+  Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Half_facet closed, Walk_counts& counts);
+  /// \param filled a free cell
+  Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Cell filled, Walk_counts& counts);
+  /// \param left free cells that all leaves, but for faces; nothing else changes
+  Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Cell> left,
+            Walk_counts& counts);
+  Shrinkage(const Shrinkage&) = delete;
+  Shrinkage& operator=(const Shrinkage&) = delete;
 
-  /// Makes the change, and registers what is near, or leaves all as it is. Returns what forbids it, sorted;
-  /// nothing if it was made.
-  std::vector<Resident> run();
+  /// Finds what forbids the change, sorted. Nothing is changed, but that groups near are opened.
+  std::vector<Resident> holders();
+  /// Makes the change, and registers what is near. An error leaves all as it was.
+  /// \pre holders() found none
+  void make();
 
  private:
   /// A face near, whose corners are not collinear.
@@ -45,6 +54,7 @@ class Shrinkage {
   };
   /// Edges along new walls, and points towards which faces extend from them.
   using Tips = std::vector<std::pair<std::uint32_t, Point<D>>>;
+  bool is_filled(Cell c) const { return std::binary_search(filled_.begin(), filled_.end(), c); }
   bool touches(std::uint32_t group, std::uint32_t edge, bool& is_parted) const;
   bool is_near(const std::array<Point<D>, 3>& corners) const;
   void find_near_faces(std::uint32_t group);
@@ -54,14 +64,15 @@ class Shrinkage {
   void demand(std::uint32_t group, std::size_t choice, Side_choice<D>& of_group) const;
   void try_group(std::uint32_t group);
   bool stand(std::uint32_t group, Group& of_group, std::uint32_t& failed);
-  void make();
-  void take_back();
+  enum class Aim : std::uint8_t { close, fill, leave };
+  void find_box();
 
   Wall_editor<D>& editor_;
   const Snapshot<D>& snapshot_;
   Resident_groups<D>& groups_;
-  std::span<const Half_facet> walls_;
-  Cell filled_;
+  Aim aim_;
+  std::vector<Cell> filled_;       ///< or left; ascending
+  std::vector<Half_facet> walls_;  ///< each seen from one side: of cells to be filled, from there
   Walk_counts& counts_;
   std::vector<Half_facet> both_sides_;
   Closing closing_;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "side_choice.h"
 
+#include <cellwalk/internal/walk/link_search.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +16,39 @@ void Side_choice<D>::add_vertex(std::uint32_t vertex) {
   if (!is_new) return;
   Vertex& of_vertex = place->second;
   of_vertex.sides = sides_after(snapshot_, groups_.particle({group_, vertex}), closing_, counts_);
+  // A side is in these cells as a whole, or beside them.
+  std::erase_if(of_vertex.sides, [&](const Particle<D>& side) {
+    return std::binary_search(left_.begin(), left_.end(), side.cell);
+  });
+  if (of_vertex.sides.size() > 1) {
+    std::vector<std::pair<Side_order, Particle<D>>> sides;
+    for (const Particle<D>& side : of_vertex.sides) sides.emplace_back(order_of(side), side);
+    std::ranges::sort(sides, {}, &std::pair<Side_order, Particle<D>>::first);
+    for (std::size_t k = 0; k < sides.size(); ++k) of_vertex.sides[k] = sides[k].second;
+  }
   of_vertex.may_be.assign(of_vertex.sides.size(), true);
+}
+
+/// The key of the order in which sides are tried, which depends on geometry only: whether the displaced
+/// vertex is elsewhere, and the least corners of the cells that are linked there then.
+template <int D>
+typename Side_choice<D>::Side_order Side_choice<D>::order_of(const Particle<D>& side) const {
+  const Point<D>& x = side.position;
+  Side_order order{true, {}};
+  Link_search<D> links(snapshot_, side.cell);
+  while (links.next()) {
+    bool holds_displaced = true;
+    links.expand_all(
+        [&](const Cell_view<D>& cell, std::size_t i) {
+          const int at = detail::side<Exact>(cell, i, x, counts_);
+          holds_displaced &= at < 0 || (at == 0 && displaced_side(cell, i) < 0);
+          return at == 0 && in_facet(cell, i, x) && !closing_.has(Snapshot<D>::half_facet(links.cell(), i));
+        },
+        [](const Cell_view<D>&, std::size_t, Half_facet) {});
+    if (holds_displaced) order.first = false;
+    take_least(snapshot_.view(links.cell()), order.second);
+  }
+  return order;
 }
 
 template <int D>
@@ -43,13 +79,13 @@ void Side_choice<D>::complete() {
 }
 
 template <int D>
-void Side_choice<D>::find_holders(std::vector<Resident>& held_by) {
+void Side_choice<D>::find_holders(std::vector<Resident>& held_by, bool all_edges) {
   for (const auto& [v, vertex] : vertices_)
     if (vertex.sides.empty()) held_by.push_back(groups_.at({group_, v}, Body_feature::vertex));
   for (const auto& [e, edge] : edges_) {
     const auto [u, v] = groups_.all()[group_].edges[e];
     const std::size_t of_u = vertices_.at(u).sides.size(), of_v = vertices_.at(v).sides.size();
-    bool has_chain = of_u == 0 || of_v == 0;  // then its end holds
+    bool has_chain = !all_edges && (of_u == 0 || of_v == 0);  // then its end holds
     for (std::size_t k = 0; k < of_u * of_v && !has_chain; ++k)
       has_chain = chain_between(e, k / of_v, k % of_v).has_value();
     if (!has_chain) held_by.push_back(groups_.at({group_, e}, Body_feature::edge));
@@ -172,30 +208,29 @@ const Chain& Side_choice<D>::chain(std::uint32_t edge) {
 }
 
 template <int D>
-void Side_choice<D>::commit() {
-  // They were found while ends were where they are now.
-  std::vector<std::pair<std::uint32_t, Chain>> chains;
-  std::vector<Cell> first_cells;
-  for (const auto& [e, edge] : edges_) {
-    chains.emplace_back(e, chain(e));
-    first_cells.push_back(groups_.particle({group_, groups_.all()[group_].edges[e][0]}).cell);
-  }
+void Side_choice<D>::prepare() {
   for (const auto& [v, vertex] : vertices_) {
     const Particle<D>& side = vertex.sides[chosen(vertex)];
-    Particle<D>& now = groups_.particle({group_, v});
-    if (now.cell == side.cell) continue;
-    now = side;
-    groups_.enter_vertex({group_, v});
+    if (groups_.particle({group_, v}).cell == side.cell) continue;
+    moved_.emplace_back(v, side);
+    groups_.enter_vertex({group_, v}, side.cell);
   }
-  for (std::size_t k = 0; k < chains.size(); ++k) {
-    auto& [e, chain] = chains[k];
-    Chain& now = groups_.chain({group_, e});
-    // An edge in one cell has no facets, also if it is in another one now.
-    if (now == chain && groups_.particle({group_, groups_.all()[group_].edges[e][0]}).cell == first_cells[k])
-      continue;
-    now = std::move(chain);
-    groups_.enter_edge({group_, e}, {});
+  for (const auto& [e, edge] : edges_) {
+    const std::uint32_t first = groups_.all()[group_].edges[e][0];
+    const Chain& now = groups_.chain({group_, e});
+    Chain then = chain(e);
+    const Cell from = particle(first).cell;
+    // An edge in one cell has no facets, also if it is in another one then.
+    if (then == now && groups_.particle({group_, first}).cell == from) continue;
+    groups_.enter_edge({group_, e}, from, then, {});
+    chains_.emplace_back(e, std::move(then));
   }
+}
+
+template <int D>
+void Side_choice<D>::commit() noexcept {
+  for (const auto& [v, side] : moved_) groups_.particle({group_, v}) = side;
+  for (auto& [e, chain] : chains_) groups_.chain({group_, e}) = std::move(chain);
 }
 
 template class Side_choice<2>;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,9 +21,15 @@ namespace cellwalk::detail {
 template <int D>
 class Side_choice {
  public:
+  /// \param left cells in which nothing may be, ascending; facets between them and others are closed
   Side_choice(const Snapshot<D>& snapshot, Resident_groups<D>& groups, std::uint32_t group,
-              const Closing& closing, Walk_counts& counts)
-      : snapshot_(snapshot), groups_(groups), group_(group), closing_(closing), counts_(counts) {}
+              const Closing& closing, std::span<const Cell> left, Walk_counts& counts)
+      : snapshot_(snapshot),
+        groups_(groups),
+        group_(group),
+        closing_(closing),
+        left_(left),
+        counts_(counts) {}
 
   void add_vertex(std::uint32_t vertex);
   void add_edge(std::uint32_t edge);
@@ -31,7 +38,8 @@ class Side_choice {
   /// Adds the edges of all vertices that may change their side, and so on.
   void complete();
   /// Appends the vertices and edges that can be on no side, whatever others do.
-  void find_holders(std::vector<Resident>& held_by);
+  /// \param all_edges also those of which an end can be on none
+  void find_holders(std::vector<Resident>& held_by, bool all_edges);
 
   /// In one of these closed facets an edge that was added must be on the side of its cell; until
   /// forget_demands().
@@ -45,7 +53,10 @@ class Side_choice {
   // As chosen.
   const Particle<D>& particle(std::uint32_t vertex) const;
   const Chain& chain(std::uint32_t edge);
-  void commit();
+  /// Before commit(), since it takes memory. If no commit() follows, it does no harm.
+  /// \pre all is still as it was
+  void prepare();
+  void commit() noexcept;
 
  private:
   static constexpr int most_tries = 256;
@@ -60,6 +71,8 @@ class Side_choice {
   };
   using Vertices = std::map<std::uint32_t, Vertex>;
 
+  using Side_order = std::pair<bool, std::vector<Point<D>>>;
+  Side_order order_of(const Particle<D>& side) const;
   bool may_change(std::uint32_t vertex) const;
   const std::optional<Chain>& chain_between(std::uint32_t edge, std::size_t of_u, std::size_t of_v);
   bool narrow();
@@ -70,9 +83,13 @@ class Side_choice {
   Resident_groups<D>& groups_;
   std::uint32_t group_;
   const Closing& closing_;
+  std::span<const Cell> left_;
   Walk_counts& counts_;
   Vertices vertices_;
   std::map<std::uint32_t, Edge> edges_;
+  // What is registered anew:
+  std::vector<std::pair<std::uint32_t, Particle<D>>> moved_;
+  std::vector<std::pair<std::uint32_t, Chain>> chains_;
   std::uint32_t failed_ = 0;
   int tries_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "shrinkage.h"
 
@@ -11,6 +12,15 @@ namespace {
 
 Change_result made() { return {true, {}, {}}; }
 Change_result refused(const char* reason) { return {false, reason, {}}; }
+
+/// \param reason why not, if something holds
+template <int D>
+Change_result shrunk(Shrinkage<D> change, const char* reason) {
+  if (std::vector<Resident> holders = change.holders(); !holders.empty())
+    return {false, reason, std::move(holders)};
+  change.make();
+  return made();
+}
 
 template <int D>
 Box<D> box_of_facet(const Snapshot<D>& snapshot, Half_facet facet) {
@@ -29,8 +39,9 @@ Change_result Toggle<D>::open(Half_facet facet) {
   if (other == Cell::none) return refused("the facet lies on the boundary of the environment");
   if (snapshot().is_solid(own) != snapshot().is_solid(other))
     return refused("the facet parts a solid cell from a free one");
+  Rests rests = rests_without(std::array{facet, snapshot().opposite(facet)});
   editor_.set_wall(facet, false);
-  forget_rests(std::array{facet, snapshot().opposite(facet)});
+  rest(std::move(rests));
   return made();
 }
 
@@ -38,18 +49,24 @@ template <int D>
 Change_result Toggle<D>::excavate(Cell cell) {
   editor_.check(cell);
   if (!snapshot().is_solid(cell)) return made();
-  editor_.excavate(cell);
   std::vector<Half_facet> opened;
-  for (const Half_facet f : editor_.passages(cell, false)) opened.push_back(snapshot().opposite(f));
-  forget_rests(opened);
+  for (std::size_t i = 0; i < snapshot().facet_count(cell); ++i) {
+    const Half_facet f = Snapshot<D>::half_facet(cell, i);
+    const Cell other = snapshot().neighbour(f);
+    if (other != Cell::none && !snapshot().is_solid(other)) opened.push_back(snapshot().opposite(f));
+  }
+  Rests rests = rests_without(opened);
+  editor_.excavate(cell);
+  rest(std::move(rests));
   return made();
 }
 
-/// Faces rest no more on facets that are no walls any more. They are on the same sides of all others, also if
-/// something of their bodies is stale.
+/// What faces rest on once some facets are no walls any more. They are on the same sides of all others, also
+/// if something of their bodies is stale.
 template <int D>
-void Toggle<D>::forget_rests(std::span<const Half_facet> facets) {
-  if (D == 2 || facets.empty()) return;
+typename Toggle<D>::Rests Toggle<D>::rests_without(std::span<const Half_facet> facets) const {
+  Rests rests;
+  if (D == 2 || facets.empty()) return rests;
   Box<D> box;
   for (const Half_facet f : facets) box.extend(box_of_facet<D>(snapshot(), f));
   const auto& groups = groups_.all();
@@ -63,20 +80,24 @@ void Toggle<D>::forget_rests(std::span<const Half_facet> facets) {
       });
       if (left == walls.end()) continue;
       walls.erase(left, walls.end());
-      groups_.rest({g, f}, walls);
+      rests.emplace_back(Member{g, f}, std::move(walls));
     }
   }
+  return rests;
+}
+
+template <int D>
+void Toggle<D>::rest(Rests rests) noexcept {
+  for (auto& [face, walls] : rests) groups_.rest(face, std::move(walls));
 }
 
 template <int D>
 Change_result Toggle<D>::close(Half_facet facet) {
   editor_.check(facet);
   if (snapshot().is_impassable(facet)) return made();
-  if (!snapshot().is_solid(snapshot().cell_of(facet))) {
-    Change_result result = refused("something lies on both sides of the facet");
-    result.held_by = Shrinkage<D>(editor_, groups_, std::array{facet}, Cell::none, counts_).run();
-    return result.held_by.empty() ? made() : result;
-  }
+  if (!snapshot().is_solid(snapshot().cell_of(facet)))
+    return shrunk(Shrinkage<D>(editor_, groups_, facet, counts_),
+                  "something lies on both sides of the facet");
   editor_.set_wall(facet, true);
   return made();
 }
@@ -85,10 +106,7 @@ template <int D>
 Change_result Toggle<D>::fill(Cell cell) {
   editor_.check(cell);
   if (snapshot().is_solid(cell)) return made();
-  Change_result result = refused("something lies in the cell");
-  const std::vector<Half_facet> walls = editor_.passages(cell, false);
-  result.held_by = Shrinkage<D>(editor_, groups_, walls, cell, counts_).run();
-  return result.held_by.empty() ? made() : result;
+  return shrunk(Shrinkage<D>(editor_, groups_, cell, counts_), "something lies in the cell");
 }
 
 template class Toggle<2>;

@@ -8,6 +8,7 @@
 #include <cellwalk/reshape/toggle.h>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reshape/residents/resident_groups.h"
@@ -29,7 +30,9 @@ class Toggle {
 
  private:
   const Snapshot<D>& snapshot() const { return editor_.snapshot(); }
-  void forget_rests(std::span<const Half_facet> facets);
+  using Rests = std::vector<std::pair<Member, Supporting_walls>>;
+  Rests rests_without(std::span<const Half_facet> facets) const;
+  void rest(Rests rests) noexcept;
 
   Wall_editor<D> editor_;
   Resident_groups<D>& groups_;

@@ -41,7 +41,8 @@ class Body_access {
   const Supporting_walls& supporting_walls(std::uint32_t face) const;
   /// False if no face has any.
   bool has_supporting_walls() const;
-  void rest(std::uint32_t face, const Supporting_walls& walls);
+  /// Takes no memory.
+  void rest(std::uint32_t face, Supporting_walls&& walls) noexcept;
 
   /// Moves a vertex towards a target, as far as walls allow, as a step does; whatever the epoch.
   /// \pre leave_regions() was called; the target is finite

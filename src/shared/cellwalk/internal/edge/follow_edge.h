@@ -37,7 +37,8 @@ struct Cells_of_vertex {
 
 struct Followed_vertex {
   bool is_free = false;
-  std::size_t choices = 0;  ///< if it is free: the most sides on which it may be at one time
+  std::size_t choices = 0;    ///< the most sides on which it may be at one time
+  std::size_t dead_ends = 0;  ///< sides on which it is blocked before it is so on others, if at all
   Cells_of_vertex cells;
   std::optional<Star_block> block;  ///< if it is not free
 };
@@ -46,9 +47,12 @@ struct Followed_vertex {
 /// be. If it may be on several sides of walls, those whose rims pass it, one of them is chosen, at each time.
 /// \param choice the number of that side, modulo theirs; the first is that of the particle displaced by (e,
 ///        e^2, e^3), e small
+/// \param to_dead_end choose among the sides on which it is blocked after a while, if there are any: as long
+///        as it is not, more of its edges may be free
 /// Cost: exact numbers for each facet at the vertex of the environment.
 template <int D>
-Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice = 0);
+Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice = 0,
+                              bool to_dead_end = false);
 
 /// An end of an edge.
 template <int D>
@@ -72,8 +76,10 @@ template <int D>
 Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
                           const Chain& before, std::size_t choice = 0);
 
-extern template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t);
-extern template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t);
+extern template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t,
+                                                 bool);
+extern template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t,
+                                                 bool);
 extern template Followed_edge follow_edge<2>(const Moving_star<2>&, const Followed_end<2>&,
                                              const Followed_end<2>&, const Chain&, std::size_t);
 extern template Followed_edge follow_edge<3>(const Moving_star<3>&, const Followed_end<3>&,

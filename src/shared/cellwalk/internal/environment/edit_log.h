@@ -73,6 +73,8 @@ bool was_passable(const Snapshot<D>& snapshot, const Edits_since& edits, Half_fa
 /// last one.
 class Edit_log {
  public:
+  /// Makes room for some sides of facets that are noted next, which then takes no memory.
+  void reserve_turned(std::size_t sides);
   /// A facet, both sides of it, was opened or closed; the epoch is that of after the edit.
   void note_turned(std::uint64_t epoch, Half_facet one, Half_facet other);
   /// \param of the cell that they are parts of, or Cell::none

@@ -71,7 +71,7 @@ class Vertex_mover {
   std::uint32_t point_ = 0;
   Point<D> from_{}, target_{};
   std::vector<Cell> star_;
-  bool is_on_boundary_ = false, has_made_ = false;
+  bool is_on_boundary_ = false;
   std::vector<Cell> withdrawn_;     ///< cells, in any order
   std::vector<bool> is_withdrawn_;  ///< by the name of a cell
 };

@@ -6,13 +6,14 @@
 
 #include <cellwalk/environment/environment.h>
 
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace cellwalk::detail {
 
 /// Changes of an environment that leave its geometry alone, in map and snapshot. Names of cells and facets
-/// are kept. Each change raises the epoch.
+/// are kept. Each change raises the epoch. It is made whole, or an error leaves all as it was.
 template <int D>
 class Wall_editor {
  public:
@@ -37,13 +38,15 @@ class Wall_editor {
   /// Makes a free cell solid, and those passages walls.
   /// \param passages passages(cell, false)
   void fill(Cell cell, std::span<const Half_facet> passages);
-  /// Undoes that.
-  void take_back_fill(Cell cell, std::span<const Half_facet> passages);
   /// Makes a solid cell free: its facets to free cells become passable, those to solid ones walls.
   void excavate(Cell cell);
+  /// Calls a function while passable facets are walls, and a free cell is solid, in the snapshot only; then
+  /// all is as it was, and no epoch has risen.
+  /// \param filled that cell, or none
+  void with_walls(std::span<const Half_facet> walls, Cell filled, const std::function<void()>& use);
 
  private:
-  void set_solid(Cell cell, bool solid);
+  void change(Cell turned, std::span<const Half_facet> closed, std::span<const Half_facet> opened);
 
   Environment<D>& environment_;
 };
