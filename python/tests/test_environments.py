@@ -42,6 +42,34 @@ class FromArrays(unittest.TestCase):
         with self.assertRaisesRegex(cellwalk.NotCertifiedError, "cell 0"):
             cellwalk.Environment(bent, HEXAHEDRON, split=False)
 
+    def test_cells_that_do_not_conform(self):
+        # A hexahedron beside four smaller ones.
+        points = [[x, y, z] for x in (0, 2) for y in (0, 2) for z in (0, 2)] + [
+            [x, y, z] for x in (2, 3) for y in (0, 1, 2) for z in (0, 1, 2) if x == 3 or y == 1 or z == 1
+        ]
+        number = {tuple(point): i for i, point in enumerate(points)}
+
+        def box(low, high):
+            x, y, z = zip(low, high)
+            corners = [(x[i], y[j], z[k]) for k in (0, 1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            return [number[corner] for corner in corners]
+
+        cells = numpy.array(
+            [box((0, 0, 0), (2, 2, 2))] + [box((2, y, z), (3, y + 1, z + 1)) for y in (0, 1) for z in (0, 1)]
+        )
+        points = numpy.array(points, float)
+        for duplicates in ("refuse", "merge"):
+            with self.assertRaisesRegex(
+                cellwalk.NotCertifiedError, r"cells 0 and 1 share a part of a plane at \(2\.0.*the first of 4 such pairs"
+            ):
+                cellwalk.Environment(points, cells, duplicates=duplicates)
+        kept = cellwalk.Environment(points, cells, duplicates="keep")
+        self.assertEqual(kept.certificate["components"], 2)
+        found = kept.report["changed"]["facing_walls"]
+        self.assertEqual(found["overlapping"]["pairs"], 4)
+        self.assertEqual(found["overlapping"]["first"]["cells"], [0, 1])
+        self.assertEqual(found["near"]["pairs"], 0)
+
     def test_refusals(self):
         with self.assertRaisesRegex(ValueError, r"cells\[0, 3\] is 9: there are 8 points"):
             cellwalk.Environment(CUBE, numpy.array([[0, 1, 2, 9]]))

@@ -2,9 +2,11 @@
 // cellwalk check ENV: certifies an environment, including its map, and reports its content.
 #include <cellwalk/environment/compiled.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <string>
 
 #include "cli/common/command.h"
 #include "cli/common/edge_cells.h"
@@ -26,14 +28,19 @@ void check(const Check_options& options) {
   const Loaded_environment loaded = load_with_progress(options.environment, options.build);
   std::visit(
       [&]<int D>(const Environment<D>& environment) {
-        const Certificate certificate = naming(options.environment, [&] { return environment.certify(); });
+        Facing_walls facing;
+        const Certificate certificate =
+            naming(options.environment, [&] { return environment.certify(&facing); });
         // What was not compiled here may have been compiled wrongly.
         if (loaded.is_compiled) naming(options.environment, [&] { check_compiled(environment); });
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         write_json(json, {{"environment", options.environment},
                           {"certificate", to_json(certificate, D)},
+                          {"facing_walls", to_json(facing)},
                           {"edge_cells", to_json(edges)}});
-        outputs.commit(summary(options.environment, certificate, D, edges));
+        std::string text = summary(options.environment, certificate, D, edges);
+        for (const std::string& note : notes(facing)) text += fmt::format("  {:<12}{}\n", "noted", note);
+        outputs.commit(text);
       },
       loaded.environment);
 }

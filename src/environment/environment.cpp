@@ -7,10 +7,12 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "environment/map/map_matches_snapshot.h"
+#include "environment/soup/describe_place.h"
 #include "environment/soup/parallel.h"
 #include "prepare_soup.h"
 #include "snapshot_soup.h"
@@ -36,6 +38,26 @@ Cell_soup<D> prepare(Cell_soup<D> soup, const Build_options& options, Build_repo
                options.simplicial ? Cells_to_split::all_but_simplices : Cells_to_split::invalid);
   if (report.split.cells_split) report.origin = std::move(origin);
   return soup;
+}
+
+/// Cells by their index in the input, where some were split.
+void name_cells_of_input(Facing_walls& facing, const std::vector<std::uint32_t>& origin) {
+  if (origin.empty()) return;
+  for (Facing_facets* const found : {&facing.overlapping, &facing.near})
+    for (std::uint32_t& cell : found->cells) cell = origin[cell];
+}
+
+/// \throw Error(not_certified) if facets overlap
+template <int D>
+void refuse_overlapping(const Facing_facets& facets) {
+  if (facets.pairs == 0) return;
+  throw Error(
+      Error_code::not_certified,
+      "cells " + std::to_string(facets.cells[0]) + " and " + std::to_string(facets.cells[1]) +
+          " share a part of a " + (D == 2 ? "line" : "plane") + " at " +
+          detail::describe_place(facets.place) + " but no facet" +
+          (facets.pairs == 1 ? "" : ", the first of " + std::to_string(facets.pairs) + " such pairs") +
+          ": make them conform, or keep duplicates (--duplicates keep) to have walls there");
 }
 
 }  // namespace
@@ -72,7 +94,9 @@ Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& opt
     // Flattening the map would return exactly this soup.
     *environment.snapshot_ = Snapshot<D>::compile(soup, gluing);
   }
-  done.certificate = cellwalk::certify(*environment.snapshot_, environment.allow_duplicates_);
+  done.certificate = cellwalk::certify(*environment.snapshot_, environment.allow_duplicates_, &done.facing);
+  name_cells_of_input(done.facing, done.origin);
+  if (!environment.allow_duplicates_) refuse_overlapping<D>(done.facing.overlapping);
   return environment;
 }
 
@@ -112,9 +136,9 @@ Cell_soup<D> Environment<D>::soup() const {
 }
 
 template <int D>
-Certificate Environment<D>::certify() const {
+Certificate Environment<D>::certify(Facing_walls* facing) const {
   // First the snapshot: a map that was made from one that is none need not agree with it.
-  Certificate certificate = cellwalk::certify(*snapshot_, allow_duplicates_);
+  Certificate certificate = cellwalk::certify(*snapshot_, allow_duplicates_, facing);
   if (storage_) {
     check_map(*storage_);
     check_map_matches_snapshot(*storage_, *snapshot_);

@@ -101,6 +101,8 @@ class Import {
     auto environment =
         naming(path_, [&] { return Environment<D>::build(std::move(soup), options_.build, &built); });
     report_.stages.push_back({"changed", changes(built)});
+    if (auto lines = notes(built.facing); !lines.empty())
+      report_.stages.push_back({"noted", std::move(lines)});
     report_.json["changed"] = to_json(built);
     Groups<D> found = places.find(environment.snapshot(), built.origin);
     if (options_.tissue != 0) {

@@ -73,7 +73,37 @@ nlohmann::ordered_json to_json(const Build_report& built) {
           {"points_added", split.points_added},
           {"not_planar", split.not_planar},
           {"not_convex", split.not_convex},
-          {"not_simplices", split.not_simplices}};
+          {"not_simplices", split.not_simplices},
+          {"facing_walls", to_json(built.facing)}};
+}
+
+std::vector<std::string> notes(const Facing_walls& facing) {
+  std::vector<std::string> lines;
+  const auto note = [&lines](const Facing_facets& facets, const std::string& where) {
+    if (facets.pairs == 0) return;
+    std::string place;
+    for (const double x : facets.place) place += (place.empty() ? "" : ", ") + rounded(x);
+    lines.push_back(fmt::format("{} {}, with walls between free cells: the first of cells {} and {} at ({})",
+                                facets.pairs, (facets.pairs == 1 ? "pair" : "pairs") + where, facets.cells[0],
+                                facets.cells[1], place));
+  };
+  note(facing.overlapping, std::string(" of facets that overlap in a ") +
+                               (facing.overlapping.place.size() == 2 ? "line" : "plane"));
+  note(facing.near, " of facets within " + rounded(facing.tolerance) + " of each other");
+  if (facing.near.pairs != 0) lines.back() += fmt::format(", {} apart", rounded(facing.near.distance));
+  return lines;
+}
+
+nlohmann::ordered_json to_json(const Facing_walls& facing) {
+  const auto described = [](const Facing_facets& facets) {
+    nlohmann::ordered_json json{{"pairs", facets.pairs}};
+    if (facets.pairs != 0)
+      json["first"] = {{"cells", facets.cells}, {"at", facets.place}, {"distance", facets.distance}};
+    return json;
+  };
+  nlohmann::ordered_json near = described(facing.near);
+  near["tolerance"] = facing.tolerance;
+  return {{"overlapping", described(facing.overlapping)}, {"near", near}};
 }
 
 std::string rounded(double value) { return fmt::format("{:.6g}", value); }

@@ -47,6 +47,8 @@ void forged(std::string_view bytes);
 
 /// Cells from bytes: built, certified, walked and swept, judged by oracles.
 void build(std::string_view bytes);
+/// Meshes from bytes whose cells do not conform, judged in rationals.
+void nonconforming(std::string_view bytes);
 /// Edits from bytes of a small environment, and walks in between.
 void edits(std::string_view bytes);
 /// Moves of walls from bytes among particles and bodies, judged by oracles.

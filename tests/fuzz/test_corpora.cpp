@@ -24,11 +24,14 @@ struct Target {
   void (*run)(std::string_view bytes);
 };
 
-const std::array<Target, 20> targets{
-    {{"ovm", ovm},           {"off", off},       {"obj", obj},     {"stl", stl},       {"ply", ply},
-     {"poly", poly},         {"wkt", wkt},       {"msh", msh},     {"vtk", vtk},       {"csv", csv},
-     {"scene", scene},       {"record", record}, {"trace", trace}, {"motion", motion}, {"gzip", gzip},
-     {"compiled", compiled}, {"forged", forged}, {"build", build}, {"edits", edits},   {"moves", moves}}};
+const std::array<Target, 21> targets{
+    {{"ovm", ovm},           {"off", off},       {"obj", obj},
+     {"stl", stl},           {"ply", ply},       {"poly", poly},
+     {"wkt", wkt},           {"msh", msh},       {"vtk", vtk},
+     {"csv", csv},           {"scene", scene},   {"record", record},
+     {"trace", trace},       {"motion", motion}, {"gzip", gzip},
+     {"compiled", compiled}, {"forged", forged}, {"build", build}, {"nonconforming", nonconforming},
+     {"edits", edits},       {"moves", moves}}};
 
 /// The files of a target, by name.
 std::vector<std::filesystem::path> corpus(const Target& target) {

@@ -7,8 +7,11 @@
 #include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/snapshot.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace cellwalk {
 
@@ -53,6 +56,23 @@ struct Certificate {
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
 };
 
+/// Pairs of boundary facets of two free cells that turn their outer sides to each other.
+struct Facing_facets {
+  std::size_t pairs = 0;
+  /// Of the first pair, by the indices of the cells:
+  std::array<std::uint32_t, 2> cells{};  ///< ascending
+  std::vector<double> place;             ///< a point of both facets, D coordinates, rounded
+  double distance = 0;                   ///< the largest where one facet lies over the other, rounded
+};
+
+/// Walls that part free cells although nothing lies between them, such as where a mesh does not conform.
+struct Facing_walls {
+  Facing_facets overlapping;  ///< their interiors have a point in common, by exact predicates
+  Facing_facets near;         ///< others within `tolerance` of each other; rounded, and decides nothing
+  /// A billionth of the diagonal, or what rounded coordinates may be off. In units of the environment.
+  double tolerance = 0;
+};
+
 /// Certifies a snapshot:
 /// - every cell by check_cell;
 /// - the two sides of each facet match, boundary facets are walls, and walls separate solid cells from free
@@ -63,11 +83,14 @@ struct Certificate {
 ///   anywhere.
 ///
 /// Proof that these conditions suffice: docs/certification.md.
+/// \param facing if not null, receives the walls between free cells that nothing parts: they are not
+///        refused here
 /// \throw Error(not_certified) naming the cell (its index in the input), the facet (its vertices) and the
 ///        reason: the lowest cell that violates the first violated condition, for any number of threads
 /// Cost: about 1.3 us a tetrahedron and core; parallel. About 45 bytes a tetrahedron of working memory.
 template <int D>
-Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates = false);
+Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates = false,
+                    Facing_walls* facing = nullptr);
 
 }  // namespace cellwalk
 

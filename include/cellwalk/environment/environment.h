@@ -35,7 +35,8 @@ template <int D>
 class Wall_editor;
 }  // namespace detail
 
-/// The treatment of different points with equal coordinates.
+/// The treatment of different points with equal coordinates. Boundary facets of free cells that overlap in
+/// a plane (Facing_walls) are refused as well, unless duplicates are kept: nobody sees the walls there.
 enum class Duplicate_vertices { refuse, merge, keep };
 
 struct Build_options {
@@ -57,6 +58,8 @@ struct Build_report {
   /// Input cell of each cell if cells were split; otherwise empty (unchanged).
   std::vector<std::uint32_t> origin;
   Certificate certificate;  ///< counts, volumes, components, walls
+  /// Walls between free cells that nothing parts; cells by their index in the input.
+  Facing_walls facing;
 };
 
 /// What became of the names of an environment that was compacted.
@@ -169,8 +172,9 @@ class Environment {
   std::vector<Cell> insert_point(Cell cell, const Point<D>& position);
 
   /// Certifies again from scratch: the map, the snapshot, and that they agree.
+  /// \param facing as in cellwalk::certify()
   /// \throw Error(not_certified); Error(other) if map and snapshot disagree
-  Certificate certify() const;
+  Certificate certify(Facing_walls* facing = nullptr) const;
 
  private:
   Environment();

@@ -85,7 +85,7 @@ struct Import_options {
 /// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
-    std::string title;  ///< "read", "meshed", "changed" or "tissue"
+    std::string title;  ///< "read", "meshed", "changed", "noted" or "tissue"
     std::vector<std::string> lines;
   };
   std::vector<Stage> stages;

@@ -20,6 +20,10 @@ nlohmann::ordered_json to_json(const Certificate& certificate, int dimension);
 std::vector<std::string> changes(const Build_report& built);
 nlohmann::ordered_json to_json(const Build_report& built);
 
+/// A sentence on each kind of walls between free cells that nothing parts, if there are any.
+std::vector<std::string> notes(const Facing_walls& facing);
+nlohmann::ordered_json to_json(const Facing_walls& facing);
+
 /// The text of a rounded figure, such as a volume.
 std::string rounded(double value);
 

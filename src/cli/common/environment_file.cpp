@@ -17,11 +17,13 @@ Loaded_environment load_with_progress(const std::string& path, const Build_optio
 }
 
 void add_duplicates(CLI::App& command, Duplicate_vertices& value) {
-  add_choice(command, "--duplicates", value,
-             {{"refuse", Duplicate_vertices::refuse},
-              {"merge", Duplicate_vertices::merge},
-              {"keep", Duplicate_vertices::keep}},
-             "Vertices in the same place: refuse the file, merge them, or keep them apart (a slit)");
+  add_choice(
+      command, "--duplicates", value,
+      {{"refuse", Duplicate_vertices::refuse},
+       {"merge", Duplicate_vertices::merge},
+       {"keep", Duplicate_vertices::keep}},
+      "Vertices in the same place: refuse the file, merge them, or keep them apart (a slit); facets that "
+      "overlap without being shared are refused unless they are kept, as walls");
 }
 
 CLI::Option* add_environment_output(CLI::App& command, std::string& path) {

@@ -21,7 +21,7 @@ using cellwalk::to_json;
 /// load_environment() with a line of progress.
 Loaded_environment load_with_progress(const std::string& path, const Build_options& options);
 
-/// Adds --duplicates, the treatment of equal vertices.
+/// Adds --duplicates, the treatment of equal vertices, and of facets that overlap.
 void add_duplicates(CLI::App& command, Duplicate_vertices& value);
 
 /// Adds the output option -o for an environment, whose name must be *.ovm, *.cellwalk, or that of a device.

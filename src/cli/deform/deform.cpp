@@ -159,9 +159,11 @@ void add_deform(CLI::App& app, Action& chosen) {
       ->add_option("--positions", options->positions,
                    "Where the vertices of the bodies are in the end, a row each: body,vertex,x,y,z")
       ->type_name("OUT.csv");
-  add_choice(*command, "--duplicates", options->build.duplicates,
-             {{"refuse", Duplicate_vertices::refuse}, {"keep", Duplicate_vertices::keep}},
-             "Vertices in the same place: refuse the file, or keep them apart (a slit)");
+  add_choice(
+      *command, "--duplicates", options->build.duplicates,
+      {{"refuse", Duplicate_vertices::refuse}, {"keep", Duplicate_vertices::keep}},
+      "Vertices in the same place, and facets that overlap without being shared: refuse the file, or keep "
+      "them (a slit)");
   add_json(*command, options->json);
   add_examples(*command,
                {"cellwalk deform vessel.ovm moves.csv -o narrow.ovm --body catheter.obj --report report.csv",

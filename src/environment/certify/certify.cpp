@@ -136,19 +136,19 @@ void certify_distinct_vertices(const Complex<D>& complex) {
 }  // namespace detail
 
 template <int D>
-Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates) {
+Certificate certify(const Snapshot<D>& snapshot, bool allow_duplicates, Facing_walls* facing) {
   const detail::Complex<D> complex(snapshot);
   detail::certify_cells(complex);
   detail::certify_links(complex);
   if (!allow_duplicates) detail::certify_distinct_vertices(complex);
   const std::size_t ridges = detail::certify_turns(complex);
-  detail::certify_boundary(complex);
+  detail::certify_boundary(complex, facing);
   Certificate certificate = detail::count_cells(complex);
   certificate.ridges = ridges;
   return certificate;
 }
 
-template Certificate certify(const Snapshot<2>&, bool);
-template Certificate certify(const Snapshot<3>&, bool);
+template Certificate certify(const Snapshot<2>&, bool, Facing_walls*);
+template Certificate certify(const Snapshot<3>&, bool, Facing_walls*);
 
 }  // namespace cellwalk

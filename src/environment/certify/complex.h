@@ -129,8 +129,9 @@ template <int D>
 std::size_t certify_turns(const Complex<D>& complex);
 
 /// Checks that no boundary facet has the interior of another cell on its inner side.
+/// \param facing if not null, receives the facets that turn their outer sides to each other
 template <int D>
-void certify_boundary(const Complex<D>& complex);
+void certify_boundary(const Complex<D>& complex, Facing_walls* facing);
 
 /// The same for a certified snapshot after a vertex of the boundary has moved: `star` are the cells at the
 /// vertex, each still sound, and `near` includes all boundary facets of other cells whose boxes meet the box

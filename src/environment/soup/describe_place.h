@@ -3,17 +3,16 @@
 #ifndef CELLWALK_ENVIRONMENT_SOUP_DESCRIBE_PLACE_H
 #define CELLWALK_ENVIRONMENT_SOUP_DESCRIBE_PLACE_H
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 
 namespace cellwalk::detail {
 
 /// Where a point is: 17 digits would hide the message, 6 decimal places suffice to find it.
-template <std::size_t D>
-std::string describe_place(const std::array<double, D>& p) {
+inline std::string describe_place(std::span<const double> p) {
   std::string text = "(";
-  for (std::size_t i = 0; i < D; ++i) text += (i ? ", " : "") + std::to_string(p[i]);
+  for (std::size_t i = 0; i < p.size(); ++i) text += (i ? ", " : "") + std::to_string(p[i]);
   return text + ")";
 }
 
