@@ -15,15 +15,15 @@
 namespace cellwalk::detail {
 
 struct Narrow_place {
-  bool are_vertices = true;             ///< or facets
-  std::array<std::size_t, 2> features;  ///< vertices or facets, numbered through
-  int common_corners = 0;               ///< of the facets
-  double distance = 0;                  ///< divided by the diagonal of all surfaces; rounded
+  bool are_vertices = true;               ///< or facets
+  std::array<std::size_t, 2> features{};  ///< vertices or facets, numbered through
+  int common_corners = 0;                 ///< of the facets
+  double distance = 0;                    ///< divided by the diagonal of all surfaces; rounded
   Point<3> at{};
 };
 
-/// The two nearest vertices, if they are near; then the two nearest facets, if they are much nearer than that,
-/// but for those with a common edge. If nothing is near, the narrowest of edges and folds.
+/// The two nearest vertices, if they are near; then the two nearest facets, if they are much nearer than
+/// that, but for those with a common edge. If nothing is near, the narrowest of edges and folds.
 /// \pre the surfaces are triangles that do not intersect, without degenerate ones
 /// Cost: about 5 us a triangle.
 std::vector<Narrow_place> narrow_places(const std::vector<Surface_soup>& surfaces);
