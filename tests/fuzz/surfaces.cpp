@@ -28,10 +28,12 @@ void change(Surface_soup& s, Decoder& in) {
     case 0:
       for (double& x : p) x = in.coordinate();
       break;
-    case 1:  // near another point
+    case 1: {  // near another point
       p = s.points[in.below(s.points.size())];
-      p[in.below(3)] += std::ldexp(1.0, -static_cast<int>(in.byte()));
+      double& coordinate = p[in.below(3)];
+      coordinate += std::ldexp(1.0, -static_cast<int>(in.byte()));
       break;
+    }
     case 2: {
       constexpr int largest_exponent = 1000;
       const int exponent = static_cast<int>(in.below(2 * largest_exponent)) - largest_exponent;
