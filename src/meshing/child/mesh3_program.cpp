@@ -143,7 +143,8 @@ int main(int argc, char** argv) {
   const auto options = begin_helper(argc, argv, input);
   CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
   CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
-  std::cerr.setstate(std::ios_base::failbit);  // of what CGAL says, too, only the exception matters
+  // CGAL says much, too, of which only the exception matters.
+  for (std::ostream* const stream : {&std::cerr, &std::clog}) stream->setstate(std::ios_base::failbit);
   try {
     end_with(run(options, input));
   } catch (const CGAL::Failure_exception& failure) {
