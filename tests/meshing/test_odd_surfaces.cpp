@@ -119,5 +119,16 @@ TEST(OddSurfaces, AreMeshedByMesh3OrRefusedWithAPlace) {
   EXPECT_GT(tally.refused, n / 10);
 }
 
+/// CGAL prints an assertion and where it dumps, before it throws.
+TEST(OddSurfaces, AreRefusedByMesh3ForItsReason) {
+  const Traces before;
+  const Surface_soup spike =
+      check_surface(test::with_point(test::box({0, 0, 0}, {1, 1, 1}), 7, {1, 1, 1e12}));
+  const std::string said = test::refusal([&] { mesh3(spike); });
+  EXPECT_EQ(said.rfind("4: Mesh_3 failed: (", 0), 0u) << said;
+  EXPECT_NE(said.find(" is already inserted on surface; vertices "), said.npos) << said;
+  before.expect_unchanged();
+}
+
 }  // namespace
 }  // namespace cellwalk
