@@ -115,8 +115,10 @@ TEST(OddSurfaces, AreMeshedByMesh3OrRefusedWithAPlace) {
     EXPECT_GT(mesh3(odd.surface, {}, options).cell_count(), 0u) << odd.name;
     return false;
   });
-  EXPECT_GT(tally.meshed, n / 10);
-  EXPECT_GT(tally.refused, n / 10);
+  // On some Mesh_3 does not end, so that their time is up; how many these are depends on the machine.
+  EXPECT_GT(tally.meshed, n / 4);
+  EXPECT_GE(tally.refused, 1u);
+  EXPECT_GE(tally.refused_before, n / 20);
 }
 
 /// CGAL prints an assertion and where it dumps, before it throws.
