@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What pip builds: CMake compiles the extension module, the program and the modules of readers, into the package `cellwalk`.
+"""What pip builds: CMake compiles the extension module, the program, the modules of readers and the meshers, into the package `cellwalk`.
 
 The build tree is build/pip, or the one that CELLWALK_BUILD_DIR names; CMAKE_ARGS has further arguments for the former.
 """
@@ -42,7 +42,7 @@ def build_tree():
 
 
 class Build(build_ext):
-    """Puts _cellwalk beside the Python files, the program into bin/ and the modules where both look for them."""
+    """Puts _cellwalk beside the Python files, the program into bin/, modules and meshers where both look for them."""
 
     def run(self):
         if self.inplace:
@@ -55,7 +55,7 @@ class Build(build_ext):
             run("cmake", "--install", tree, "--prefix", folder, "--component", "python")
             [module] = Path(folder).rglob("_cellwalk*.so")
             shutil.copy2(module, package)
-        for component in ("tools", "readers"):
+        for component in ("tools", "readers", "meshers"):
             run("cmake", "--install", tree, "--prefix", package.resolve(), "--component", component)
 
 

@@ -29,13 +29,11 @@ foreach(component ${CELLWALK_COMPONENTS})
           FILE cellwalk-${component}.cmake COMPONENT ${package})
 endforeach()
 
-set(CELLWALK_HAS_TETGEN ${TetGen_FOUND})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cellwalkConfig.cmake.in
   ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cellwalkConfig.cmake ${PROJECT_BINARY_DIR}/cellwalkConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake
         DESTINATION ${package_dir} COMPONENT dev)
 
 # Of the internal headers those that public ones include; tests/architecture knows if one is missing, or one too many.

@@ -4,6 +4,7 @@
 #   libcellwalk-dev          dev      headers and libraries of the core, which need no reader's libraries
 #   cellwalk-readers         readers  modules that the program, the Python module and programs of users load to read by VTK
 #   cellwalk-mpi             mpi      the module by which the program shares its work among the processes of mpirun
+#   cellwalk-meshers         meshers  programs that the program, the Python module and programs of users run to mesh by TetGen and Mesh_3
 #   libcellwalk-io-dev       io       those of io
 #   libcellwalk-meshing-dev  meshing  those of meshing and loading, which need the GPL part
 #   python3-cellwalk         python   the Python module
@@ -44,6 +45,16 @@ if(TARGET VTK::IOXML)
   set(CPACK_COMPONENT_READERS_DESCRIPTION "Readers of meshes by VTK, for Cellwalk")
 endif()
 
+# Meshers run in programs of their own, so that nobody needs their development packages either.
+set(meshers)
+if(TARGET cellwalk::meshing)
+  list(APPEND CPACK_COMPONENTS_ALL meshers)
+  set(meshers "cellwalk-meshers (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MESHERS_PACKAGE_NAME cellwalk-meshers)
+  set(CPACK_DEBIAN_MESHERS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_COMPONENT_MESHERS_DESCRIPTION "Meshers of surfaces by TetGen (AGPL) and Mesh_3 (GPL), for Cellwalk")
+endif()
+
 if(TARGET cellwalk_mpi)
   list(APPEND CPACK_COMPONENTS_ALL mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_NAME cellwalk-mpi)
@@ -62,15 +73,16 @@ set(CPACK_COMPONENT_IO_DESCRIPTION "Readers and writers of Cellwalk, for libcell
 list(APPEND CPACK_COMPONENTS_ALL meshing)
 set(CPACK_DEBIAN_MESHING_PACKAGE_NAME libcellwalk-meshing-dev)
 set(CPACK_DEBIAN_MESHING_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS "libcellwalk-io-dev (= ${PROJECT_VERSION})")
-if(TARGET TetGen::TetGen)
-  string(APPEND CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS ", libtet1.5-dev")
-endif()
+set(meshing_depends "libcellwalk-io-dev (= ${PROJECT_VERSION})" ${meshers})
+list(JOIN meshing_depends ", " CPACK_DEBIAN_MESHING_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_MESHING_DESCRIPTION "Environments of surfaces, polygons and files, for libcellwalk-dev (GPL)")
 
 set(licences dev io meshing)
 if(readers)
   list(APPEND licences readers)
+endif()
+if(meshers)
+  list(APPEND licences meshers)
 endif()
 if(TARGET cellwalk_mpi)
   list(APPEND licences mpi)
@@ -80,7 +92,8 @@ if(TARGET cellwalk_cli)
   list(APPEND licences tools)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME cellwalk)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${readers}")
+  set(tools_depends ${readers} ${meshers})
+  list(JOIN tools_depends ", " CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS cellwalk-mpi)
   set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
 endif()
@@ -91,11 +104,8 @@ if(TARGET cellwalk_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy")
-  if(readers)
-    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", ${readers}")
-  endif()
+  set(python_depends "python3 (>= 3.${Python3_VERSION_MINOR}~)" "python3 (<< 3.${next_minor})" python3-numpy ${readers} ${meshers})
+  list(JOIN python_depends ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
 endif()
 

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Finds TetGen as a library: target TetGen::TetGen, variable TetGen_FOUND.
-#
-# Gmsh's library carries a TetGen of its own under the same names. It is loaded later, if at all, and is only asked to read files, which
-# needs no TetGen: this one is used.
 find_path(TetGen_INCLUDE_DIR tetgen.h)
 find_library(TetGen_LIBRARY NAMES tet tetgen)
 include(FindPackageHandleStandardArgs)

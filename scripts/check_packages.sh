@@ -58,7 +58,7 @@ install() {
 same_output() { diff "$log" "examples/expected/$1.out"; }
 
 inside "lists of packages" apt-get update
-install "the program is installed" "$(package cellwalk)" "$(package cellwalk-readers)"
+install "the program is installed" "$(package cellwalk)" "$(package cellwalk-readers)" "$(package cellwalk-meshers)"
 inside "the program runs" cellwalk --version
 cat "$log"
 for part in vtk; do

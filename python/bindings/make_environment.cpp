@@ -98,15 +98,20 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
                          bool simplicial, const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
-                         bool keep_obstacles, double tissue) {
+                         bool keep_obstacles, double tissue, double time_limit) {
   const std::string name = py::str(path);
   Import_options options;
   options.tissue = tissue;
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
                     quality, cell_size, distance, keep_obstacles};
+  options.mesher.time_limit = time_limit;
+  options.mesher.on_wait = [] {  // Ctrl-C ends the mesher
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
   options.build = to_build_options(duplicates, split, simplicial);
-  // The interpreter waits: TetGen is not thread-safe.
+  const py::gil_scoped_release released;
   Imported_environment imported = import_environment(name, options);
   return share(std::move(imported.environment), imported.built.certificate, imported.report.json.dump(),
                imported.groups);
@@ -148,13 +153,15 @@ void bind_makers(Environment_class& environment) {
                   py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
                   py::arg("mesher") = "tetgen", py::arg("quality") = py::none(), py::arg("cell_size") = 0.0,
                   py::arg("distance") = 0.0, py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
+                  py::arg("time_limit") = Mesher_options{}.time_limit,
                   "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
                   "necessary, a "
                   "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
                   "triangles. `report` lists all changes.\n\n"
                   "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
                   "see reshape().\n"
-                  "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.")
+                  "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.\n"
+                  "time_limit: seconds that one run of a mesher may take, in a process of its own.")
       .def_static(
           "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
           "Generates an environment. Kinds and options are those of `cellwalk "

@@ -218,6 +218,7 @@ class Environment:
         distance: float = 0.0,
         keep_obstacles: bool = False,
         tissue: float = 0.0,
+        time_limit: float = 600.0,
     ) -> Environment: ...
     @staticmethod
     def generate(

@@ -3,7 +3,10 @@
 
 import os
 import pathlib
+import signal
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy
@@ -142,6 +145,55 @@ class FromFiles(unittest.TestCase):
         self.assertEqual(with_obstacle.report["meshed"]["boundary_facets"], 260)
         with self.assertRaisesRegex(cellwalk.UsageError, "mesher takes tetgen, mesh3, not magic"):
             cellwalk.Environment.import_mesh(torus, mesher="magic")
+
+    def test_what_kills_a_mesher_is_an_error(self):
+        if os.environ.get("CELLWALK_TORUS") is None:
+            self.skipTest("a build without TetGen")
+        flat = self.folder / "flat.off"  # a corner at 1e8 beside a unit triangle, on which TetGen crashes
+        flat.write_text("OFF\n4 4 0\n0 0 0\n1e8 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+        try:
+            self.assertIn("tolerance", cellwalk.Environment.import_mesh(flat).report["meshed"])
+        except cellwalk.NotCertifiedError as error:
+            self.assertRegex(str(error), "(vertices|facets) [0-9]+ and [0-9]+")
+        spike = self.folder / "spike.off"
+        spike.write_text("OFF\n8 12 0\n0 0 0\n0 0 1\n0 1 0\n0 1 1\n1 0 0\n1 0 1\n1 1 0\n1 1 1e12\n3 0 1 3\n3 0 3 2\n3 4 6 7\n"
+                         "3 4 7 5\n3 0 4 5\n3 0 5 1\n3 2 3 7\n3 2 7 6\n3 0 2 6\n3 0 6 4\n3 1 5 7\n3 1 7 3\n")
+        with self.assertRaisesRegex(cellwalk.NotCertifiedError, "spike.off: Mesh_3 .*(vertices|facets) [0-9]+ and [0-9]+"):
+            cellwalk.Environment.import_mesh(spike, mesher="mesh3", time_limit=20)
+
+    def fake_mesher(self, script):
+        """Plays the helpers by a script."""
+        for name in ("cellwalk-tetgen", "cellwalk-mesh3"):
+            path = self.folder / name
+            path.write_text("#!/bin/sh\n" + script + "\n")
+            path.chmod(0o700)
+        os.environ["CELLWALK_LIBEXEC"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "CELLWALK_LIBEXEC")
+
+    def test_meshers_that_misbehave(self):
+        torus = os.environ.get("CELLWALK_TORUS")
+        if torus is None:
+            self.skipTest("a build without TetGen")
+        self.fake_mesher("kill -SEGV $$")
+        with self.assertRaisesRegex(cellwalk.NotCertifiedError, "TetGen crashed .signal 11, SIGSEGV."):
+            cellwalk.Environment.import_mesh(torus)
+        self.fake_mesher("sleep 1000")
+        with self.assertRaisesRegex(cellwalk.NotCertifiedError, "Mesh_3 did not end within 0.2 s"):
+            cellwalk.Environment.import_mesh(torus, mesher="mesh3", time_limit=0.2)
+
+    def test_an_interruption_ends_the_mesher(self):
+        torus = os.environ.get("CELLWALK_TORUS")
+        if torus is None:
+            self.skipTest("a build without TetGen")
+        self.fake_mesher("sleep 1000")
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))  # that it runs shows that the lock is released
+        timer.start()
+        start = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            cellwalk.Environment.import_mesh(torus)
+        self.assertLess(time.monotonic() - start, 20)
+        with self.assertRaises(ChildProcessError):  # none is left
+            os.waitpid(-1, os.WNOHANG)
 
 
 if __name__ == "__main__":

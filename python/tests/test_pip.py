@@ -29,6 +29,13 @@ class Pip(unittest.TestCase):
                        "import cellwalk; e = cellwalk.Environment.generate('squares', cells=(3, 3)); e.save('e.cellwalk'); "
                        "print(cellwalk.__file__, len(e.cells()))", **here)
             self.assertEqual(said.split(), [str(site / "cellwalk" / "__init__.py"), "9"])
+            (Path(folder) / "t.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+            # A build without meshers has none in the package either.
+            run(sys.executable, "-c", "import cellwalk; cellwalk.build_features()['tetgen'] and cellwalk.Environment.import_mesh('t.off')",
+                **here)
+            helpers = [path.name for path in (site / "cellwalk").glob("libexec/cellwalk/*")]
+            self.assertEqual("True" in run(sys.executable, "-c", "import cellwalk; print(cellwalk.build_features()['tetgen'])", **here),
+                             "cellwalk-tetgen" in helpers)
             program = [sys.executable, "-m", "cellwalk"]
             self.assertRegex(run(*program, "check", "e.cellwalk", **here), r"cells +9 ")
             self.assertEqual(run(str(site / "cellwalk" / "bin" / "cellwalk"), "--version"), run(*program, "--version", **here))

@@ -52,6 +52,12 @@ void add_mesher_options(CLI::App& command, Mesher_options& options, double& tiss
           "run into each other; by TetGen")
       ->check(number_from(least_size, "greater than 0"))
       ->type_name("DIST");
+  command
+      .add_option("--time-limit", options.time_limit,
+                  "Seconds that one run of TetGen or Mesh_3 may take, after which it is ended")
+      ->check(number_from(least_size, "greater than 0"))
+      ->default_str("600")
+      ->type_name("SECONDS");
   command.add_flag("--keep-obstacles", options.keep_obstacles,
                    "Keep the inside of obstacles and holes as solid cells");
 }

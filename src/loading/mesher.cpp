@@ -39,6 +39,13 @@ void add_surfaces(const Report& report, Meshed<3>& meshed) {
   }
 }
 
+/// That TetGen needed another tolerance than its own.
+void add_tolerance(const std::string& tolerance, Meshed<3>& meshed) {
+  if (tolerance.empty()) return;
+  meshed.lines.push_back(tolerance);
+  meshed.report["tolerance"] = tolerance;
+}
+
 [[noreturn]] void refuse_option(const char* what) { throw Error(Error_code::usage, what); }
 
 /// The bounds that tetrahedra may violate, in words.
@@ -58,6 +65,7 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
   tetgen.cell_size = options.cell_size;
   tetgen.keep_obstacles = options.keep_obstacles;
   tetgen.obstacle_names = options.obstacle_names;
+  tetgen.limits = {options.time_limit, options.on_wait};
   Tetrahedralize_report report;
   Meshed<3> meshed{tetrahedralize(surface, obstacles, tetgen, &report), {}, {}};
   meshed.lines.push_back(
@@ -76,6 +84,7 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
                    {"added_points", report.added_points},
                    {"boundary_facets", report.boundary_facets},
                    {"solid_cells", report.solid_cells}};
+  add_tolerance(report.tolerance, meshed);
   add_surfaces(report, meshed);
   return meshed;
 }
@@ -90,6 +99,7 @@ Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup
   mesh.cell_size = options.cell_size;
   mesh.facet_distance = options.distance;
   mesh.obstacle_names = options.obstacle_names;
+  mesh.limits = {options.time_limit, options.on_wait};
   Mesh3_report report;
   Meshed<3> meshed{mesh3(surface, obstacles, mesh, &report), {}, {}};
   meshed.lines.push_back(
@@ -120,6 +130,7 @@ Meshed<3> add_tissue(Cell_soup<3> cells, double thickness, const Mesher_options&
   Tissue_options tissue;
   tissue.thickness = thickness;
   tissue.quality = options.quality.value_or(tissue.quality);
+  tissue.limits = {options.time_limit, options.on_wait};
   Tissue_report report;
   Meshed<3> meshed{surround_by_tissue(std::move(cells), tissue, &report), {}, {}};
   const auto corner = [](const Point<3>& p) {
@@ -141,6 +152,7 @@ Meshed<3> add_tissue(Cell_soup<3> cells, double thickness, const Mesher_options&
                    {"added_points", report.added_points},
                    {"inner_facets", report.inner_facets},
                    {"out_of_bounds", report.out_of_bounds}};
+  add_tolerance(report.tolerance, meshed);
   return meshed;
 }
 

@@ -3,51 +3,24 @@
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/meshing/mesh3.h>
 
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/Polyhedral_mesh_domain_3.h>
-#include <CGAL/Random.h>
-#include <CGAL/make_mesh_3.h>
-#include <CGAL/version.h>
 #include <fmt/format.h>
 
-#if CGAL_VERSION_MAJOR >= 6
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "mesher_input.h"
+#include "meshing/child/run_helper.h"
+#include "narrow_place.h"
+#include "scale.h"
 #include "sizes.h"
 #include "surface_mesh.h"
 
 namespace cellwalk {
 namespace {
-
-using detail::Surface_mesh;
-using Kernel = detail::Mesh_kernel;
-using Domain = CGAL::Polyhedral_mesh_domain_3<Surface_mesh, Kernel>;
-using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
-using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
-using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
-using Triangle_3 = Kernel::Triangle_3;
-using Triangles = std::vector<Triangle_3>;
-#if CGAL_VERSION_MAJOR >= 6
-using Triangle_traits =
-    CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
-#else
-using Triangle_traits =
-    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
-#endif
-using Triangle_tree = CGAL::AABB_tree<Triangle_traits>;
 
 /// The largest number of cells or facets: more take an hour, and some tens of gigabytes.
 constexpr double most_elements = 1e8;
@@ -72,7 +45,32 @@ void check_sizes(const Mesh3_options& options, double cell, double facet, const 
                         fmt::format("of diagonal {:g}", extent.diagonal));
 }
 
-Criteria criteria(const Mesh3_options& options, const Extent& extent) {
+/// Of what Mesh_3 is given.
+Extent extent_of(const detail::Mesher_input& input, const Mesh3_report& report, int scale) {
+  Extent extent;
+  Point<3> low = input.points[0], high = low;
+  for (const Point<3>& p : input.points)
+    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+  const Vector<3> sides = high - low;
+  extent.diagonal = length(sides);
+  const double volume = detail::free_volume(report.surface, report.obstacles);
+  extent.volume = std::isnormal(volume) ? std::ldexp(volume, 3 * scale) : sides[0] * sides[1] * sides[2];
+  for (const auto& f : input.triangles) {
+    const auto p = [&](std::size_t i) { return input.points[static_cast<std::size_t>(f[i])]; };
+    extent.area += length(cross(p(1) - p(0), p(2) - p(0))) / 2;
+  }
+  return extent;
+}
+
+/// The options for a surface of another size.
+Mesh3_options in_size(Mesh3_options options, int scale) {
+  for (double* length : {&options.cell_size, &options.facet_size, &options.facet_distance})
+    *length = std::ldexp(*length, scale);
+  return options;
+}
+
+/// The bounds as cellwalk-mesh3 takes them.
+std::vector<std::string> bounds(const Mesh3_options& options, const Extent& extent) {
   // NaN fails every comparison.
   if (!(options.cell_size >= 0 && options.facet_size >= 0 && options.facet_distance >= 0))
     throw Error(Error_code::usage, "Mesh_3: sizes and distances must not be negative");
@@ -86,36 +84,24 @@ Criteria criteria(const Mesh3_options& options, const Extent& extent) {
   const double facet = options.facet_size > 0 ? options.facet_size : cell;
   const double distance = options.facet_distance > 0 ? options.facet_distance : facet / 50;
   check_sizes(options, cell, facet, extent);
-  namespace P = CGAL::parameters;
-  return Criteria(P::facet_angle = options.facet_angle, P::facet_size = facet, P::facet_distance = distance,
-                  P::cell_radius_edge_ratio = options.radius_edge, P::cell_size = cell);
+  std::vector<std::string> words;
+  for (const double bound : {options.facet_angle, facet, distance, options.radius_edge, cell})
+    words.push_back(fmt::format("{:a}", bound));
+  return words;
 }
 
-Extent extent_of(const std::vector<Surface_soup>& surfaces, const Mesh3_report& report) {
-  Extent extent;
-  Point<3> low = surfaces[0].points[0], high = low;
-  for (const auto& p : surfaces[0].points)
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
-  extent.diagonal = length(high - low);
-  extent.volume = detail::free_volume(report.surface, report.obstacles);
-  for (const Surface_soup& s : surfaces)
-    for (const auto& f : s.facets)
-      extent.area += length(cross(s.points[f[1]] - s.points[f[0]], s.points[f[2]] - s.points[f[0]])) / 2;
-  return extent;
-}
-
-Cell_soup<3> collect(const Complex& complex) {
+/// The tetrahedra that Mesh_3 made, in the size that it was given.
+/// \throw Error(not_certified) if there are none, or flat ones
+Cell_soup<3> collect(const detail::Mesher_output& output, int scale) {
   Cell_soup<3> soup;
-  std::map<Triangulation::Vertex_handle, std::uint32_t> number;
   Predicate_counts counts;
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
+  for (const Point<3>& p : output.points) soup.points.push_back(detail::scaled(p, -scale));
+  for (const auto& corners : output.tetrahedra) {
     std::array<std::uint32_t, 4> t;
-    for (int i = 0; i < 4; ++i) {
-      const auto [it, is_new] =
-          number.insert({cell->vertex(i), static_cast<std::uint32_t>(soup.points.size())});
-      t[i] = it->second;
-      const auto& p = cell->vertex(i)->point();
-      if (is_new) soup.points.push_back({p.x(), p.y(), p.z()});
+    for (std::size_t i = 0; i < 4; ++i) {
+      t[i] = static_cast<std::uint32_t>(corners[i]);
+      if (t[i] >= soup.points.size() || !is_finite(soup.points[t[i]]))
+        throw Error(Error_code::not_certified, "Mesh_3 made no mesh: a tetrahedron lacks a vertex");
     }
     const auto& p = soup.points;
     if (Exact::orientation(counts, p[t[0]], p[t[1]], p[t[2]], p[t[3]]) <= 0)
@@ -128,38 +114,6 @@ Cell_soup<3> collect(const Complex& complex) {
   return soup;
 }
 
-/// The boundary of the mesh.
-Triangles boundary(const Complex& complex) {
-  Triangles triangles;
-  for (auto f = complex.facets_in_complex_begin(); f != complex.facets_in_complex_end(); ++f) {
-    std::array<Kernel::Point_3, 3> p;
-    for (int i = 0; i < 3; ++i) {
-      const auto& w = f->first->vertex((f->second + 1 + i) & 3)->point();
-      p[i] = {w.x(), w.y(), w.z()};
-    }
-    triangles.emplace_back(p[0], p[1], p[2]);
-  }
-  return triangles;
-}
-
-void measure(const Triangles& mesh, const std::vector<Surface_soup>& surfaces, Mesh3_report& report) {
-  Triangles input;
-  const auto at = [](const Point<3>& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
-  for (const auto& s : surfaces)
-    for (const auto& f : s.facets)
-      input.emplace_back(at(s.points[f[0]]), at(s.points[f[1]]), at(s.points[f[2]]));
-  const Triangle_tree input_tree(input.begin(), input.end()), mesh_tree(mesh.begin(), mesh.end());
-  double to_surface = 0, from_surface = 0;  // squared
-  for (const Triangle_3& t : mesh)
-    for (int i = 0; i < 3; ++i)
-      for (const auto& p : {t[i], CGAL::midpoint(t[i], t[(i + 1) % 3]), CGAL::centroid(t)})
-        to_surface = std::max(to_surface, input_tree.squared_distance(p));
-  for (const auto& s : surfaces)
-    for (const auto& p : s.points) from_surface = std::max(from_surface, mesh_tree.squared_distance(at(p)));
-  report.distance_to_surface = std::sqrt(to_surface);
-  report.distance_from_surface = std::sqrt(from_surface);
-}
-
 }  // namespace
 
 Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
@@ -167,25 +121,24 @@ Cell_soup<3> mesh3(const Surface_soup& surface, const std::vector<Surface_soup>&
   Mesh3_report own;
   Mesh3_report& r = report ? *report : own;
   r = {};
-  const auto surfaces =
+  detail::Checked_surfaces checked =
       detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
-  const Criteria bounds = criteria(options, extent_of(surfaces, r));
-  // A point is inside if a ray from it crosses the surfaces an odd number of times, so obstacles are omitted.
-  Surface_mesh mesh;
-  for (const auto& s : surfaces) detail::append(mesh, s);
-  // Mesh_3 uses the random generator of the domain and the thread's default one.
-  CGAL::Random random(0);
-  CGAL::get_default_random() = CGAL::Random(0);
-  const Domain domain(mesh, &random);
-  // Without perturber and exuder, whose order of work depends on addresses, so that the mesh would change
-  // from run to run. They remove slivers, which do not affect a walk.
-  namespace P = CGAL::parameters;
-  const Complex complex = CGAL::make_mesh_3<Complex>(domain, bounds, P::no_perturb(), P::no_exude());
-  Cell_soup<3> soup = collect(complex);
-  const Triangles triangles = boundary(complex);
-  r.boundary_facets = triangles.size();
-  measure(triangles, surfaces, r);
-  return soup;
+  const int scale = detail::scale_of(checked.soups);
+  const detail::Mesher_input input = detail::mesher_input(checked.soups, scale);
+  const auto words = bounds(in_size(options, scale), extent_of(input, r, scale));
+  try {
+    const detail::Mesher_output output =
+        detail::run_helper(detail::mesh3_helper, words, input, options.limits);
+    Cell_soup<3> soup = collect(output, scale);
+    r.boundary_facets = static_cast<std::size_t>(output.measures[0]);
+    r.distance_to_surface = std::ldexp(output.measures[1], -scale);
+    r.distance_from_surface = std::ldexp(output.measures[2], -scale);
+    return soup;
+  } catch (const Error& error) {
+    if (error.code() != Error_code::not_certified) throw;
+    const std::string place = describe(detail::narrow_places(checked.soups), checked.names);
+    throw Error(Error_code::not_certified, fmt::format("{}; {}", error.what(), place));
+  }
 }
 
 }  // namespace cellwalk

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "surface_mesh.h"
 #include "surface_topology.h"
@@ -44,6 +45,13 @@ void orient_outwards(Surface_mesh& mesh, Surface_report& report) {
   for (Face face : mesh.faces()) turned += loop_of(mesh, face) != before[i++];
   report.inside_out = turned == before.size();
   if (!report.inside_out) report.turned_facets += turned;
+}
+
+/// The first face that is no triangle, of which there is one.
+Face first_polygon(const Surface_mesh& mesh) {
+  for (Face face : mesh.faces())
+    if (mesh.degree(face) > 3) return face;
+  return *mesh.faces_begin();
 }
 
 std::string pair_of(std::uint32_t a, std::uint32_t b) {
@@ -93,25 +101,26 @@ std::vector<std::string> describe(const Surface_report& report) {
   return lines;
 }
 
-Surface_soup check_surface(const Surface_soup& soup, const std::string& name, Surface_report* report) {
-  Surface_report own;
-  Surface_report& r = report ? *report : own;
+namespace detail {
+
+Traced_surface check_traced(const Surface_soup& soup, const std::string& name, Surface_report& r) {
   r = {};
-  detail::Traced_surface traced = detail::clean(soup, name, r);
-  detail::make_oriented_manifold(traced, name, r);
+  Traced_surface traced = clean(soup, name, r);
+  make_oriented_manifold(traced, name, r);
 
   Surface_mesh mesh;
-  detail::append(mesh, traced.soup);
+  append(mesh, traced.soup);
   auto source = mesh.add_property_map<Face, std::uint32_t>("f:source", 0).first;
   for (Face face : mesh.faces()) source[face] = traced.input_facet[face];
   for (const auto& facet : traced.soup.facets) r.triangulated_facets += facet.size() > 3;
   Source_visitor visitor;
   visitor.source = &source;
   if (!PMP::triangulate_faces(mesh, CGAL::parameters::visitor(visitor)))
-    throw Error(Error_code::input,
-                name + " has a polygon that cannot be cut into triangles; triangulate it beforehand");
+    throw Error(Error_code::input, name + " has a polygon that cannot be cut into triangles: facet " +
+                                       std::to_string(source[first_polygon(mesh)]) +
+                                       "; triangulate it beforehand");
 
-  const auto pairs = detail::intersecting_faces(mesh);
+  const auto pairs = intersecting_faces(mesh);
   if (!pairs.empty()) {
     auto first = std::minmax(source[Face(pairs[0].first)], source[Face(pairs[0].second)]);
     throw Error(Error_code::input, name + " intersects itself: " + std::to_string(pairs.size()) +
@@ -122,11 +131,22 @@ Surface_soup check_surface(const Surface_soup& soup, const std::string& name, Su
   orient_outwards(mesh, r);
   r.volume = CGAL::to_double(PMP::volume(mesh));
 
-  Surface_soup result;
+  Traced_surface result;
+  result.input_point = std::move(traced.input_point);
   for (auto v : mesh.vertices())
-    result.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
-  for (Face face : mesh.faces()) result.facets.push_back(loop_of(mesh, face));
+    result.soup.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
+  for (Face face : mesh.faces()) {
+    result.soup.facets.push_back(loop_of(mesh, face));
+    result.input_facet.push_back(source[face]);
+  }
   return result;
+}
+
+}  // namespace detail
+
+Surface_soup check_surface(const Surface_soup& soup, const std::string& name, Surface_report* report) {
+  Surface_report own;
+  return detail::check_traced(soup, name, report ? *report : own).soup;
 }
 
 }  // namespace cellwalk

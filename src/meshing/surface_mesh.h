@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "feature_names.h"
+#include "surface_topology.h"
+
 namespace cellwalk::detail {
 
 using Mesh_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -25,13 +28,21 @@ void append(Surface_mesh& mesh, const Surface_soup& surface);
 /// Pairs of faces that meet elsewhere than in a common edge or vertex, each pair ascending, all in order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Surface_mesh& mesh);
 
+/// check_surface(), with the vertex and facet of the input that each is or comes from.
+Traced_surface check_traced(const Surface_soup& soup, const std::string& name, Surface_report& report);
+
+/// Surfaces that may be meshed, as triangles, and what messages call their parts.
+struct Checked_surfaces {
+  std::vector<Surface_soup> soups;
+  Feature_names names;
+};
+
 /// Checks the surface, then its obstacles, and that they do not meet. Messages refer to obstacles by their
 /// names, or by their numbers if they have none.
 /// \throw Error(input)
-std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
-                                      const std::vector<std::string>& obstacle_names,
-                                      Surface_report& surface_report,
-                                      std::vector<Surface_report>& obstacle_reports);
+Checked_surfaces check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                             const std::vector<std::string>& obstacle_names, Surface_report& surface_report,
+                             std::vector<Surface_report>& obstacle_reports);
 
 }  // namespace cellwalk::detail
 

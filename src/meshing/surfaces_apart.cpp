@@ -4,6 +4,7 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 
 #include <string>
+#include <utility>
 
 #include "surface_mesh.h"
 
@@ -39,18 +40,25 @@ std::size_t enclosed(const Surface_soup& surface, const Surface_soup& points) {
 
 }  // namespace
 
-std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
-                                      const std::vector<std::string>& obstacle_names,
-                                      Surface_report& surface_report,
-                                      std::vector<Surface_report>& obstacle_reports) {
-  std::vector<std::string> names{"surface"};
-  std::vector<Surface_soup> checked{check_surface(surface, names[0], &surface_report)};
+Checked_surfaces check_apart(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                             const std::vector<std::string>& obstacle_names, Surface_report& surface_report,
+                             std::vector<Surface_report>& obstacle_reports) {
+  Checked_surfaces result;
+  std::vector<Surface_soup>& checked = result.soups;
+  std::vector<std::string> names;
+  const auto check = [&](const Surface_soup& soup, const std::string& name, Surface_report& report) {
+    Traced_surface traced = check_traced(soup, name, report);
+    result.names.add(name, std::move(traced.input_point), traced.soup.points.size(),
+                     std::move(traced.input_facet), traced.soup.facets.size());
+    checked.push_back(std::move(traced.soup));
+    names.push_back(name);
+  };
+  check(surface, "surface", surface_report);
   obstacle_reports.resize(obstacles.size());
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    names.push_back(i < obstacle_names.size() ? obstacle_names[i] : "obstacle " + std::to_string(i + 1));
-    checked.push_back(check_surface(obstacles[i], names.back(), &obstacle_reports[i]));
-  }
-  if (obstacles.empty()) return checked;
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    check(obstacles[i], i < obstacle_names.size() ? obstacle_names[i] : "obstacle " + std::to_string(i + 1),
+          obstacle_reports[i]);
+  if (obstacles.empty()) return result;
   check_disjoint(checked, names);
   for (std::size_t i = 1; i < checked.size(); ++i) {
     if (enclosed(checked[0], checked[i]) != checked[i].points.size())
@@ -59,7 +67,7 @@ std::vector<Surface_soup> check_apart(const Surface_soup& surface, const std::ve
       if (j != i && enclosed(checked[j], checked[i]) > 0)
         throw Error(Error_code::input, names[i] + " lies inside " + names[j] + "; leave it out");
   }
-  return checked;
+  return result;
 }
 
 }  // namespace cellwalk::detail

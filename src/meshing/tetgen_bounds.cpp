@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scale.h"
 #include "sizes.h"
 
 namespace cellwalk::detail {
@@ -24,6 +25,7 @@ void check_bounds(const Tetrahedralize_options& options) {
 }
 
 void check_size(const Tetrahedralize_options& options, double volume) {
+  if (!std::isfinite(volume)) return;  // then the size is a part of it whatever it is
   check_cell_size("TetGen", options.cell_size, volume,
                   most_cells_a_point * static_cast<double>(options.most_added_points));
 }
@@ -31,10 +33,12 @@ void check_size(const Tetrahedralize_options& options, double volume) {
 bool is_out_of_bounds(const Tetgen_result& mesh, const std::array<std::uint32_t, 4>& t,
                       const Tetrahedralize_options& options) {
   constexpr double rounding = 1 + 1e-9;
-  const auto& p = mesh.points;
-  const std::array<Vector<3>, 3> side{p[t[1]] - p[t[0]], p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]};
+  // In TetGen's size, in which no product is out of range.
+  const auto p = [&](int i) { return scaled(mesh.points[t[i]], mesh.scale); };
+  const double cell_size = std::ldexp(options.cell_size, mesh.scale);
+  const std::array<Vector<3>, 3> side{p(1) - p(0), p(2) - p(0), p(3) - p(0)};
   const double volume = std::abs(dot(side[0], cross(side[1], side[2]))) / 6;
-  if (options.cell_size > 0 && volume > rounding * largest_volume(options.cell_size)) return true;
+  if (options.cell_size > 0 && volume > rounding * largest_volume(cell_size)) return true;
   if (options.quality == 0) return false;
   // From the first point, the centre of the circumsphere is `centre` / (12 volume).
   Vector<3> centre{};

@@ -5,19 +5,17 @@
 #include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "narrow_place.h"
 
 namespace cellwalk::detail {
 namespace {
 
-/// The facet of a tetrahedron opposite vertex i.
-Triangle opposite(const std::array<std::uint32_t, 4>& t, int i) {
-  return sorted({t[(i + 1) & 3], t[(i + 2) & 3], t[(i + 3) & 3]});
-}
-
-[[noreturn]] void lost_surface() {
+[[noreturn]] void refuse_lost(const std::string& feature, const Point<3>& at) {
   throw Error(Error_code::not_certified,
-              "TetGen did not keep the surface; simplify it where it is very fine, or try Mesh_3");
+              "TetGen did not keep the surface: " + feature + " is not in its mesh, at " + describe(at));
 }
 
 }  // namespace
@@ -37,15 +35,32 @@ Owners owners_of(const std::vector<Surface_soup>& surfaces) {
   return owners;
 }
 
-void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surfaces, const Owners& owners) {
+Triangle opposite(const std::array<std::uint32_t, 4>& t, int i) {
+  return sorted({t[(i + 1) & 3], t[(i + 2) & 3], t[(i + 3) & 3]});
+}
+
+void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surfaces, const Owners& owners,
+                const Feature_names& names) {
   std::size_t point = 0;
   for (const auto& s : surfaces)
-    for (const auto& p : s.points)
-      if (point >= mesh.points.size() || mesh.points[point++] != p) lost_surface();
+    for (const auto& p : s.points) {
+      if (point >= mesh.points.size() || mesh.points[point] != p) refuse_lost(names.vertex(point), p);
+      ++point;
+    }
   Owners missing = owners;
   for (const auto& t : mesh.tetrahedra)
     for (int i = 0; i < 4; ++i) missing.erase(opposite(t, i));
-  if (!missing.empty()) lost_surface();
+  if (missing.empty()) return;
+  std::size_t facet = 0;
+  std::uint32_t first = 0;
+  for (const auto& s : surfaces) {
+    for (const auto& f : s.facets) {
+      if (missing.contains(sorted({first + f[0], first + f[1], first + f[2]})))
+        refuse_lost(names.facet(facet), s.points[f[0]]);
+      ++facet;
+    }
+    first += static_cast<std::uint32_t>(s.points.size());
+  }
 }
 
 std::array<std::uint32_t, 4> positive(const Tetgen_result& mesh, std::array<std::uint32_t, 4> t) {
@@ -53,9 +68,7 @@ std::array<std::uint32_t, 4> positive(const Tetgen_result& mesh, std::array<std:
   const auto& p = mesh.points;
   const int sign = Exact::orientation(counts, p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
   if (sign == 0)
-    throw Error(Error_code::not_certified,
-                "TetGen made a flat tetrahedron; try another quality bound, or Mesh_3, which approximates "
-                "the surface");
+    throw Error(Error_code::not_certified, "TetGen made a flat tetrahedron, at " + describe(p[t[0]]));
   if (sign < 0) std::swap(t[0], t[1]);
   return t;
 }
@@ -70,6 +83,8 @@ Sides::Sides(const Tetgen_result& mesh, const Owners& owners, std::size_t surfac
       if (owner != owners.end()) sides[owner->second] = true;
       flood(t, std::move(sides));
     }
+  if (std::find(region_.begin(), region_.end(), none) != region_.end())
+    throw Error(Error_code::not_certified, "TetGen made no mesh: its tetrahedra do not fit together");
 }
 
 void Sides::flood(std::uint32_t seed, std::vector<bool> seed_sides) {

@@ -28,11 +28,15 @@ using Owners = std::unordered_map<Triangle, std::uint32_t, Triangle_hash>;
 
 Triangle sorted(Triangle t);
 
+/// The facet of a tetrahedron opposite vertex i.
+Triangle opposite(const std::array<std::uint32_t, 4>& t, int i);
+
 Owners owners_of(const std::vector<Surface_soup>& surfaces);
 
 /// Checks that every triangle of the surfaces is a facet of the mesh, with its points unchanged.
-/// \throw Error(not_certified)
-void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surfaces, const Owners& owners);
+/// \throw Error(not_certified) with the first vertex or facet that is not kept
+void check_kept(const Tetgen_result& mesh, const std::vector<Surface_soup>& surfaces, const Owners& owners,
+                const Feature_names& names);
 
 /// The vertices of a tetrahedron in positive orientation.
 /// \throw Error(not_certified) if it is flat
@@ -43,6 +47,7 @@ std::array<std::uint32_t, 4> positive(const Tetgen_result& mesh, std::array<std:
 class Sides {
  public:
   /// \pre the mesh and the owners outlive it
+  /// \throw Error(not_certified) if a part of the mesh has no hull
   Sides(const Tetgen_result& mesh, const Owners& owners, std::size_t surfaces);
 
   const std::vector<bool>& operator[](std::size_t t) const { return sides_[region_[t]]; }

@@ -57,15 +57,22 @@ Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surfa
   Tetrahedralize_report own;
   Tetrahedralize_report& r = report ? *report : own;
   r = {};
-  const auto surfaces =
+  const detail::Checked_surfaces checked =
       detail::check_apart(surface, obstacles, options.obstacle_names, r.surface, r.obstacles);
+  const std::vector<Surface_soup>& surfaces = checked.soups;
   if (options.cell_size > 0) detail::check_size(options, detail::free_volume(r.surface, r.obstacles));
   const Owners owners = detail::owners_of(surfaces);
-  const Tetgen_result mesh = detail::call_tetgen(surfaces, options);
-  detail::check_kept(mesh, surfaces, owners);
-  r.added_points = mesh.points.size();
-  for (const auto& s : surfaces) r.added_points -= s.points.size();
-  return collect(mesh, owners, surfaces.size(), options, r);
+  const Tetrahedralize_report before = r;
+  Cell_soup<3> soup;
+  const auto accept = [&](const Tetgen_result& mesh) {
+    r = before;
+    detail::check_kept(mesh, surfaces, owners, checked.names);
+    r.added_points = mesh.points.size();
+    for (const auto& s : surfaces) r.added_points -= s.points.size();
+    soup = collect(mesh, owners, surfaces.size(), options, r);
+  };
+  r.tolerance = detail::mesh_by_tetgen(surfaces, checked.names, options, accept);
+  return soup;
 }
 
 }  // namespace cellwalk

@@ -135,6 +135,7 @@ Cell_soup<3> surround_by_tissue(Cell_soup<3> cells, const Tissue_options& option
   Tetrahedralize_options tetgen;
   tetgen.quality = options.quality;
   tetgen.most_added_points = options.most_added_points;
+  tetgen.limits = options.limits;
   detail::check_bounds(tetgen);
   Tissue_report own;
   Tissue_report& r = report ? *report : own;
@@ -143,17 +144,26 @@ Cell_soup<3> surround_by_tissue(Cell_soup<3> cells, const Tissue_options& option
   const Surface_soup box = box_around(hull.surface.points, options.thickness, r);
   const std::vector<Surface_soup> surfaces{std::move(hull.surface), box};
   const detail::Owners owners = detail::owners_of(surfaces);
-  const detail::Tetgen_result mesh = detail::call_tetgen(surfaces, tetgen);
-  detail::check_kept(mesh, surfaces, owners);
+  detail::Feature_names names;
+  names.add("the boundary of the cells", hull.points, hull.points.size(), {}, surfaces[0].facets.size());
+  names.add("the box", {}, box.points.size(), {}, box.facets.size());
+  detail::Tetgen_result mesh;
+  std::vector<std::array<std::uint32_t, 4>> tissue;
+  const auto accept = [&](const detail::Tetgen_result& made) {
+    detail::check_kept(made, surfaces, owners, names);
+    const detail::Sides sides(made, owners, surfaces.size());
+    tissue.clear();
+    for (std::size_t i = 0; i < made.tetrahedra.size(); ++i)
+      if (!sides[i][0]) tissue.push_back(detail::positive(made, made.tetrahedra[i]));
+    mesh = made;
+  };
+  r.tolerance = detail::mesh_by_tetgen(surfaces, names, tetgen, accept);
   r.inner_facets = surfaces[0].facets.size();
 
-  const detail::Sides sides(mesh, owners, surfaces.size());
   std::vector<std::uint32_t> number(mesh.points.size(), no_number);
   std::copy(hull.points.begin(), hull.points.end(), number.begin());
   const std::size_t points_before = cells.points.size();
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    if (sides[i][0]) continue;
-    const auto t = detail::positive(mesh, mesh.tetrahedra[i]);
+  for (const auto& t : tissue) {
     for (const std::uint32_t v : t)
       if (number[v] == no_number) {
         number[v] = static_cast<std::uint32_t>(cells.points.size());

@@ -21,6 +21,7 @@ INSTALL = Path("cmake/CellwalkInstall.cmake")
 # Headers whose floor neither a source of that name nor their own name tells.
 HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "environment/cell_shape.h": "snapshot", "environment/planes.h": "snapshot",
                  "environment/flat_array.h": "snapshot", "environment/facet_table.h": "soup",
+                 "meshing/mesher_limits.h": "child",
                  "io/ovm.h": "mesh", "io/planar_file.h": "mesh"}
 
 # Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names them.

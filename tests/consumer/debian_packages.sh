@@ -16,6 +16,7 @@ for package in "$folder"/made/*.deb; do
   # What is linked is found by dpkg-shlibdeps.
   case "$package" in
     */cellwalk-readers_*) needed="libvtk9" ;;
+    */cellwalk-meshers_*) needed="libgmp10.*libtet1" ;;
     */cellwalk-mpi_*) needed="openmpi-bin.*libboost-mpi.*libopenmpi3" ;;
     *) needed="libgmp10.*libtbb12" ;;
   esac
@@ -26,6 +27,9 @@ done
 "$folder/root/usr/bin/cellwalk" generate hexes --cells 4 -o "$folder/grid.ovm" | sed "s|$folder/||"
 case "$components" in
   *readers*) "$folder/root/usr/bin/cellwalk" check "$(dirname "$0")/project/tetrahedron.msh" | grep cells ;;
+esac
+case "$components" in
+  *meshers*) "$folder/root/usr/bin/cellwalk" import "$(dirname "$0")/project/tetrahedron.off" -o "$folder/filled.ovm" | grep TetGen ;;
 esac
 case "$components" in
   *python*)

@@ -54,6 +54,9 @@ void edits(std::string_view bytes);
 /// Moves of walls from bytes among particles and bodies, judged by oracles.
 void moves(std::string_view bytes);
 
+/// Surfaces from bytes: checked for meshing, and their narrowest place found. In builds with `meshing`.
+void surface(std::string_view bytes);
+
 /// A promise that was broken. No Error, so that nobody takes it for a refusal.
 struct Finding : std::logic_error {
   using std::logic_error::logic_error;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,14 +23,15 @@ struct Target {
   void (*run)(std::string_view bytes);
 };
 
-const std::array<Target, 21> targets{
-    {{"ovm", ovm},           {"off", off},       {"obj", obj},
-     {"stl", stl},           {"ply", ply},       {"poly", poly},
-     {"wkt", wkt},           {"msh", msh},       {"vtk", vtk},
-     {"csv", csv},           {"scene", scene},   {"record", record},
-     {"trace", trace},       {"motion", motion}, {"gzip", gzip},
-     {"compiled", compiled}, {"forged", forged}, {"build", build}, {"nonconforming", nonconforming},
-     {"edits", edits},       {"moves", moves}}};
+const std::vector<Target> targets{
+    {"ovm", ovm},           {"off", off},       {"obj", obj},     {"stl", stl},       {"ply", ply},
+    {"poly", poly},         {"wkt", wkt},       {"msh", msh},     {"vtk", vtk},       {"csv", csv},
+    {"scene", scene},       {"record", record}, {"trace", trace}, {"motion", motion}, {"gzip", gzip},
+    {"compiled", compiled}, {"forged", forged}, {"build", build}, {"nonconforming", nonconforming},   {"edits", edits}, {"moves", moves},
+#ifdef CELLWALK_FUZZ_MESHING
+    {"surface", surface},
+#endif
+};
 
 /// The files of a target, by name.
 std::vector<std::filesystem::path> corpus(const Target& target) {

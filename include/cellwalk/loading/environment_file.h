@@ -105,7 +105,7 @@ struct Imported_environment {
 /// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
 ///        with the cell and the reason, Error(usage) for obstacles without a surface, for tissue in 2D or as
 ///        surround_by_tissue(), and if this build cannot mesh
-/// Cost: that of the readers, the mesher and Environment::build(). Not thread-safe if TetGen is used.
+/// Cost: that of the readers, the mesher and Environment::build().
 Imported_environment import_environment(const std::string& path, const Import_options& options);
 
 }  // namespace cellwalk

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_MESHING_MESH3_H
 #define CELLWALK_MESHING_MESH3_H
 
+#include <cellwalk/meshing/mesher_limits.h>
 #include <cellwalk/meshing/surface_check.h>
 #include <cellwalk/records/cell_soup.h>
 #include <cellwalk/records/surface_soup.h>
@@ -22,6 +23,7 @@ struct Mesh3_options {
   double radius_edge = 2;     ///< bound of circumradius to shortest edge, at least 2
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
+  Mesher_limits limits{};
 };
 
 struct Mesh3_report {
@@ -37,7 +39,8 @@ struct Mesh3_report {
 /// \throw Error(input) as tetrahedralize; Error(usage) for options out of range: sizes that need more than
 ///        10^8 cells or facets of any shape, and distances below 2^-20 of the bounding box's diagonal
 /// \throw Error(not_certified) if the mesh has no tetrahedron (sizes too large for the surface), or a flat
-///        one
+///        one; if Mesh_3 fails or crashes, or does not end in time: and where the surface is narrowest.
+///        Mesh_3 runs in a process of its own, which is no more then.
 ///
 /// The same input gives the same mesh.
 /// Cost: about 30 us a tetrahedron.

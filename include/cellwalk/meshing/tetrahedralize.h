@@ -3,6 +3,7 @@
 #ifndef CELLWALK_MESHING_TETRAHEDRALIZE_H
 #define CELLWALK_MESHING_TETRAHEDRALIZE_H
 
+#include <cellwalk/meshing/mesher_limits.h>
 #include <cellwalk/meshing/surface_check.h>
 #include <cellwalk/records/cell_soup.h>
 #include <cellwalk/records/surface_soup.h>
@@ -27,6 +28,7 @@ struct Tetrahedralize_options {
   bool keep_obstacles = false;
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
+  Mesher_limits limits{};
 };
 
 struct Tetrahedralize_report {
@@ -36,9 +38,11 @@ struct Tetrahedralize_report {
   std::size_t boundary_facets = 0;  ///< triangles of the surface and the obstacles, all preserved
   std::size_t solid_cells = 0;      ///< with keep_obstacles
   std::size_t out_of_bounds = 0;    ///< tetrahedra that violate the bounds of quality and size
+  /// Why a tolerance finer than TetGen's own was necessary, and where; empty if it was not
+  std::string tolerance;
 };
 
-/// True if the library was built with TetGen.
+/// True if there is TetGen: a program cellwalk-tetgen that belongs to the library (docs/embedding.md).
 bool has_tetgen();
 
 /// Fills the interior of a closed surface, without that of the obstacles, with tetrahedra. Every triangle of
@@ -47,9 +51,10 @@ bool has_tetgen();
 /// \throw Error(input) if a surface fails check_surface, or an obstacle does not lie inside the surface and
 ///        apart from it and from the other obstacles
 /// \throw Error(usage) for options out of range, for a cell size that needs more than ten tetrahedra for each
-///        of the added points, or if the library was built without TetGen
-/// \throw Error(not_certified) if TetGen fails, does not preserve the surface, or makes a flat tetrahedron
-/// Not thread-safe: TetGen's messages to the standard output of the process are suppressed while it runs.
+///        of the added points, or if there is no TetGen
+/// \throw Error(not_certified) if TetGen fails or crashes, does not end in time, does not preserve the
+///        surface, or makes a flat tetrahedron, with each of its tolerances: what happened first, and where
+///        the surface is narrowest. TetGen runs in a process of its own, which is no more then.
 /// Cost: about 20 us a tetrahedron.
 Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
                             const Tetrahedralize_options& options = {},

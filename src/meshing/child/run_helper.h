@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Helper programs, in processes of their own: what happens there is an answer.
+#ifndef CELLWALK_MESHING_CHILD_RUN_HELPER_H
+#define CELLWALK_MESHING_CHILD_RUN_HELPER_H
+
+#include <cellwalk/meshing/mesher_limits.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "meshing/child/protocol.h"
+
+namespace cellwalk::detail {
+
+/// A helper program, and the mesher in it as messages call it.
+struct Helper {
+  const char* program;
+  const char* mesher;
+};
+inline constexpr Helper tetgen_helper{"cellwalk-tetgen", "TetGen"};
+inline constexpr Helper mesh3_helper{"cellwalk-mesh3", "Mesh_3"};
+
+/// The program: in the folder CELLWALK_LIBEXEC; in libexec/cellwalk of the build or prefix of the program or
+/// Python module, or beside the libraries that it is linked with; in the prefix of the installation. Empty if
+/// there is none.
+std::filesystem::path find_helper(const Helper& helper);
+
+/// What a helper made, with indices that are not checked. Several threads may call it.
+/// \throw Error(not_certified) if the mesher fails, crashes, writes what it should not, or does not end in
+///        time: the name of the mesher and what it did
+/// \throw Error(usage) if there is no such program, or it belongs to another version, or for a limit that is
+///        not positive; Error(other) if the system cannot run it
+/// \throw what limits.on_wait throws; the process is no more then
+Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& options,
+                         const Mesher_input& input, const Mesher_limits& limits);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_MESHING_CHILD_RUN_HELPER_H

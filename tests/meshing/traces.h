@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What meshers might leave behind.
+#ifndef CELLWALK_TESTS_MESHING_TRACES_H
+#define CELLWALK_TESTS_MESHING_TRACES_H
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+
+namespace cellwalk::test {
+
+/// Files where the test runs, dumps in the folder for temporary ones, beside which other tests may run,
+/// descriptors, and processes.
+class Traces {
+ public:
+  void expect_unchanged() const {
+    EXPECT_EQ(entries(".", ""), files_);
+    EXPECT_EQ(entries(std::filesystem::temp_directory_path(), "dump-bug"), dumps_);
+    EXPECT_EQ(entries("/proc/self/fd", ""), descriptors_);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a process is left";
+    EXPECT_EQ(errno, ECHILD);
+  }
+
+ private:
+  static std::size_t entries(const std::filesystem::path& folder, const std::string& prefix) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      count += entry.path().filename().string().starts_with(prefix);
+    return count;
+  }
+
+  std::size_t files_ = entries(".", ""), dumps_ = entries(std::filesystem::temp_directory_path(), "dump-bug");
+  std::size_t descriptors_ = entries("/proc/self/fd", "");
+};
+
+}  // namespace cellwalk::test
+
+#endif  // CELLWALK_TESTS_MESHING_TRACES_H
