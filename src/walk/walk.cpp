@@ -7,6 +7,33 @@
 
 namespace cellwalk {
 
+template <int D>
+Cell detail::certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
+                         Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed) {
+  Float_point<D> a, b;
+  if (!snapshot.frame().map(from.position, a) || !snapshot.frame().map(target, b)) return Cell::none;
+  const Frame_line<D> line(a, b);
+  Cell cell = from.cell;
+  bool starts_inside = from.dimension == D;
+  std::uint64_t crossings = 0;
+  for (;; ++crossings) {
+    if (crossings > snapshot.half_facet_slots()) [[unlikely]]
+      refuse_uncertified();
+    const Certified_exit exit = exit_of_blocks(snapshot, cell, line, starts_inside);
+    counts.plane_blocks += 2 * snapshot.block_count(cell);
+    if (exit.verdict == Certified_exit::inside) break;
+    const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
+    if (exit.verdict != Certified_exit::leaves || snapshot.is_impassable(f)) return Cell::none;
+    cell = snapshot.neighbour(f);
+    starts_inside = true;
+    if (crossed) crossed->push_back(f);
+  }
+  ++counts.walks;
+  counts.stays += crossings == 0;
+  counts.crossings += crossings;
+  return cell;
+}
+
 void detail::refuse_removed_cell() {
   throw Error(Error_code::usage,
               "a particle is in a cell that is not there: locate it again after cells were replaced");

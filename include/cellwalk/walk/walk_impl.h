@@ -19,33 +19,7 @@
 namespace cellwalk {
 namespace detail {
 
-template <int D>
-Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
-                 Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed) {
-  Float_point<D> a, b;
-  if (!snapshot.frame().map(from.position, a) || !snapshot.frame().map(target, b)) return Cell::none;
-  const Frame_line<D> line(a, b);
-  Cell cell = from.cell;
-  bool starts_inside = from.dimension == D;
-  std::uint64_t crossings = 0;
-  for (;; ++crossings) {
-    if (crossings > snapshot.half_facet_slots()) [[unlikely]]
-      refuse_uncertified();
-    const Certified_exit exit = exit_of_blocks(snapshot, cell, line, starts_inside);
-    counts.plane_blocks += 2 * snapshot.block_count(cell);
-    if (exit.verdict == Certified_exit::inside) break;
-    const Half_facet f = Snapshot<D>::half_facet(cell, exit.facet);
-    if (exit.verdict != Certified_exit::leaves || snapshot.is_impassable(f)) return Cell::none;
-    cell = snapshot.neighbour(f);
-    starts_inside = true;
-    if (crossed) crossed->push_back(f);
-  }
-  ++counts.walks;
-  counts.stays += crossings == 0;
-  counts.crossings += crossings;
-  return cell;
-}
-
+/// One walk in progress.
 template <class Kernel, int D>
 class Particle_walk {
  public:
@@ -243,6 +217,7 @@ class Particle_walk {
   /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.
   template <class Find_exit>
   Certified_exit follow(Find_exit find_exit) {
+    // The state of the walk in registers.
     Cell cell = cell_;
     bool starts_inside = starts_inside_;
     std::uint32_t crossed = 0;
@@ -281,6 +256,7 @@ class Particle_walk {
     return enter(snapshot_.neighbour(f));
   }
 
+  /// Maps the start into the frame, once.
   bool map_start() {
     if (!mapped_a_) {
       mapped_a_ = true;
