@@ -117,7 +117,6 @@ TEST(OddSurfaces, AreMeshedByMesh3OrRefusedWithAPlace) {
   });
   // On some Mesh_3 does not end, so that their time is up; how many these are depends on the machine.
   EXPECT_GT(tally.meshed, n / 4);
-  EXPECT_GE(tally.refused, 1u);
   EXPECT_GE(tally.refused_before, n / 20);
 }
 
