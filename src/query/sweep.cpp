@@ -28,7 +28,8 @@ std::list<Start<D>> starts(const Snapshot<D>& snapshot, const Locator<D>& locato
     for (const Particle<D>& q : all_q) {
       const Chain_result<D> chain = find_any_chain(snapshot, p, q, counts);
       if (chain.contact) continue;
-      found.push_back({p, q, chain.chain});
+      const Start<D> start{p, q, chain.chain};
+      found.push_back(start);
       has_choice |= chain.has_choice;
     }
   return found;
@@ -40,8 +41,10 @@ std::list<Start<D>> on_all_sides(const Snapshot<D>& snapshot, const std::list<St
                                  Walk_counts& counts) {
   std::list<Start<D>> found;
   for (const Start<D>& start : starts)
-    for (const Chain& chain : detail::all_chains(snapshot, start.p, start.q, counts))
-      found.push_back({start.p, start.q, chain});
+    for (const Chain& chain : detail::all_chains(snapshot, start.p, start.q, counts)) {
+      const Start<D> other{start.p, start.q, chain};
+      found.push_back(other);
+    }
   return found;
 }
 
