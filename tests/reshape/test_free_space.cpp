@@ -84,7 +84,9 @@ void cut_many(std::size_t worlds) {
       "%zu vertices parted\n",
       D, count, split, fixed, refused, slit, opened);
   // In the plane no edge is a facet of both.
-  if (D == 3) EXPECT_GT(fixed, count / 20);
+  if (D == 3) {
+    EXPECT_GT(fixed, count / 20);
+  }
   EXPECT_GT(slit, count / 4);
   EXPECT_GT(opened, count / 2);
 }

@@ -178,7 +178,9 @@ void compare(test::Listing listing, std::size_t worlds) {
       "refused, %zu facets slit\n",
       D, tally.worlds, tally.in_other_cells, tally.changes, tally.made, tally.held, tally.split,
       tally.refused, tally.slits);
-  if (listing == test::Listing::other_order) EXPECT_GT(tally.in_other_cells, tally.worlds / 2);
+  if (listing == test::Listing::other_order) {
+    EXPECT_GT(tally.in_other_cells, tally.worlds / 2);
+  }
   EXPECT_GT(tally.made, tally.changes / 10);
   EXPECT_GT(tally.held, tally.changes / 40);
   EXPECT_GT(tally.slits, tally.worlds / 4);
