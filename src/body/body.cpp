@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -57,6 +58,23 @@ void check_targets(std::span<const Point<D>> targets) {
     return;
   for (std::size_t v = 0; v < targets.size(); ++v)
     detail::check_finite(targets[v], fmt::format("the target of vertex {} of a body", v));
+}
+
+/// A step of a body that leaves its region free of walls, or has none. Not to be inlined: others are short.
+template <int D>
+[[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
+                                          const Body_options& options, Step_report<D>& report,
+                                          Body_counts& counts) {
+  check_targets<D>(targets);
+  if (detail::bisects(options.sweep.search)) [[unlikely]]
+    detail::check_search(options.sweep);
+  counts.moves += targets.size();
+  if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
+  if (options.edges == Edge_rule::at_target)
+    detail::Target_step<D>(body, options.sweep, counts)
+        .move_each(targets, options.reported, options.parallel, report);
+  else
+    detail::move_each(body, targets, options, report.contacts, counts);
 }
 
 template <int D>
@@ -147,23 +165,13 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
   detail::Body_state<D>& body = *state_;
   check_rule(options, body.topology);
   body.check_epoch();
-  if (targets.size() != body.positions.size()) [[unlikely]]
+  // Pointers, since sizes would have to be divided by that of a point.
+  if (body.positions.data() + targets.size() != std::to_address(body.positions.end())) [[unlikely]]
     refuse_target_count(targets.size(), body.positions.size());
-  if (options.clearance && body.region.holds_body() && body.region.holds_all(targets)) [[likely]] {
-    counts.moves += targets.size();
-    body.move_all(targets, counts);
-    return;
-  }
-  check_targets<D>(targets);
-  if (detail::bisects(options.sweep.search)) [[unlikely]]
-    detail::check_search(options.sweep);
+  if (!options.clearance || !body.region.holds_body() || !body.region.holds_all(targets)) [[unlikely]]
+    return step_out_of_region(body, targets, options, report, counts);
   counts.moves += targets.size();
-  if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
-  if (options.edges == Edge_rule::at_target)
-    detail::Target_step<D>(body, options.sweep, counts)
-        .move_each(targets, options.reported, options.parallel, report);
-  else
-    detail::move_each(body, targets, options, report.contacts, counts);
+  body.move_all(targets, counts);
 }
 
 template <int D>

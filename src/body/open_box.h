@@ -42,12 +42,8 @@ class Open_box {
     // Two points at a time: D pairs of coordinates.
     const Pair_bounds<D> bounds(points.front().data(), points.size() / 2);
     Truth2 inside = between(0, bounds.low[0], bounds.high[0]);
-    Double2 sum = bounds.sum[0];
-    for (std::size_t k = 1; k < D; ++k) {
-      inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
-      sum += bounds.sum[k];
-    }
-    return all_true(both(inside, equal(sum, sum)));
+    for (std::size_t k = 1; k < D; ++k) inside = both(inside, between(2 * k, bounds.low[k], bounds.high[k]));
+    return all_true(both(inside, equal(bounds.sum, bounds.sum)));
   }
 
  private:

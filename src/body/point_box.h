@@ -81,19 +81,21 @@ inline bool all_true(Truth2 lanes) {
 template <int D>
 struct Pair_bounds {
   Double2 low[D], high[D];
-  /// A NaN that bounds may have lost is in one of these; sums of others may be NaNs as well.
-  Double2 sum[D];
+  /// Of all numbers: a NaN that bounds may have lost is in it, where sums of others may be NaNs as well.
+  Double2 sum;
 
   /// \pre pairs > 0
   Pair_bounds(const double* x, std::size_t pairs) {
-    for (int k = 0; k < D; ++k) low[k] = high[k] = sum[k] = load(x + 2 * k);
+    for (int k = 0; k < D; ++k) low[k] = high[k] = load(x + 2 * k);
+    sum = low[0];
+    for (int k = 1; k < D; ++k) sum += low[k];
     while (--pairs > 0) {
       x += 2 * D;
       for (int k = 0; k < D; ++k) {
         const Double2 pair = load(x + 2 * k);
         low[k] = lane_min(low[k], pair);
         high[k] = lane_max(high[k], pair);
-        sum[k] += pair;
+        sum += pair;
       }
     }
   }
