@@ -102,7 +102,8 @@ class Clear_region {
     }
     return true;
   }
-  bool are_before_planes(std::span<const Point<D>> points) const {
+  // Not to be inlined: most regions have no planes, and steps in them are short.
+  [[gnu::noinline]] bool are_before_planes(std::span<const Point<D>> points) const {
     for (const Wall_plane<D>& plane : planes_)
       if (!(furthest<D>(plane.normal, points) < plane.inside) && !plane.has_all_before(points)) return false;
     return true;
