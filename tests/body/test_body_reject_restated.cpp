@@ -43,7 +43,11 @@ class Restated_body {
       answer.contact->vertex = vertex;
       answer.contact->feature = static_cast<std::uint32_t>(feature);
     };
-    if (const auto walked = move(snapshot_, to, target, counts_.walk); walked.contact) {
+    std::vector<Cell> visited;
+    std::vector<Half_facet> crossed;
+    if (const auto walked =
+            move(snapshot_, to, target, counts_.walk, {Walk_strategy::certified, &visited, &crossed});
+        walked.contact) {
       keep(*walked.contact, Body_feature::vertex, vertex);
       answer.is_vertex_blocked = true;
       return answer;
@@ -58,8 +62,9 @@ class Restated_body {
       if (sweep == Sweep::three_segments) {
         at_end = find_any_chain(snapshot_, to, q, counts_.walk);
       } else {
+        const Vertex_path<D> path{from, to, visited, crossed};
         const Sweep_result<D> swept =
-            sweep_edge(snapshot_, from, target, q, seen_from(vertex, edge), options, counts_);
+            sweep_edge_along(snapshot_, path, q, seen_from(vertex, edge), options, counts_);
         at_end.chain = swept.chain;
         if (swept.contact) {
           answer.swept_edges |= bit;

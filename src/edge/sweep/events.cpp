@@ -243,32 +243,9 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
   return result;
 }
 
-template <int D>
-std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
-                                    const Particle<D>& q, const Chain& before, Walk_counts& counts) {
-  std::vector<Chain> chains;
-  const Point<D>&a = path.from.position, &b = path.to.position;
-  if (are_collinear(a, b, q.position)) {  // the end that moves determines the side
-    chains.push_back(collinear_sweep(snapshot, path, q, before, counts, {}).chain);
-    return chains;
-  }
-  const Rational_segment<D> segment(b, q.position);
-  sweep_on_all_sides(snapshot, path, q, before, counts, {}, [&](const Sweep_result<D>& result) {
-    Half_facet wall = Half_facet::none;
-    if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
-          return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
-        }))
-      chains.push_back(result.chain);
-    return false;
-  });
-  return chains;
-}
-
 #define CELLWALK_INSTANTIATE(D)                                                                            \
   template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
-                                            const Chain&, Walk_counts&, std::optional<double>);            \
-  template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,               \
-                                                  const Particle<D>&, const Chain&, Walk_counts&);
+                                            const Chain&, Walk_counts&, std::optional<double>);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)
