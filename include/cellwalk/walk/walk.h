@@ -96,7 +96,7 @@ struct Walk_result {
 /// \pre particle.position lies in the closure of particle.cell
 /// \throw Error(usage) for a particle without a cell, or in one that an edit removed, if its name is not
 ///        reused: locate yours again after cells were replaced; Error(input) for a target that is not finite;
-///        Error(not_certified) where an exact walk has no way on or no end: nothing was certified
+///        Error(not_certified) where an exact walk has no end: nothing was certified
 /// Degenerate cases: a motion may pass exactly through passable edges and vertices. At an exit on a ridge or
 /// vertex the walk continues through its star, along passable facets. If several sides qualify, it takes one
 /// on which it gets furthest; of these the geometry determines one (docs/walk.md, choices). Inexact policies

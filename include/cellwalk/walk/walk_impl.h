@@ -53,12 +53,11 @@ class Particle_walk {
       if (planes_b_ && run_certified()) break;
       if (!step()) break;
       if (result_.cells > limit) {
+        if (Kernel::is_exact) refuse_uncertified();
         result_.status = Walk_status::lost;
         break;
       }
     }
-    if (Kernel::is_exact && result_.status == Walk_status::lost) [[unlikely]]
-      refuse_uncertified();
     if (result_.cells == 1 && result_.status == Walk_status::arrived) ++counts_.stays;
     result_.cell = cell_;
     return result_;
