@@ -220,7 +220,6 @@ TEST(Surface, StripsOfPlyAreTriangles) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
-  using Facets = std::vector<std::vector<std::uint32_t>>;
   const auto facets = [&](const std::string& strip) {
     return parse(head + strip, Surface_format::ply).facets;
   };
