@@ -45,6 +45,18 @@ py::dict build_features() {
   return features;
 }
 
+/// The common base of all classes has no C++ type, and pybind11 ends the process where somebody makes one:
+/// pickling with old protocols does. Other modules may share the base: their classes are made as ever.
+void refuse_objects_of_the_base() {
+  static auto* const base = reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base);
+  static const newfunc make = base->tp_new;
+  base->tp_new = [](PyTypeObject* type, PyObject* arguments, PyObject* named) -> PyObject* {
+    if (type != base) return make(type, arguments, named);
+    PyErr_SetString(PyExc_TypeError, "the base of compiled classes has no objects");
+    return nullptr;
+  };
+}
+
 /// Objects without a value, made by `__new__` or asked before `__init__`, would get memory with nothing in it
 /// where pybind11 passes them on: they raise instead.
 void refuse_objects_without_value(const py::module_& module) {
@@ -67,6 +79,7 @@ PYBIND11_MODULE(_cellwalk, module) {
   for (const char* name : motion_status_names) names.append(name);
   module.attr("status_names") = py::tuple(names);
   error_class(Error_code::other);
+  refuse_objects_of_the_base();
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(std::move(thrown));

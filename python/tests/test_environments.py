@@ -168,7 +168,7 @@ class FromFiles(unittest.TestCase):
             path.write_text("#!/bin/sh\n" + script + "\n")
             path.chmod(0o700)
         os.environ["CELLWALK_LIBEXEC"] = str(self.folder)
-        self.addCleanup(os.environ.pop, "CELLWALK_LIBEXEC")
+        self.addCleanup(os.environ.pop, "CELLWALK_LIBEXEC", None)
 
     def test_meshers_that_misbehave(self):
         torus = os.environ.get("CELLWALK_TORUS")

@@ -4,6 +4,8 @@ import subprocess
 import sys
 import unittest
 
+import numpy
+
 import cellwalk
 from cellwalk import _cellwalk
 
@@ -71,7 +73,7 @@ class WithoutValue(unittest.TestCase):
         particles = cellwalk.Particles.__new__(cellwalk.Particles)
         with self.assertRaises(TypeError):
             particles.positions
-        particles.__init__(environment, [[0.5, 0.5, 0.5]])
+        particles.__init__(environment, numpy.array([[0.5, 0.5, 0.5]]))
         self.assertEqual(len(particles), 1)
 
     def test_none_of_this_ends_the_interpreter(self):

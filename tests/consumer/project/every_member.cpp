@@ -53,7 +53,9 @@ void keep_environments() {
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
       &Locator<D>::particle_at, &Locator<D>::particles_at);
 
-  keep(&Environment<D>::build, &moved<Environment<D>>, &Environment<D>::snapshot, &Environment<D>::storage,
+  keep(&Environment<D>::build, &moved<Environment<D>>,
+       static_cast<const Snapshot<D>& (Environment<D>::*)() const&>(&Environment<D>::snapshot),
+       static_cast<const Map_storage<D>& (Environment<D>::*)() const&>(&Environment<D>::storage),
        &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::thaw, &Environment<D>::compact,
        &Environment<D>::soup, &Environment<D>::set_impassable, &Environment<D>::excavate,
        &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
