@@ -166,8 +166,11 @@ void expect_corners_differ() {
       return i > 0 && std::exchange(begin[i], begin[i - 1]) != begin[i];
     });
   }
-  for (const auto& [reason, times] : twice) EXPECT_FALSE(reason.empty()) << times;
-  EXPECT_GT(twice.size(), 1u);
+  // The vertex before may belong to another cell; a cell at the boundary may then be as good as it was.
+  std::size_t refused = 0;
+  for (const auto& [reason, times] : twice) refused += reason.empty() ? 0 : times;
+  EXPECT_GT(refused, 4 * twice[""]);
+  EXPECT_GT(twice.size(), 2u);
   elsewhere.erase("");  // of blocks after the first of a cell, whose entries nobody reads
   expect_all(elsewhere, "", 20);
 }
