@@ -167,7 +167,7 @@ void expect_corners_differ() {
     });
   }
   // The vertex before may belong to another cell; a cell at the boundary may then be as good as it was.
-  std::size_t refused = 0;
+  int refused = 0;
   for (const auto& [reason, times] : twice) refused += reason.empty() ? 0 : times;
   EXPECT_GT(refused, 4 * twice[""]);
   EXPECT_GT(twice.size(), 2u);
