@@ -170,7 +170,7 @@ TEST(Cut, BodiesStayWhereTheyAre) {
   for (int k = 0; k <= 8; ++k) rod.points.push_back({0.6 + 0.5 * k, 2.3, 3.6});
   for (std::uint32_t k = 0; k < 8; ++k) rod.edges.push_back({k, k + 1});
   Body<3> body(snapshot, locator, rod);
-  const std::vector<Point<3>> corners{{2.4, -1, 4.6}, {2.5, 6, 4.6}, {2.6, 6, 1.6}, {2.4, -1, 1.6}};
+  const std::vector<Point<3>> corners{{2.4, -1, 4.6}, {2.6, 6, 4.6}, {2.6, 6, 1.6}, {2.4, -1, 1.6}};
   const Cut_report report = cut(environment, blade_along<3>(corners), {{&body}, {}});
   EXPECT_GT(report.opened, 0u);
   expect_valid(body);
