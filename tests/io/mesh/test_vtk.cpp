@@ -19,6 +19,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -44,8 +45,9 @@ const std::string points =
 std::string legacy(const std::string& cells =
                        "8 0 1 3 2 4 5 7 6\n6 1 2 8 5 6 9\n5 4 5 6 7 10\n4 4 10 7 11\n4 0 1 2 3\n2 0 1\n",
                    const std::string& types = "11\n13\n14\n10\n9\n3\n") {
+  const auto numbers = std::ranges::count_if(cells, [](char c) { return c == ' ' || c == '\n'; });
   return "# vtk DataFile Version 2.0\na title\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n" +
-         points + "CELLS 6 35\n" + cells + "CELL_TYPES 6\n" + types;
+         points + "CELLS 6 " + std::to_string(numbers) + "\n" + cells + "CELL_TYPES 6\n" + types;
 }
 
 vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<std::pair<int, std::vector<vtkIdType>>>& cells) {
@@ -148,6 +150,34 @@ TEST(VtkReader, CollapsedCellsAreReadAsWhatTheyAre) {
     EXPECT_EQ(shared_facets(soup), 3u);
     EXPECT_EQ(soup.cell_begin[4] - soup.cell_begin[3], 4u);
     EXPECT_GE(file.report.collapsed, 1u);
+  }
+}
+
+// VTK would write beyond the memory that it takes for the numbers announced.
+TEST(VtkReader, CellsThatTakeOtherNumbersThanAnnouncedAreRefused) {
+  const std::string sound = legacy();
+  const std::size_t at = sound.find("CELLS 6 ") + 8;
+  int refused = 0;
+  for (int numbers = 1; numbers < 80; ++numbers) {
+    if (numbers == 35) continue;
+    std::string other = sound;
+    other.replace(at, 2, std::to_string(numbers));
+    EXPECT_THROW(read("t.vtk", other), Error) << numbers;
+    ++refused;
+  }
+  EXPECT_EQ(refused, 78);
+  const auto grid = the_cells();
+  std::string binary = written<vtkUnstructuredGridWriter>(grid, [](vtkUnstructuredGridWriter& w) {
+    w.SetFileTypeToBinary();
+    w.SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
+  });
+  const std::size_t list = binary.find('\n', binary.find("CELLS ")) + 1;
+  for (const char corners : {'\x07', '\x09', '\x7f'}) {
+    std::string other = binary;
+    other[list + 3] = corners;
+    EXPECT_THROW(read("t.vtk", other), Error);
+    other[list] = '\xff';
+    EXPECT_THROW(read("t.vtk", other), Error);
   }
 }
 
