@@ -43,13 +43,13 @@ inline void add(Tally& sum, const Tally& tally) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += tally[i];
 }
 
-/// Judges a walk by the oracle alone.
+/// Judges a walk by the oracle alone. It may go on any sides of walls, as rounded kernels look for no others.
 template <int D>
 Outcome outcome_of(const oracle::Oracle<D>& oracle, const Snapshot<D>& snapshot,
                    const oracle::Case<D>& motion, const Walk_result<D>& result,
                    const std::vector<Cell>& visited) {
   using oracle::Verdict;
-  switch (oracle::judge_walk(oracle, snapshot, motion, result, visited)) {
+  switch (oracle::judge_walk(oracle, snapshot, motion, result, visited, oracle::Sides_due::any)) {
     case Verdict::right:
       return Outcome::right;
     case Verdict::lost:  // a walk that ends visits each cell once

@@ -71,7 +71,7 @@ class Trial {
     Walked w;
     particle.aimed = static_cast<std::uint16_t>(source_.random().below(snapshot_.facet_count(particle.cell)));
     w.result = walker.walk(snapshot_, particle, motion.to, w.visited);
-    w.verdict = judge_walk(oracle_, snapshot_, motion, w.result, w.visited);
+    w.verdict = judge_walk(oracle_, snapshot_, motion, w.result, w.visited, walker.sides);
     ++tally_.verdicts[static_cast<int>(w.verdict)];
     return w;
   }

@@ -53,6 +53,7 @@ struct Walker_under_test {
   std::string name;
   std::function<Walk_result<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, std::vector<Cell>&)>
       walk;
+  Sides_due sides = Sides_due::furthest;
 };
 
 template <class Kernel, int D>
@@ -65,7 +66,8 @@ Walker_under_test<D> walker(Walk_strategy strategy, const char* strategy_name) {
             options.strategy = strategy;
             options.visited = &visited;
             return walk<Kernel>(snapshot, particle, target, counts, options);
-          }};
+          },
+          Kernel::is_exact ? Sides_due::furthest : Sides_due::any};
 }
 
 template <int D>

@@ -71,14 +71,15 @@ double rounded(const Fraction<Wide>& t) {
 
 template <int D>
 Verdict judge_contact(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Case<D>& motion,
-                      const Walk_result<D>& result) {
+                      const Walk_result<D>& result, Sides_due sides) {
   const Truth& truth = motion.truth;
-  // The sides are taken on which the motion gets furthest.
-  if (truth.stops.empty() || !truth.arrivals.empty()) return Verdict::false_contact;
+  const bool may_arrive = !truth.arrivals.empty();
+  if (truth.stops.empty() || (may_arrive && sides == Sides_due::furthest)) return Verdict::false_contact;
   const std::uint32_t cell = snapshot.index(result.cell);
   const auto stop =
       std::find_if(truth.stops.begin(), truth.stops.end(), [&](const Stop& s) { return s.cell == cell; });
   if (stop == truth.stops.end()) {
+    if (may_arrive) return Verdict::false_contact;
     // Stops are in order of time. Earlier than all is a false contact, later than all a wall passed.
     const double t = result.contact->time;
     const auto& earliest = motion.trace.events[truth.stops.front().event];
@@ -87,7 +88,7 @@ Verdict judge_contact(const Oracle<D>& oracle, const Snapshot<D>& snapshot, cons
     if (t < rounded(earliest) && !is_within_4_ulp(t, earliest)) return Verdict::false_contact;
     return Verdict::wrong_cell;
   }
-  if (stop->event != truth.stops.back().event) return Verdict::false_contact;
+  if (sides == Sides_due::furthest && stop->event != truth.stops.back().event) return Verdict::false_contact;
   if (!is_within_4_ulp(result.contact->time, motion.trace.events[stop->event]) ||
       !is_right_point(motion, *result.contact))
     return Verdict::wrong_time;
@@ -124,11 +125,11 @@ bool is_within_4_ulp(double t, const Fraction<Wide>& exact) {
 
 template <int D>
 Verdict judge_walk(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Case<D>& motion,
-                   const Walk_result<D>& result, const std::vector<Cell>& visited) {
+                   const Walk_result<D>& result, const std::vector<Cell>& visited, Sides_due sides) {
   const Truth& truth = motion.truth;
   if (result.status == Walk_status::lost) return Verdict::lost;
   if (result.status == Walk_status::contact) {
-    const Verdict verdict = judge_contact(oracle, snapshot, motion, result);
+    const Verdict verdict = judge_contact(oracle, snapshot, motion, result, sides);
     if (verdict != Verdict::right) return verdict;
   } else {
     if (truth.arrivals.empty()) return Verdict::missed_wall;
@@ -166,9 +167,9 @@ std::string describe(const Case<D>& motion) {
 }
 
 template Verdict judge_walk(const Oracle<2>&, const Snapshot<2>&, const Case<2>&, const Walk_result<2>&,
-                            const std::vector<Cell>&);
+                            const std::vector<Cell>&, Sides_due);
 template Verdict judge_walk(const Oracle<3>&, const Snapshot<3>&, const Case<3>&, const Walk_result<3>&,
-                            const std::vector<Cell>&);
+                            const std::vector<Cell>&, Sides_due);
 template std::string describe(const Case<2>&);
 template std::string describe(const Case<3>&);
 

@@ -40,11 +40,15 @@ struct Case {
   Truth truth;
 };
 
+/// On which sides of walls a walk is to go: those on which it gets furthest, or any, as rounded kernels do.
+enum class Sides_due { furthest, any };
+
 /// Judges a walk over the snapshot that was compiled from the oracle's soup. `visited` may be empty (not
 /// recorded).
 template <int D>
 Verdict judge_walk(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Case<D>& motion,
-                   const Walk_result<D>& result, const std::vector<Cell>& visited);
+                   const Walk_result<D>& result, const std::vector<Cell>& visited,
+                   Sides_due sides = Sides_due::furthest);
 
 /// One line with all that is needed to replay a motion; coordinates as hexadecimal floating point.
 template <int D>
