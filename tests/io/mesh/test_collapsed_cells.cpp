@@ -42,7 +42,7 @@ std::set<Merged> mergings(std::size_t corners) {
   for (const auto& [a, b] : edges) {
     std::set<Merged> more;
     for (Merged merged : found) {
-      const auto [low, high] = std::minmax(Corner{merged[a]}, Corner{merged[b]});
+      const Corner low = std::min(merged[a], merged[b]), high = std::max(merged[a], merged[b]);
       for (Corner& c : merged)
         if (c == high) c = low;
       more.insert(merged);

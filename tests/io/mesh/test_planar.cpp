@@ -178,15 +178,12 @@ TEST(MeshFile, UnknownFilesAreRefusedWithWhatIsRead) {
 
 TEST(MeshFile, OptionalReadersArePresentOrSayHowToGetThem) {
   const Folder folder;
-  ASSERT_EQ(build_features().size(), 2u);
-  const char* const texts[] = {"$MeshFormat\n", "# vtk DataFile Version 2.0\n"};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Build_feature feature = build_features()[i];
-    EXPECT_EQ(feature.present, !feature.version.empty());
-    const std::string why = refusal([&] { read_mesh(folder.write("broken", texts[i])); });
-    EXPECT_EQ(why.find("this build lacks") == std::string::npos, feature.present) << why;
-    EXPECT_EQ(supported_formats().find(feature.purpose) == std::string::npos, feature.present);
-  }
+  ASSERT_EQ(build_features().size(), 1u);
+  const Build_feature feature = build_features()[0];
+  EXPECT_EQ(feature.present, !feature.version.empty());
+  const std::string why = refusal([&] { read_mesh(folder.write("broken", "# vtk DataFile Version 2.0\n")); });
+  EXPECT_EQ(why.find("this build lacks") == std::string::npos, feature.present) << why;
+  EXPECT_EQ(supported_formats().find(feature.purpose) == std::string::npos, feature.present);
 }
 
 }  // namespace
