@@ -59,7 +59,7 @@ std::vector<std::byte> compile_to_bytes(const Environment<D>& environment, const
 /// motions end. The rest that makes answers right, Environment::certify() and then check_compiled() test.
 /// \throw Error(input) for bytes that are no image, damaged, cut short, of another version or byte order
 /// \throw Error(usage) for bytes that do not begin at a multiple of 64
-/// Cost: linear; about 30 ms for 10^6 tetrahedra, of which 10 are for reading each page once.
+/// Cost: linear; about 70 ms for 10^6 tetrahedra, of which 10 are for reading each page once.
 Any_compiled_environment open_compiled(Held_bytes image);
 
 /// The same of bytes anywhere, which are copied.
