@@ -167,17 +167,13 @@ void Renderer::add_parts(Rows rows, std::vector<Rows>& parts) const {
 }
 
 void Renderer::render(const Rows& rows, Image& image) const {
-  constexpr std::size_t check_every = 1024;  // triangles
   Band band(options_.width * samples_, rows.first * samples_, rows.count * samples_);
-  std::size_t done = 0;
   for (const bool opaque : {true, false})  // opaque first, so that fragments behind them are not collected
     for (const std::uint32_t i : rows.triangles) {
-      if (options_.check && done++ % check_every == 0) options_.check();
       const Screen_triangle& t = triangles_[i];
       if (is_opaque(t) == opaque) band.fill(t, material(t), lights_, opaque, view_.is_perspective());
     }
   for (int row = 0; row < rows.count; ++row) {
-    if (options_.check) options_.check();
     const double down = (rows.first + row + 0.5) / options_.height;
     const auto mix = [down](double top, double bottom) {
       return static_cast<float>(top + down * (bottom - top));

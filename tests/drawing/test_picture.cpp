@@ -285,19 +285,6 @@ TEST(Picture, ManyLayersAreDrawnInBoundedMemory) {
   EXPECT_THROW(render(drawing, plain()), Error);
 }
 
-TEST(Picture, StopsWhenItIsTold) {
-  struct Stopped {};
-  Drawing drawing;
-  add_square(drawing, 1, 0, flat(drawing, red));
-  Picture_options options = plain();
-  int calls = 0;
-  options.check = [&] { ++calls; };
-  render(drawing, options);
-  EXPECT_GE(calls, 6);  // once in each band of 16 rows with triangles
-  options.check = [&] { throw Stopped(); };
-  EXPECT_THROW(render(drawing, options), Stopped);
-}
-
 std::uint32_t number_at(const std::string& s, std::size_t i) {
   std::uint32_t n = 0;
   for (std::size_t k = 0; k < 4; ++k) n = n << 8 | static_cast<std::uint8_t>(s[i + k]);

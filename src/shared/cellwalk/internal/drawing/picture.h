@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -64,8 +63,6 @@ struct Picture_options {
   Camera camera;
   Colour top{1.0, 1.0, 1.0}, bottom{0.86, 0.89, 0.93};  ///< background
   Colour ink{0.13, 0.16, 0.20};                         ///< caption
-  /// Called every few milliseconds; what it throws ends the rendering. None by default.
-  std::function<void()> check;
 };
 
 /// Rows from the top, three bytes a pixel.
