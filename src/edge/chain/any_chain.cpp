@@ -10,7 +10,7 @@ Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p
   Chain_result<D> result = find_chain(snapshot, p, q, counts);
   if (!result.contact || p.position == q.position) return result;
   const detail::Rational_segment<D> segment(p.position, q.position);
-  const detail::Any_way<D> rule{p.position, q.position, counts};
+  detail::Any_way<D> rule{p.position, q.position, counts};
   detail::Chain_search<D, detail::Any_way<D>> search(snapshot, segment, q, rule, counts);
   if (!search.find(p.cell)) return result;
   result.chain = search.chain();

@@ -128,7 +128,7 @@ Chain_result<D> find_chain_as_before(const Snapshot<D>& snapshot, const Edits_si
   const Rational_segment<D> segment(p.position, q.position);
   const Way_before<D> way(snapshot, edits, segment, before);
   if (!result.contact && way.was_linked(p.cell, result.chain)) return result;
-  const Along_way<D> rule{{p.position, q.position, counts}, way};
+  Along_way<D> rule{{p.position, q.position, counts}, way};
   Chain_search<D, Along_way<D>> search(snapshot, segment, q, rule, counts);
   if (search.find(p.cell)) return {search.chain(), {}};
   if (!result.contact) result.contact = blocked_chain(snapshot, segment, q, before);

@@ -32,7 +32,7 @@ template <int D, class Rule>
 class Chain_search {
  public:
   Chain_search(const Snapshot<D>& snapshot, const Rational_segment<D>& segment, const Particle<D>& q,
-               const Rule& rule, Walk_counts& counts)
+               Rule& rule, Walk_counts& counts)
       : snapshot_(snapshot), segment_(segment), q_(q), rule_(rule), counts_(counts) {
     const Point<D> p = segment.at(0).rounded();  // less than an ulp off
     for (int k = 0; k < D; ++k) {
@@ -173,7 +173,7 @@ class Chain_search {
   const Snapshot<D>& snapshot_;
   const Rational_segment<D>& segment_;
   const Particle<D>& q_;
-  const Rule& rule_;
+  Rule& rule_;
   Walk_counts& counts_;
   Point<D> low_{}, high_{};  ///< of a box that contains the segment
   bool by_sides_ = false;

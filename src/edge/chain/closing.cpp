@@ -170,7 +170,7 @@ std::optional<Chain> chain_after(const Snapshot<D>& snapshot, const Closing_edge
   now.insert(now.end(), edge.chain.begin(), edge.chain.end());
   append_link(snapshot, now, edge.q.cell, edge.q_then.cell, edge.q.position, counts);
   const Rational_segment<D> segment(edge.p.position, edge.q.position);
-  const Closing_rule<D> rule(snapshot, segment, edge, closing, now, counts);
+  Closing_rule<D> rule(snapshot, segment, edge, closing, now, counts);
   Chain_search<D, Closing_rule<D>> search(snapshot, segment, edge.q_then, rule, counts);
   if (!search.find(edge.p_then.cell)) return {};
   return search.chain();

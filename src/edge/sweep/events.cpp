@@ -29,25 +29,40 @@ struct Step {
   Cell next;
 };
 
+/// An edge at a time of its sweep.
+template <int D>
+struct Edge_state {
+  Event_time<D> time;
+  std::size_t step;  ///< of p, the next one
+  Cell start;        ///< of p
+  Chain chain;
+};
+
 /// A time after which the edge may go on along several sides of walls in the plane of its triangle.
 template <int D>
 struct Edge_choice {
-  Event_time<D> time;
-  int taken = 0;  ///< in the order of preference
-  bool has_more = false;
+  Edge_state<D> state;                ///< just before
+  std::vector<Relinked<D>> relinked;  ///< in the order of preference
+  std::size_t taken = 0;
+};
+
+/// The choices of an edge, for the search of the combinations of sides.
+template <int D>
+struct Edge_choices {
+  std::vector<Edge_choice<D>> open;  ///< those of the last sweep, in order
+  /// States from which the edge has gone on, or will, on all sides.
+  std::vector<Edge_state<D>> seen;
 };
 
 template <int D>
 class Event_sweep {
  public:
-  /// \param choices if not null, the sides to take; others taken are appended
+  /// \param choices if not null, the sweep goes on from the last of them; others that it takes are appended
   Event_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-              Walk_counts& counts, std::optional<double> until,
-              std::vector<Edge_choice<D>>* choices = nullptr)
+              Walk_counts& counts, std::optional<double> until, Edge_choices<D>* choices = nullptr)
       : snapshot_(snapshot),
         triangle_{path.from.position, path.to.position, q.position},
         first_(path.from.cell),
-        start_(path.from.cell),
         q_(q),
         counts_(counts),
         choices_(choices) {
@@ -58,69 +73,95 @@ class Event_sweep {
     if (!limit_ || blocked < *limit_) limit_ = blocked;
   }
 
-  Sweep_result<D> run(const Chain& before) {
-    Sweep_result<D> result{{}, before};
-    Chain& chain = result.chain;
-    Event_time<D> time;
-    for (auto step = steps_.begin(); !limit_ || time < *limit_;) {
-      for (; step != steps_.end() && !(time < step->time); ++step) {
-        prepend_crossed_facets(snapshot_, chain, step->facets);
-        start_ = step->next;
+  /// None if the edge came where it was before on other sides.
+  std::optional<Sweep_result<D>> run(const Chain& before) {
+    Edge_state<D> state{{}, 0, first_, before};
+    auto& [time, step, start, chain] = state;
+    std::optional<Relinked<D>> taken;  // at a choice
+    if (choices_ && !choices_->open.empty()) {
+      const Edge_choice<D>& choice = choices_->open.back();
+      state = choice.state;
+      taken = choice.relinked[choice.taken];
+    }
+    while (!limit_ || time < *limit_) {
+      for (; step != steps_.size() && !(time < steps_[step].time); ++step) {
+        prepend_crossed_facets(snapshot_, chain, steps_[step].facets);
+        start = steps_[step].next;
       }
       const Moving_line<D> line(triangle_, time, counts_);
-      std::optional<Rational_segment<D>> segment;
-      const auto exact_segment = [&]() -> const Rational_segment<D>& {
-        if (!segment) segment.emplace(triangle_, time.value());
-        return *segment;
-      };
-      Half_facet parting = Half_facet::none;
-      const auto accept = [&](const Chain& other) {
-        return differ_only_around_one_ridge(snapshot_, line, chain, other) ||
-               are_equal(snapshot_, exact_segment(), start_, chain, other, parting);
-      };
-      Moving_line_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
       std::optional<Event_time<D>> next;
-      const bool is_found = walk.from(start_);
-      // Walls in the plane of the triangle may begin wherever the edge arrives at them; then only a search of
-      // all paths determines its side.
-      const bool is_doubtful = !is_found || (walk.is_in_plane() && lies_in_wall_plane(line));
-      const auto relinked = is_doubtful ? relink_on_side(line, chain) : std::optional<Relinked<D>>();
-      if (relinked) {
-        chain = relinked->chain;
-        if (relinked->end < Event_time<D>(1.0)) next = relinked->end;
-      } else if (is_found) {
-        chain = walk.chain();
-      } else {
-        chain.clear();
-        const Half_facet wall = walk.wall() != Half_facet::none ? walk.wall() : parting;
-        if (wall == Half_facet::none)
-          throw Error(Error_code::other,
-                      "an edge has no chain any more, and no wall parts it from the one it had: the "
-                      "environment is not certified, or the chain was that of another edge");
-        result.contact = contact(time.exact(), line, exact_segment(), wall);
-        return result;
+      if (!taken) {
+        auto gone_on = go_on(line, state);
+        if (gone_on.was_seen) return {};
+        if (gone_on.contact) return Sweep_result<D>{std::move(gone_on.contact), {}};
+        taken = std::move(gone_on.relinked);
       }
+      chain = std::move(taken->chain);
+      if (taken->end < Event_time<D>(1.0)) next = taken->end;
+      taken.reset();
       if (const auto end = end_of(chain, line); end && (!next || *end < *next)) next = *end;
-      if (step != steps_.end() && (!next || step->time < *next)) next = step->time;
+      if (step != steps_.size() && (!next || steps_[step].time < *next)) next = steps_[step].time;
       if (!next) break;
       time = *next;
     }
-    return result;
+    return Sweep_result<D>{{}, std::move(chain)};
   }
 
   /// True if the edge may have had a choice of sides.
   bool was_relinked() const { return was_relinked_; }
 
  private:
-  std::optional<Relinked<D>> relink_on_side(const Moving_line<D>& line, const Chain& chain) {
-    if (!choices_) {
-      auto relinked = relink(snapshot_, line, start_, q_, chain);
-      was_relinked_ |= relinked.has_value();
-      return relinked;
+  /// The chain just after a time, or the contact then.
+  struct Gone_on {
+    std::optional<Relinked<D>> relinked{};
+    std::optional<Contact<D>> contact{};
+    bool was_seen = false;
+  };
+
+  Gone_on go_on(const Moving_line<D>& line, const Edge_state<D>& state) {
+    std::optional<Rational_segment<D>> segment;
+    const auto exact_segment = [&]() -> const Rational_segment<D>& {
+      if (!segment) segment.emplace(triangle_, state.time.value());
+      return *segment;
+    };
+    Half_facet parting = Half_facet::none;
+    const auto accept = [&](const Chain& other) {
+      return differ_only_around_one_ridge(snapshot_, line, state.chain, other) ||
+             are_equal(snapshot_, exact_segment(), state.start, state.chain, other, parting);
+    };
+    Moving_line_walk<D, decltype(accept)> walk(snapshot_, line, q_, accept);
+    const bool is_found = walk.from(state.start);
+    // Walls in the plane of the triangle may begin wherever the edge arrives at them; then only a search of
+    // all paths determines its side.
+    if (!is_found || (walk.is_in_plane() && lies_in_wall_plane(line))) {
+      Gone_on relinked = relink_on_side(line, state);
+      if (relinked.was_seen || relinked.relinked) return relinked;
     }
-    if (choices_passed_ == choices_->size()) choices_->push_back({line.time()});
-    Edge_choice<D>& choice = (*choices_)[choices_passed_++];
-    return relink(snapshot_, line, start_, q_, chain, choice.taken, &choice.has_more);
+    if (is_found) return {Relinked<D>{walk.chain(), Event_time<D>(1.0)}};
+    const Half_facet wall = walk.wall() != Half_facet::none ? walk.wall() : parting;
+    if (wall == Half_facet::none)
+      throw Error(Error_code::other,
+                  "an edge has no chain any more, and no wall parts it from the one it had: the "
+                  "environment is not certified, or the chain was that of another edge");
+    return {{}, contact(state.time.exact(), line, exact_segment(), wall)};
+  }
+
+  Gone_on relink_on_side(const Moving_line<D>& line, const Edge_state<D>& state) {
+    if (!choices_) {
+      auto relinked = relink(snapshot_, line, state.start, q_, state.chain);
+      was_relinked_ |= relinked.has_value();
+      return {std::move(relinked)};
+    }
+    const auto is_same = [&](const Edge_state<D>& other) {
+      return other.step == state.step && other.start == state.start && other.chain == state.chain &&
+             !(other.time < state.time) && !(state.time < other.time);
+    };
+    if (std::ranges::any_of(choices_->seen, is_same)) return {{}, {}, true};
+    auto all = relink_on_all_sides(snapshot_, line, state.start, q_, state.chain, most_side_tries);
+    if (all.empty()) return {};
+    choices_->seen.push_back(state);
+    Edge_choice<D>& choice = choices_->open.emplace_back(Edge_choice<D>{state, std::move(all)});
+    return {choice.relinked.front()};
   }
 
   /// Whether a wall near the triangle lies in its plane; computed once.
@@ -195,14 +236,12 @@ class Event_sweep {
   const Snapshot<D>& snapshot_;
   const Swept_triangle<D> triangle_;
   const Cell first_;  ///< of p before it moves
-  Cell start_;        ///< of p
   const Particle<D>& q_;
   Walk_counts& counts_;
   std::vector<Step<D>> steps_;
   std::optional<Event_time<D>> limit_;  ///< events from then on do not matter
   std::optional<bool> in_wall_plane_;
-  std::vector<Edge_choice<D>>* choices_;
-  std::size_t choices_passed_ = 0;
+  Edge_choices<D>* choices_;
   bool was_relinked_ = false;
 };
 
@@ -212,17 +251,19 @@ template <int D, class Accept>
 void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                         const Chain& before, Walk_counts& counts, std::optional<double> until,
                         const Accept& accept) {
-  std::vector<Edge_choice<D>> choices;
+  Edge_choices<D> choices;
+  auto& open = choices.open;
   for (int tries = 0; tries < most_side_tries; ++tries) {
-    const Sweep_result<D> result = Event_sweep<D>(snapshot, path, q, counts, until, &choices).run(before);
-    if (accept(result)) return;
+    const auto result = Event_sweep<D>(snapshot, path, q, counts, until, &choices).run(before);
+    if (result && accept(*result)) return;
     // Sides taken after a contact do not matter.
     const auto is_exhausted = [&](const Edge_choice<D>& choice) {
-      return !choice.has_more || (result.contact && result.contact->time < choice.time.exact());
+      return choice.taken + 1 == choice.relinked.size() ||
+             (result && result->contact && result->contact->time < choice.state.time.exact());
     };
-    while (!choices.empty() && is_exhausted(choices.back())) choices.pop_back();
-    if (choices.empty()) return;
-    ++choices.back().taken;
+    while (!open.empty() && is_exhausted(open.back())) open.pop_back();
+    if (open.empty()) return;
+    ++open.back().taken;
   }
 }
 
@@ -234,7 +275,7 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
   if (are_collinear(path.from.position, path.to.position, q.position))
     return collinear_sweep(snapshot, path, q, before, counts, until);
   Event_sweep<D> sweep(snapshot, path, q, counts, until);
-  Sweep_result<D> result = sweep.run(before);
+  Sweep_result<D> result = *sweep.run(before);  // what has no choices is nowhere twice
   if (!result.contact || !sweep.was_relinked()) return result;
   sweep_on_all_sides(snapshot, path, q, before, counts, until, [&](const Sweep_result<D>& other) {
     if (!other.contact || result.contact->time < other.contact->time) result = other;
@@ -243,9 +284,32 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
   return result;
 }
 
+template <int D>
+std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                    const Particle<D>& q, const Chain& before, Walk_counts& counts) {
+  std::vector<Chain> chains;
+  const Point<D>&a = path.from.position, &b = path.to.position;
+  if (are_collinear(a, b, q.position)) {  // the end that moves determines the side
+    chains.push_back(collinear_sweep(snapshot, path, q, before, counts, {}).chain);
+    return chains;
+  }
+  const Rational_segment<D> segment(b, q.position);
+  sweep_on_all_sides(snapshot, path, q, before, counts, {}, [&](const Sweep_result<D>& result) {
+    Half_facet wall = Half_facet::none;
+    if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
+          return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
+        }))
+      chains.push_back(result.chain);
+    return false;
+  });
+  return chains;
+}
+
 #define CELLWALK_INSTANTIATE(D)                                                                            \
   template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
-                                            const Chain&, Walk_counts&, std::optional<double>);
+                                            const Chain&, Walk_counts&, std::optional<double>);            \
+  template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,               \
+                                                  const Particle<D>&, const Chain&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -37,20 +37,20 @@ class Relink_search {
           return now_.in_facet(cell, i).has_value();
         })) {}
 
-  std::optional<Relinked<D>> run(int rank, bool* has_more) {
+  /// Finds the chains that are not equal to each other, in the order of preference, but no more than so many.
+  std::vector<Relinked<D>> run(std::size_t most) {
     if (!lies_in_plane()) return {};
     const Event_time<D> end = next_root();
     after_.emplace(line_.triangle(), middle(line_.time().value(), end.value()));
-    if (!has_more) {
-      Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
-      if (!search.find(start_)) return {};
-      return Relinked<D>{search.chain(), end};
-    }
-    for (; rank >= 0; --rank)
-      if (!find_another()) return {};
-    const Relinked<D> result{found_.back(), end};
-    *has_more = find_another();
-    return result;
+    most_ = most;
+    Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
+    if (most == 1)
+      search.find(start_);
+    else
+      search.find_by_sides(start_);
+    std::vector<Relinked<D>> relinked;
+    for (Chain& chain : found_) relinked.push_back({std::move(chain), end});
+    return relinked;
   }
 
   /// True if a path is not equal to the chain up to a parameter.
@@ -62,26 +62,21 @@ class Relink_search {
   Fraction limit_of(const Cell_view<D>& cell, std::size_t i, int border) const {
     return now_.at_border(cell, i, border);
   }
-  bool is_accepted(const Chain& path) const {
+  /// Keeps a chain, and accepts the last one that is looked for.
+  bool is_accepted(const Chain& path) {
     Half_facet wall = Half_facet::none;
-    return are_equal(snapshot_, now_, start_, chain_, path, wall) &&
-           std::ranges::none_of(found_, [&](const Chain& other) {
-             return are_equal(snapshot_, *after_, start_, other, path, wall);
-           });
+    if (are_equal(snapshot_, now_, start_, chain_, path, wall) &&
+        std::ranges::none_of(found_, [&](const Chain& other) {
+          return are_equal(snapshot_, *after_, start_, other, path, wall);
+        }))
+      found_.push_back(path);
+    return found_.size() == most_;
   }
   /// There are only two sides, so those that are not preferred need no order.
   bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
 
  private:
   Rational_segment<D> at(const Fraction& time) const { return {line_.triangle(), time}; }
-
-  /// Finds a chain that is not equal to those found before.
-  bool find_another() {
-    Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
-    if (!search.find_by_sides(start_)) return false;
-    found_.push_back(search.chain());
-    return true;
-  }
 
   bool lies_in_plane() const {
     return std::any_of(cells_.begin(), cells_.end(),
@@ -111,6 +106,7 @@ class Relink_search {
   const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
   std::optional<Rational_segment<D>> after_;
   std::vector<Chain> found_;  ///< chains of the edge after that time
+  std::size_t most_ = 1;
 };
 
 /// False proves that the plane of no facet (`of_walls`: of no wall) of the cells linked with the edge
@@ -142,15 +138,29 @@ bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, 
 }
 
 template <int D>
-std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
-                                  const Particle<D>& q, const Chain& chain, int rank, bool* has_more) {
+std::vector<Relinked<D>> relink_on_all_sides(const Snapshot<D>& snapshot, const Moving_line<D>& line,
+                                             Cell start, const Particle<D>& q, const Chain& chain,
+                                             std::size_t most) {
   if (!may_lie_in_plane(snapshot, line, start, false)) return {};
-  return Relink_search<D>(snapshot, line, start, q, chain).run(rank, has_more);
+  return Relink_search<D>(snapshot, line, start, q, chain).run(most);
 }
 
-template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
-                                              const Particle<2>&, const Chain&, int, bool*);
-template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
-                                              const Particle<3>&, const Chain&, int, bool*);
+template <int D>
+std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
+                                  const Particle<D>& q, const Chain& chain) {
+  auto relinked = relink_on_all_sides(snapshot, line, start, q, chain, 1);
+  return relinked.empty() ? std::nullopt : std::optional(std::move(relinked.front()));
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                                          \
+  template std::optional<Relinked<D>> relink(const Snapshot<D>&, const Moving_line<D>&, Cell,            \
+                                             const Particle<D>&, const Chain&);                          \
+  template std::vector<Relinked<D>> relink_on_all_sides(const Snapshot<D>&, const Moving_line<D>&, Cell, \
+                                                        const Particle<D>&, const Chain&, std::size_t);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
 
 }  // namespace cellwalk::detail

@@ -6,6 +6,10 @@
 
 #include <cellwalk/edge/chain.h>
 
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include "edge/exact/moving_line.h"
 
 namespace cellwalk::detail {
@@ -22,25 +26,26 @@ struct Relinked {
 /// anywhere in a facet, not only where it leaves a cell; for others the result is none. Of several chains it
 /// is the one that, from p on, stays as far as possible on the side of walls in that plane on which the
 /// displaced edge lies, see displaced_side().
-/// \param rank how many of these to leave out, in the order of preference
-/// \param has_more if not null, set to whether there is one after it
 /// \pre the chain is valid at line.time() < 1, and starts in that cell
 /// Cost: some signs a facet of the cells near the triangle if the plane of none contains it; otherwise up to
 /// a millisecond: exact numbers for all facets of the cells linked with the edge.
 template <int D>
 std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
-                                  const Particle<D>& q, const Chain& chain, int rank = 0,
-                                  bool* has_more = nullptr);
+                                  const Particle<D>& q, const Chain& chain);
+
+/// The chains of the edge just after a time, no two of them equal, in the order of preference; the first
+/// `most` of them.
+/// \pre as for relink()
+/// Cost: that of relink() for each combination of the sides of walls that begin on the edge at that time.
+template <int D>
+std::vector<Relinked<D>> relink_on_all_sides(const Snapshot<D>& snapshot, const Moving_line<D>& line,
+                                             Cell start, const Particle<D>& q, const Chain& chain,
+                                             std::size_t most);
 
 /// True if a wall near the triangle lies in its plane.
 /// \pre p is in that cell before it moves
 bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, Cell start);
 inline bool has_wall_in_plane(const Snapshot<2>&, const Moving_line<2>&, Cell) { return false; }
-
-extern template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
-                                                     const Particle<2>&, const Chain&, int, bool*);
-extern template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
-                                                     const Particle<3>&, const Chain&, int, bool*);
 
 }  // namespace cellwalk::detail
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace cellwalk {
 
@@ -33,6 +34,19 @@ template <int D>
 Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                                const Chain& before, Edge_counts& counts,
                                const Edge_certificates& certificates = {});
+
+namespace detail {
+
+/// The chains that an edge may have after its sweep, no two of them equal, in the order in which it prefers
+/// their sides.
+/// \param before the chain of the edge before the move
+/// \pre !path.blocked
+/// Cost: that of following the events for each combination of sides; of more than 256 the first ones.
+template <int D>
+std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                    const Particle<D>& q, const Chain& before, Walk_counts& counts);
+
+}  // namespace detail
 
 }  // namespace cellwalk
 
