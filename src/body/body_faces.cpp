@@ -2,8 +2,10 @@
 #include "body_faces.h"
 
 #include <cellwalk/internal/edge/flat_faces.h>
+#include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/edge/wedge.h>
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/internal/walk/sides_taken.h>
 
 #include <boost/container/small_vector.hpp>
 #include <fmt/format.h>
@@ -168,8 +170,12 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
   if (!pierced.empty()) refuse_pierced(body, pierced.front(), Error_code::usage);
 }
 
-void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
-                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
+namespace {
+
+/// As sweep_faces(), with edges on their sides of walls. True if there is no contact but one that is due to
+/// these sides.
+bool is_blocked_by_sides(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+                         const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   bool are_walls_near = false;
   std::optional<Contact<3>> marked;  // of an edge on the other side: the move is real until another contact
   const std::uint64_t flat_before = counts.flat;
@@ -198,11 +204,41 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
       scratch.supporting_walls.emplace_back(f, swept.supporting_walls);
     }
   }
-  if (!are_walls_near) return;
+  if (!are_walls_near) return false;
   sweep_wedges(body, vertex, path, first, counts);
   sweep_parts(body, scratch, vertex, path, first, counts);
-  if (!first) first = marked;
+  if (first) return false;
+  first = marked;
   if (!first && counts.flat > flat_before) settle_flat_faces(body, scratch, vertex, path, first, counts);
+  return first.has_value();
+}
+
+}  // namespace
+
+void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
+  if (!is_blocked_by_sides(body, scratch, vertex, path, first, counts)) return;
+  // Edges that pass walls in the plane of their motion may do so on the sides of their faces.
+  const auto corners = body.topology.corners_of(vertex);
+  std::vector<std::vector<Chain>> chains;
+  for (const Corner& corner : corners)
+    chains.push_back(all_swept_chains(*body.snapshot, path, body.particles[corner.other],
+                                      body.seen_from(corner), counts.walk));
+  const std::optional<Contact<3>> preferred = first;
+  std::vector<std::size_t> taken(corners.size());
+  for (int tries = 1; tries < most_side_tries; ++tries) {
+    std::size_t i = 0;
+    for (; i < taken.size() && taken[i] + 1 >= chains[i].size(); ++i) taken[i] = 0;
+    if (i == taken.size()) break;
+    ++taken[i];
+    for (std::size_t e = 0; e <= i; ++e)
+      if (!chains[e].empty()) scratch.chains[e].chain = chains[e][taken[e]];
+    first.reset();
+    scratch.supporting_walls.clear();
+    is_blocked_by_sides(body, scratch, vertex, path, first, counts);
+    if (!first) return;
+  }
+  first = preferred;
 }
 
 }  // namespace cellwalk::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "step_at_target.h"
 
+#include <cellwalk/internal/edge/furthest_move.h>
+
 #include <bit>
 #include <utility>
 
@@ -209,14 +211,50 @@ bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Part
 /// Moves a vertex, or leaves it where it is.
 template <int D>
 Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
+  body_.refresh_vertex(vertex, counts_);
+  Particle<D> to;
+  bool had_choice = false;
+  Tried_move<D> tried = try_on_sides(vertex, target, nullptr, to, had_choice);
+  if (tried.hindrance() != 0 && had_choice && !tried.answer.is_vertex_blocked && sweep_.touch == Touch::pass)
+      [[unlikely]]
+    tried = try_on_all_sides(vertex, target, to);
+  if (tried.answer.stays()) return tried;
+  body_.are_faces_swept = false;
+  body_.commit(vertex, to, body_.scratch.chains);
+  return tried;
+}
+
+/// The move on the sides of walls on which least hinders it, the first of them in the order of preference.
+template <int D>
+Tried_move<D> Target_step<D>::try_on_all_sides(std::uint32_t vertex, const Point<D>& target,
+                                               Particle<D>& to) {
+  Sides_taken choices, best_choices;
+  std::optional<Tried_move<D>> best;
+  bool had_choice = false;
+  for (int tries = 0; tries < most_side_tries; ++tries) {
+    Tried_move<D> tried = try_on_sides(vertex, target, &choices, to, had_choice);
+    if (tried.hindrance() == 0) return tried;
+    if (!tried.answer.is_vertex_blocked && (!best || tried.hindrance() < best->hindrance())) {
+      best = std::move(tried);
+      best_choices = choices;
+    }
+    if (!take_next_sides(choices)) break;
+  }
+  return try_on_sides(vertex, target, &best_choices, to, had_choice);
+}
+
+/// What comes of a move while the vertex takes the given sides of walls or, without, those that it prefers.
+/// If nothing hinders it, the scratch has its chains.
+template <int D>
+Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>& target, Sides_taken* choices,
+                                           Particle<D>& to, bool& had_choice) {
   Tried_move<D> tried;
   Rejected_move<D>& answer = tried.answer;
   answer.vertex = vertex;
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = body_.region.holds_way(vertex, target);
-  body_.refresh_vertex(vertex, counts_);
   const Particle<D> from = body_.particles[vertex];
-  Particle<D> to = from;
+  to = from;
   Move_scratch& scratch = body_.scratch;
   scratch.clear_walk();
   // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked
@@ -229,8 +267,9 @@ Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& 
     recorded.visited = &scratch.visited;
     recorded.crossed = &scratch.crossed;
   }
-  if (const Walk_result<D> walked = cellwalk::move(snapshot(), to, target, counts_.edges.walk, recorded);
-      walked.contact) {
+  const Walk_result<D> walked = move_on_sides(snapshot(), to, target, counts_.edges.walk, recorded, choices);
+  had_choice = walked.had_choice;
+  if (walked.contact) {
     answer.is_vertex_blocked = tried.keep(walked.contact);
     return tried;
   }
@@ -254,9 +293,6 @@ Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& 
                                   : meets_at_end(path, corners[i], tried);
     if (is_met) answer.edges |= std::uint64_t{1} << i;
   }
-  if (answer.stays()) return tried;
-  body_.are_faces_swept = false;
-  body_.commit(vertex, to, scratch.chains);
   return tried;
 }
 

@@ -4,6 +4,8 @@
 #ifndef CELLWALK_BODY_STEP_AT_TARGET_H
 #define CELLWALK_BODY_STEP_AT_TARGET_H
 
+#include <cellwalk/internal/walk/sides_taken.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,6 +22,8 @@ struct Tried_move {
   Rejected_move<D> answer;
   std::optional<Wall_contact<D>> met;
 
+  /// 0 if nothing was met, 1 if the vertex moves all the same, 2 if it stays.
+  int hindrance() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
   /// Keeps the first wall. True if there is one.
   bool keep(const std::optional<Wall_contact<D>>& wall) {
     if (wall && !met && !answer.contact) met = wall;
@@ -60,6 +64,9 @@ class Target_step {
   bool touches_wall();
   bool try_certified_move(std::uint32_t vertex, const Point<D>& target);
   Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
+  Tried_move<D> try_on_all_sides(std::uint32_t vertex, const Point<D>& target, Particle<D>& to);
+  Tried_move<D> try_on_sides(std::uint32_t vertex, const Point<D>& target, Sides_taken* choices,
+                             Particle<D>& to, bool& had_choice);
   // They count in Edge_counts, or in the Edge_proofs of an attempt; walks always count in the former.
   template <class Counts>
   bool is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "vertex_move.h"
 
+#include <cellwalk/internal/edge/furthest_move.h>
+
 #include <utility>
 
 #include "body_faces.h"
@@ -16,40 +18,20 @@ bool meets_before(const Contact<D>& a, const Contact<D>& b) {
   return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
 }
 
-}  // namespace
-
+/// As find_contact(), while the vertex takes the given sides of walls or, without, those that it prefers.
+/// \pre its edges are not stale
 template <int D>
-std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                   const Point<D>& target, const Sweep_options& options, Body_counts& counts,
-                                   bool any) {
-  if constexpr (D == 3)
-    if (options.sweep == Sweep::faces) take_up_faces(body, counts);
-  if (target == body.positions[vertex]) return {};
-  Particle<D> to;
-  if (auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
-  body.are_faces_swept &= options.sweep == Sweep::faces;
-  body.is_apart = false;
-  for (const auto& [face, supporting_walls] : scratch.supporting_walls)
-    body.supporting_walls[face] = supporting_walls;
-  body.may_have_supporting_walls |= !scratch.supporting_walls.empty();
-  body.commit(vertex, to, scratch.chains);
-  return {};
-}
-
-template <int D>
-std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                       const Point<D>& target, const Sweep_options& options,
-                                       Body_counts& counts, bool any, Particle<D>& to) {
+std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                           const Point<D>& target, const Sweep_options& options,
+                                           Body_counts& counts, bool any, Particle<D>& to,
+                                           Sides_taken* choices, Walk_result<D>& walked) {
   const Snapshot<D>& snapshot = *body.snapshot;
   const auto corners = body.topology.corners_of(vertex);
-  body.refresh_vertex(vertex, counts);
-  for (const Corner& corner : corners) body.refresh_edge(corner.edge, counts);
   const Particle<D> from = body.particles[vertex];
   to = from;
   scratch.clear_walk();
-  const Walk_result<D> walked =
-      cellwalk::move(snapshot, to, target, counts.edges.walk,
-                     {Walk_strategy::certified, &scratch.visited, &scratch.crossed, !any});
+  walked = move_on_sides(snapshot, to, target, counts.edges.walk,
+                         {Walk_strategy::certified, &scratch.visited, &scratch.crossed, !any}, choices);
   to.position = target;
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
   std::optional<Contact<D>> first;
@@ -92,6 +74,51 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratc
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, path, first, counts.faces);
   return first;
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                   const Point<D>& target, const Sweep_options& options, Body_counts& counts,
+                                   bool any) {
+  if constexpr (D == 3)
+    if (options.sweep == Sweep::faces) take_up_faces(body, counts);
+  if (target == body.positions[vertex]) return {};
+  Particle<D> to;
+  if (auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
+  body.are_faces_swept &= options.sweep == Sweep::faces;
+  body.is_apart = false;
+  for (const auto& [face, supporting_walls] : scratch.supporting_walls)
+    body.supporting_walls[face] = supporting_walls;
+  body.may_have_supporting_walls |= !scratch.supporting_walls.empty();
+  body.commit(vertex, to, scratch.chains);
+  return {};
+}
+
+template <int D>
+std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+                                       const Point<D>& target, const Sweep_options& options,
+                                       Body_counts& counts, bool any, Particle<D>& to) {
+  body.refresh_vertex(vertex, counts);
+  for (const Corner& corner : body.topology.corners_of(vertex)) body.refresh_edge(corner.edge, counts);
+  Walk_result<D> walked;
+  const auto move = [&](const Sweep_options& chosen, bool some, Sides_taken* choices) {
+    return contact_on_sides(body, scratch, vertex, target, chosen, counts, some, to, choices, walked);
+  };
+  const Snapshot<D>& snapshot = *body.snapshot;
+  const Point<D>& from = body.positions[vertex];
+  std::optional<Contact<D>> contact = move(options, any, nullptr);
+  if (contact && may_pass_on_other_sides(snapshot, from, target, walked, *contact, options.touch,
+                                         counts.edges.walk)) [[unlikely]] {
+    Sweep_options exact = options;
+    exact.search = Contact_search::exact;
+    Sides_taken choices;
+    contact = furthest_move<D>(snapshot, from, target, choices,
+                               [&](Sides_taken& tried) { return move(exact, false, &tried); });
+    if (contact && !any) contact = move(options, false, &choices);
+  }
+  return contact;
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                              \

@@ -3,6 +3,7 @@
 // one edge: in every position, walls in the plane of the motion included.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/particle.h>
 
@@ -34,10 +35,46 @@ class Restated_body {
   const Point<D>& position(std::uint32_t vertex) const { return particles_[vertex].position; }
 
   Rejected_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, Sweep sweep) {
+    Tried tried = try_on_sides(vertex, target, sweep, nullptr);
+    if (tried.hindrance() != 0 && tried.had_choice && !tried.answer.is_vertex_blocked) {
+      std::optional<Tried> best;
+      detail::Sides_taken choices;
+      do {
+        tried = try_on_sides(vertex, target, sweep, &choices);
+        if (!tried.answer.is_vertex_blocked && (!best || tried.hindrance() < best->hindrance())) best = tried;
+      } while ((!best || best->hindrance() != 0) && detail::take_next_sides(choices));
+      tried = *best;
+    }
+    if (tried.answer.stays()) return tried.answer;
+    particles_[vertex] = tried.to;
+    for (const auto& [edge, chain] : tried.chains)
+      if (sweep == Sweep::three_segments)  // any will do: that from the first end
+        chains_[edge] =
+            find_any_chain(snapshot_, particles_[edges_[edge][0]], particles_[edges_[edge][1]], counts_.walk)
+                .chain;
+      else
+        chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
+    return tried.answer;
+  }
+
+ private:
+  struct Tried {
     Rejected_move<D> answer;
+    Particle<D> to;
+    std::vector<std::pair<std::size_t, Chain>> chains;
+    bool had_choice = false;
+
+    int hindrance() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
+  };
+
+  /// The move on given sides of walls or, without, on those that the vertex prefers.
+  Tried try_on_sides(std::uint32_t vertex, const Point<D>& target, Sweep sweep,
+                     detail::Sides_taken* choices) {
+    Tried tried;
+    Rejected_move<D>& answer = tried.answer;
     answer.vertex = vertex;
     const Particle<D> from = particles_[vertex];
-    Particle<D> to = from;
+    tried.to = from;
     const auto keep = [&](const Wall_contact<D>& wall, Body_feature body, std::size_t feature) {
       answer.contact = to_contact(wall, Exact_time(wall.time), body);
       answer.contact->vertex = vertex;
@@ -45,50 +82,40 @@ class Restated_body {
     };
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
-    if (const auto walked =
-            move(snapshot_, to, target, counts_.walk, {Walk_strategy::certified, &visited, &crossed});
-        walked.contact) {
+    const auto walked = detail::move_on_sides(snapshot_, tried.to, target, counts_.walk,
+                                              {Walk_strategy::certified, &visited, &crossed}, choices);
+    tried.had_choice = walked.had_choice;
+    if (walked.contact) {
       keep(*walked.contact, Body_feature::vertex, vertex);
       answer.is_vertex_blocked = true;
-      return answer;
+      return tried;
     }
     Sweep_options options;
     options.sweep = sweep;
-    std::vector<std::pair<std::size_t, Chain>> moved;
     std::uint64_t bit = 1;
     for (const auto& [other, edge] : edges_of(vertex)) {
       const Particle<D>& q = particles_[other];
       Chain_result<D> at_end;
       if (sweep == Sweep::three_segments) {
-        at_end = find_any_chain(snapshot_, to, q, counts_.walk);
+        at_end = find_any_chain(snapshot_, tried.to, q, counts_.walk);
       } else {
-        const Vertex_path<D> path{from, to, visited, crossed};
+        const Vertex_path<D> path{from, tried.to, visited, crossed};
         const Sweep_result<D> swept =
             sweep_edge_along(snapshot_, path, q, seen_from(vertex, edge), options, counts_);
         at_end.chain = swept.chain;
         if (swept.contact) {
           answer.swept_edges |= bit;
-          at_end = find_any_chain(snapshot_, to, q, counts_.walk);
+          at_end = find_any_chain(snapshot_, tried.to, q, counts_.walk);
         }
       }
       if (at_end.contact) answer.edges |= bit;
       if (at_end.contact && !answer.contact) keep(*at_end.contact, Body_feature::edge, edge);
-      moved.emplace_back(edge, at_end.chain);
+      tried.chains.emplace_back(edge, at_end.chain);
       bit <<= 1;
     }
-    if (answer.edges != 0) return answer;
-    particles_[vertex] = to;
-    for (const auto& [edge, chain] : moved)
-      if (sweep == Sweep::three_segments)  // any will do: that from the first end
-        chains_[edge] =
-            find_any_chain(snapshot_, particles_[edges_[edge][0]], particles_[edges_[edge][1]], counts_.walk)
-                .chain;
-      else
-        chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
-    return answer;
+    return tried;
   }
 
- private:
   /// The other ends, ascending, and the edges.
   std::vector<std::pair<std::uint32_t, std::size_t>> edges_of(std::uint32_t vertex) const {
     std::vector<std::pair<std::uint32_t, std::size_t>> result;

@@ -27,7 +27,7 @@ namespace cellwalk::test::ridge {
 namespace {
 
 struct Ridges_seen {
-  int bodies = 0, landed = 0, moves = 0, along = 0, free_along = 0, blocked = 0, by_wedges = 0, selected = 0;
+  int bodies = 0, landed = 0, moves = 0, along = 0, free_along = 0, blocked = 0, by_wedges = 0;
 };
 
 Point<3> to_point(const Xyz<int>& x) {
@@ -162,19 +162,17 @@ class Ridge_trial {
     if (to == x_) return true;
     SCOPED_TRACE(testing::Message() << "from " << x_ << " to " << to);
     const Star_state before = state();
-    const std::array<int, 5> walk = sectors_of_walk(to);
     const auto contact = move(0, {to, 0, 0});
     ++seen_.moves;
     const bool is_along = passes_ridge(x_, to);
     seen_.along += is_along;
     if (contact) {
-      judge_contact(*contact, before, walk, to);
+      judge_contact(*contact, before, to);
       return false;
     }
     seen_.free_along += is_along;
     Ridge_oracle oracle = asked(before, to);
     oracle.heed_faces(before);
-    if (has_bare_edge()) hold(walk, oracle);  // its chain was followed from there
     EXPECT_EQ(oracle.verdict(), Verdict::possible) << "a move is free";
     last_x_ = std::exchange(x_, to);
     const Star_state after = state();
@@ -188,8 +186,7 @@ class Ridge_trial {
     oracle.heed(before);
     return oracle;
   }
-  void judge_contact(const Contact<3>& contact, const Star_state& before, const std::array<int, 5>& walk,
-                     int to) {
+  void judge_contact(const Contact<3>& contact, const Star_state& before, int to) {
     ++seen_.blocked;
     const int on = to > x_ ? 1 : -1;
     const int earlier = static_cast<int>(on * std::ceil(on * contact.point[0])) - on;
@@ -204,21 +201,7 @@ class Ridge_trial {
       ++seen_.by_wedges;
       return;
     }
-    hold(walk, oracle);  // on one side of a wall where it may choose
-    EXPECT_NE(oracle.verdict(), Verdict::possible) << "a contact is early";
-    ++seen_.selected;
-  }
-  void hold(const std::array<int, 5>& walk, Ridge_oracle& oracle) const {
-    for (int slab = 0; slab < world_.slabs; ++slab)
-      if (const int k = walk.at(static_cast<std::size_t>(slab)); k >= 0) oracle.hold(slab, k);
-  }
-  bool has_bare_edge() const {
-    const auto is_bare = [this](std::size_t e) {
-      return std::ranges::none_of(star_.faces, [e](const auto& f) { return f[0] == e || f[1] == e; });
-    };
-    for (std::size_t e = 0; e < star_.ends.size(); ++e)
-      if (is_bare(e)) return true;
-    return false;
+    ADD_FAILURE() << "a contact is early";
   }
   bool passes_ridge(int from, int to) const {
     for (int slab = 0; slab < world_.slabs; ++slab) {
@@ -229,21 +212,6 @@ class Ridge_trial {
     }
     return false;
   }
-  /// By slab: where p walks when it has nothing to take along, or -1.
-  std::array<int, 5> sectors_of_walk(int to) const {
-    std::array<int, 5> sectors{-1, -1, -1, -1, -1};
-    Particle<3> p = body_->particles()[0];
-    std::vector<Cell> visited;
-    Walk_counts counts;
-    cellwalk::move(environment_.snapshot(), p, Point<3>{1.0 * to, 0, 0}, counts,
-                   {Walk_strategy::certified, &visited});
-    for (const Cell cell : visited) {
-      const auto [slab, k, shell] = world_.parts(environment_.snapshot().index(cell));
-      if (shell == 0) sectors.at(static_cast<std::size_t>(slab)) = k;
-    }
-    return sectors;
-  }
-
   /// How the body is registered now.
   Star_state state() {
     body_->refresh(counts_);
@@ -296,7 +264,7 @@ class Ridge_trial {
 
 TEST(PinchedOracle, WallsDoNotComeBetweenTheParts) {
   Ridges_seen seen;
-  const std::size_t worlds = oracle::scaled_count(60);
+  const std::size_t worlds = oracle::scaled_count(40);
   for (std::uint64_t i = 0; i < worlds; ++i) {
     SCOPED_TRACE(testing::Message() << "world " << i);
     Ridge_trial trial(oracle::reseeded(i), seen);
@@ -304,8 +272,7 @@ TEST(PinchedOracle, WallsDoNotComeBetweenTheParts) {
   }
   std::cout << seen.bodies << " bodies, " << seen.landed << " ends landed on half-planes, " << seen.moves
             << " moves, " << seen.along << " along ridges, of which " << seen.free_along << " free, "
-            << seen.blocked << " contacts, " << seen.by_wedges << " of wedges, " << seen.selected
-            << " by selection\n";
+            << seen.blocked << " contacts, " << seen.by_wedges << " of wedges\n";
   const auto at_least = [](std::size_t count_in_ci) {
     return static_cast<int>(oracle::scaled_count(count_in_ci));
   };
@@ -313,7 +280,6 @@ TEST(PinchedOracle, WallsDoNotComeBetweenTheParts) {
   EXPECT_GE(seen.along, at_least(300));
   EXPECT_GE(seen.free_along, at_least(50));
   EXPECT_GE(seen.by_wedges, at_least(100));
-  EXPECT_GE(seen.selected, at_least(50));
 }
 
 }  // namespace
