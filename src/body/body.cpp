@@ -77,6 +77,18 @@ template <int D>
     detail::move_each(body, targets, options, report.contacts, counts);
 }
 
+/// A step of a body whose region is cut by half-spaces, and its box holds the targets. Not to be inlined, as
+/// above.
+template <int D>
+[[gnu::noinline]] void step_before_planes(detail::Body_state<D>& body, std::span<const Point<D>> targets,
+                                          const Body_options& options, Step_report<D>& report,
+                                          Body_counts& counts) {
+  if (!body.region.region()->are_before_planes(targets))
+    return step_out_of_region(body, targets, options, report, counts);
+  counts.moves += targets.size();
+  body.move_all(targets, counts);
+}
+
 template <int D>
 std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, const Locator<D>& locator,
                                                   const Body_soup<D>& soup) {
@@ -168,8 +180,11 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
   // Pointers, since sizes would have to be divided by that of a point.
   if (body.positions.data() + targets.size() != std::to_address(body.positions.end())) [[unlikely]]
     refuse_target_count(targets.size(), body.positions.size());
-  if (!options.clearance || !body.region.holds_body() || !body.region.holds_all(targets)) [[unlikely]]
+  const auto* region = options.clearance && body.region.holds_body() ? body.region.region() : nullptr;
+  if (!region || !region->box().holds_all(targets)) [[unlikely]]
     return step_out_of_region(body, targets, options, report, counts);
+  if (region->plane_count() > 0) [[unlikely]]
+    return step_before_planes(body, targets, options, report, counts);
   counts.moves += targets.size();
   body.move_all(targets, counts);
 }

@@ -61,9 +61,10 @@ struct Body_state {
   /// Moves all vertices without a test.
   /// \pre the region holds the body and the targets
   void move_all(std::span<const Point<D>> targets, Body_counts& counts) {
-    std::memcpy(positions.data(), targets.data(), targets.size_bytes());
     region.mark_all_moved();
     counts.in_region += targets.size();
+    // Last, so that nothing needs to be saved over the call.
+    std::memcpy(positions.data(), targets.data(), targets.size_bytes());
   }
   /// Where that region does not: moves all in a new one, if there is one for all. Else what needs one by one
   /// is prepared.

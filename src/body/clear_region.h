@@ -42,6 +42,13 @@ class Clear_region {
   bool holds_all(std::span<const Point<D>> points) const {
     return box_.holds_all(points) && (planes_.empty() || are_before_planes(points));
   }
+  /// True if they lie in all half-spaces that cut the box.
+  /// \pre the box holds them
+  bool are_before_planes(std::span<const Point<D>> points) const {
+    for (const Wall_plane<D>& plane : planes_)
+      if (!(furthest<D>(plane.normal, points) < plane.inside) && !plane.has_all_before(points)) return false;
+    return true;
+  }
 
   /// True if a point lies before the plane that was cut along last.
   bool is_before_last_plane(const Point<D>& x) const { return planes_.back().has_before(x); }
@@ -100,12 +107,6 @@ class Clear_region {
       for (std::size_t j = 2 * i; j < std::min(2 * i + 2, planes_.size()); ++j)
         if (!planes_[j].has_before(x)) return false;
     }
-    return true;
-  }
-  // Not to be inlined: most regions have no planes, and steps in them are short.
-  [[gnu::noinline]] bool are_before_planes(std::span<const Point<D>> points) const {
-    for (const Wall_plane<D>& plane : planes_)
-      if (!(furthest<D>(plane.normal, points) < plane.inside) && !plane.has_all_before(points)) return false;
     return true;
   }
 

@@ -27,6 +27,14 @@ inline Double2 load(const double* x) {
   return Double2{x[0], x[1]};
 #endif
 }
+/// \pre x lies at a multiple of 16 bytes
+inline Double2 load_aligned(const double* x) {
+#if defined(__SSE2__)
+  return _mm_load_pd(x);
+#else
+  return load(x);
+#endif
+}
 inline Double2 lane_min(Double2 a, Double2 b) {
 #if defined(__SSE2__)
   return _mm_min_pd(a, b);
@@ -55,11 +63,20 @@ inline Truth2 less(Double2 a, Double2 b) {
   return a < b;
 #endif
 }
-inline Truth2 equal(Double2 a, Double2 b) {
+/// True for NaNs as well.
+inline Truth2 not_at_most(Double2 a, Double2 b) {
 #if defined(__SSE2__)
-  return _mm_cmpeq_pd(a, b);
+  return _mm_cmpnle_pd(a, b);
 #else
-  return a == b;
+  return ~(a <= b);
+#endif
+}
+/// Whether neither is a NaN.
+inline Truth2 ordered(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_cmpord_pd(a, b);
+#else
+  return (a == a) & (b == b);
 #endif
 }
 inline Truth2 both(Truth2 a, Truth2 b) {
@@ -81,23 +98,26 @@ inline bool all_true(Truth2 lanes) {
 template <int D>
 struct Pair_bounds {
   Double2 low[D], high[D];
-  /// Of all numbers: a NaN that bounds may have lost is in it, where sums of others may be NaNs as well.
-  Double2 sum;
+  /// Of all numbers: a NaN that bounds may have lost is in them, where sums of others may be NaNs as well.
+  Double2 sum[D];
 
-  /// \pre pairs > 0
-  Pair_bounds(const double* x, std::size_t pairs) {
-    for (int k = 0; k < D; ++k) low[k] = high[k] = load(x + 2 * k);
-    sum = low[0];
-    for (int k = 1; k < D; ++k) sum += low[k];
-    while (--pairs > 0) {
-      x += 2 * D;
+  /// \pre there are points, an even number
+  explicit Pair_bounds(std::span<const Point<D>> points) {
+    const double *x = points.front().data(), *end = x + D * points.size();
+    for (int k = 0; k < D; ++k) low[k] = high[k] = sum[k] = load(x + 2 * k);
+    while ((x += 2 * D) != end)
       for (int k = 0; k < D; ++k) {
         const Double2 pair = load(x + 2 * k);
         low[k] = lane_min(low[k], pair);
         high[k] = lane_max(high[k], pair);
-        sum += pair;
+        sum[k] += pair;
       }
-    }
+  }
+  /// False if one of the numbers is a NaN.
+  Truth2 are_numbers() const {
+    Double2 others = sum[0];
+    for (int k = 1; k < D - 1; ++k) others += sum[k];
+    return ordered(others, sum[D - 1]);
   }
 };
 
@@ -115,7 +135,8 @@ bool are_finite(std::span<const Point<D>> points) {
     for (int k = 0; k < D; ++k) sum[k] += load(x + 2 * k);
   }
   for (int k = 1; k < D; ++k) sum[0] += sum[k];
-  if (all_true(less(sum[0] - sum[0], Double2{1, 1}))) [[likely]]
+  const Double2 zero = sum[0] - sum[0];
+  if (all_true(ordered(zero, zero))) [[likely]]
     return true;
   return std::ranges::all_of(points, is_finite<static_cast<std::size_t>(D)>);
 }
@@ -178,8 +199,8 @@ class Pair_box {
 template <int D>
 Box<D> box_of(std::span<const Point<D>> points) {
   Box<D> box;
-  if (const std::size_t pairs = points.size() / 2; pairs > 0) {
-    const Pair_bounds<D> bounds(points.front().data(), pairs);
+  if (points.size() >= 2) {
+    const Pair_bounds<D> bounds(points.first(points.size() - points.size() % 2));
     for (std::size_t k = 0; k < D; ++k) {
       box.low[k] = std::min(bounds.low[k / 2][k % 2], bounds.low[(k + D) / 2][(k + D) % 2]);
       box.high[k] = std::max(bounds.high[k / 2][k % 2], bounds.high[(k + D) / 2][(k + D) % 2]);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "body/clear_region.h"
@@ -290,6 +291,41 @@ TEST(OpenBox, HoldsWhatEachComparisonSays) {
   EXPECT_GT(all, 500);
   EXPECT_GT(some, 150);
   EXPECT_FALSE(Open_box<2>({0, 0}, {1, 1}).holds({std::numeric_limits<double>::quiet_NaN(), 0.5}));
+}
+
+/// One coordinate of many points is not a number in the box, each in turn: minima and maxima may lose NaNs.
+template <int D>
+void expect_not_held(double outside) {
+  Random random(6);
+  Point<D> low, high;
+  low.fill(-1);
+  high.fill(2);
+  const Open_box<D> box(low, high);
+  int refused = 0;
+  for (std::size_t count = 1; count <= 12; ++count) {
+    std::vector<Point<D>> points(count);
+    for (Point<D>& x : points)
+      for (double& c : x) c = random.real(-0.5, 1.5);
+    ASSERT_TRUE(box.holds_all(points));
+    for (Point<D>& x : points)
+      for (double& c : x) {
+        const double before = std::exchange(c, outside);
+        EXPECT_FALSE(box.holds(x)) << outside;
+        EXPECT_FALSE(box.holds_all(points)) << outside << " among " << count;
+        ++refused;
+        c = before;
+      }
+  }
+  EXPECT_EQ(refused, 78 * D);
+}
+
+TEST(OpenBox, HoldsNoNumberOutside) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   inf = std::numeric_limits<double>::infinity();
+  for (const double outside : {nan, -nan, inf, -inf, -1.0, 2.0}) {
+    expect_not_held<2>(outside);
+    expect_not_held<3>(outside);
+  }
 }
 
 }  // namespace
