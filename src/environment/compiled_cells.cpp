@@ -2,6 +2,7 @@
 // Whether the cells of an image have their corners and neighbours as those of a snapshot have them: each
 // facet between two cells is one loop, seen from both.
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 
 #include <tbb/blocked_range.h>
@@ -22,6 +23,9 @@
 
 namespace cellwalk::detail {
 namespace {
+
+/// Blocks whose links one thread tests together.
+constexpr std::uint32_t blocks_at_once = 1024;
 
 /// The loops that canonicalize() gives tetrahedra, all of them.
 constexpr std::array<std::array<std::uint16_t, 3>, 4> tetrahedron_loops{
@@ -70,12 +74,12 @@ bool are_two_sides(const Cell_view<D>& own, std::size_t i, const Cell_view<D>& o
   return true;
 }
 
-/// Of each shape, whether it is that of all tetrahedra.
+/// The number of the first shape that is that of all tetrahedra; if there is none, one that no cell has.
 template <int D>
-std::vector<std::uint8_t> tetrahedra_of(const std::vector<Cell_shape>& shapes) {
-  std::vector<std::uint8_t> are_tetrahedra(shapes.size());
-  if constexpr (D == 3) std::ranges::transform(shapes, are_tetrahedra.begin(), is_tetrahedron);
-  return are_tetrahedra;
+std::uint32_t tetrahedron_among(const std::vector<Cell_shape>& shapes) {
+  auto found = shapes.end();
+  if constexpr (D == 3) found = std::ranges::find_if(shapes, is_tetrahedron);
+  return static_cast<std::uint32_t>(found - shapes.begin());
 }
 
 /// True if the first three corners of each facet do not lie on one line: all sides of the facet would be 0.
@@ -140,8 +144,6 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
       refuse_image("a cell that was removed has neighbours");
     return;
   }
-  if (s.index_[block] >= s.cell_of_index_.size() || s.cell_of_index_[s.index_[block]] != block)
-    refuse_image("the index of a cell belongs to another one");
   // Those of a simplex that is not flat differ.
   if (shape.vertex_count != D + 1 && has_a_corner_twice({s.vertices_.data() + first, shape.vertex_count}))
     refuse_image("a cell has a point twice");
@@ -156,59 +158,58 @@ void Environment_image<D>::check_cell(const Snapshot<D>& s, std::uint32_t block)
   }
 }
 
-/// The facets of a cell: each is one of the cell beyond it, seen from its other side. That one is its only
-/// other side, since no cell has an edge twice in one direction.
+/// True if check_cell() takes a tetrahedron: the same in a few instructions. False where that needs a closer
+/// look.
 template <int D>
-void Environment_image<D>::check_neighbours(const Snapshot<D>& s, Cell own) {
-  constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit;
-  const std::uint32_t* const links = s.links(own);
-  for (std::size_t i = 0; i < s.facet_count(own); ++i) {
-    const std::uint32_t word = links[i], link = word & mask;
-    if (link == mask) {
-      if (word != (mask | wall)) refuse_image("a facet of the boundary is no wall");
-      continue;
-    }
-    const Cell other{link};
-    if (other == own || !s.is_cell(other)) refuse_image("a neighbour is not there");
-    const std::uint32_t back = s.links(other)[other_side(s, own, i, other)];
-    if ((word ^ back) & ~mask) refuse_image("a facet has two sides that differ");
-    const bool is_wall = word & wall, is_pair = word & Snapshot<D>::convex_pair_bit;
-    if (is_wall ? is_pair : s.is_solid(own) != s.is_solid(other))
-      refuse_image("a facet is passable that cannot be");
+bool Environment_image<D>::is_sound_tetrahedron(const Snapshot<D>& s, std::uint32_t block) {
+  if constexpr (D == 3) {
+    const std::size_t first = s.vertex_begin_[block];
+    if (first + 4 > s.vertices_.size() || s.uniform_blocks_ > 1) return false;
+    const std::uint32_t* const v = s.vertices_.data() + first;
+    if (std::max({v[0], v[1], v[2], v[3]}) >= s.points_.size()) return false;
+    const Point<3>* const points = s.points_.data();
+    Predicate_counts counts;
+    return Exact::orientation(counts, points[v[0]], points[v[1]], points[v[2]], points[v[3]]) < 0;
   }
+  return false;
 }
 
-/// True if a tetrahedron with tetrahedra after it is what check_neighbours() takes: the same in a few
-/// instructions a facet. Facets to cells before it are left to those; false where all needs a closer look.
+/// A facet of a cell: it is one of the cell beyond it, seen from its other side. That one is its only other
+/// side, since no cell has an edge twice in one direction.
 template <int D>
-bool Environment_image<D>::has_sound_neighbours(const Snapshot<D>& s, Cell own,
-                                                const std::vector<std::uint8_t>& are_tetrahedra) {
-  constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit,
-                          pair = Snapshot<D>::convex_pair_bit, solid = Snapshot<D>::solid_bit,
-                          no_cell = Snapshot<D>::continuation_bit | Snapshot<D>::removed_bit;
-  const std::uint32_t block = to_index(own), *const shape = s.shape_.data(), own_word = shape[block];
-  if (!are_tetrahedra[own_word & Snapshot<D>::shape_mask]) return false;
-  const std::uint32_t* const links = s.links_.data() + 4 * std::size_t{block};
-  const std::uint32_t* const vertices = s.vertices_.data() + s.vertex_begin_[block];
-  std::uint32_t fault = 0;
-  for (std::size_t i = 0; i < tetrahedron_loops.size(); ++i) {
-    const std::uint32_t word = links[i], link = word & mask;
-    if (link == mask) {
-      fault |= word ^ (mask | wall);
-      continue;
-    }
-    if (link < block) continue;
-    if (link >= s.shape_.size()) return false;
-    const std::uint32_t other_word = shape[link];
-    if ((other_word & no_cell) || !are_tetrahedra[other_word & Snapshot<D>::shape_mask]) return false;
-    const std::uint32_t* const back = s.links_.data() + 4 * std::size_t{link};
-    const std::uint32_t* const beyond = s.vertices_.data() + s.vertex_begin_[link];
-    const std::size_t j = lane_that_leads(back, block);
-    const std::uint32_t passable = ~word & wall, paired = word & pair;
-    fault |= ((back[j] & mask) ^ block) | ((word ^ back[j]) & ~mask) | (passable ? 0 : paired) |
-             ((own_word ^ other_word) & solid & passable) | (link == block) |
-             differ(vertices, tetrahedron_loops[i], beyond, tetrahedron_loops[j]);
+void Environment_image<D>::check_facet(const Snapshot<D>& s, Cell own, std::size_t i) {
+  constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit;
+  const std::uint32_t word = s.links(own)[i], link = word & mask;
+  if (link == mask) {
+    if (word != (mask | wall)) refuse_image("a facet of the boundary is no wall");
+    return;
   }
+  const Cell other{link};
+  if (other == own || !s.is_cell(other)) refuse_image("a neighbour is not there");
+  const std::uint32_t back = s.links(other)[other_side(s, own, i, other)];
+  if ((word ^ back) & ~mask) refuse_image("a facet has two sides that differ");
+  const bool is_wall = word & wall, is_pair = word & Snapshot<D>::convex_pair_bit;
+  if (is_wall ? is_pair : s.is_solid(own) != s.is_solid(other))
+    refuse_image("a facet is passable that cannot be");
+}
+
+/// True if check_facet() takes a facet of a tetrahedron to a cell before it: the same in a few instructions,
+/// if that is a tetrahedron, too. False where that needs a closer look.
+template <int D>
+bool Environment_image<D>::is_sound_facet(const Snapshot<D>& s, std::uint32_t facet,
+                                          std::uint32_t tetrahedron) {
+  constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit,
+                          pair = Snapshot<D>::convex_pair_bit, solid = Snapshot<D>::solid_bit;
+  const std::uint32_t block = facet / 4, i = facet % 4, word = s.links_[facet], link = word & mask;
+  const std::uint32_t own_word = s.shape_[block], other_word = s.shape_[link];
+  if ((other_word & ~solid) != tetrahedron) return false;
+  const std::uint32_t* const back = s.links_.data() + 4 * std::size_t{link};
+  const std::size_t j = lane_that_leads(back, block);
+  const std::uint32_t passable = ~word & wall, paired = word & pair;
+  const std::uint32_t fault = ((back[j] & mask) ^ block) | ((word ^ back[j]) & ~mask) |
+                              (passable ? 0 : paired) | ((own_word ^ other_word) & solid & passable) |
+                              differ(s.vertices_.data() + s.vertex_begin_[block], tetrahedron_loops[i],
+                                     s.vertices_.data() + s.vertex_begin_[link], tetrahedron_loops[j]);
   return fault == 0;
 }
 
@@ -225,7 +226,7 @@ std::size_t Environment_image<D>::other_side(const Snapshot<D>& s, Cell own, std
 template <int D>
 void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
   // Numbers of shapes are tested before they are used for neighbours.
-  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
+  check_each(s.shape_.size(), [&](std::size_t b) {
     const std::uint32_t word = s.shape_[b];
     const std::uint32_t low = word & Snapshot<D>::shape_mask;
     if (!(word & Snapshot<D>::continuation_bit)) {
@@ -234,8 +235,12 @@ void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
       refuse_image("a block belongs to no cell");
     }
   });
-  for_each_parallel(s.shape_.size(), [&](std::size_t b) {
+  const std::uint32_t tetrahedron = tetrahedron_among<D>(s.shapes_);
+  check_each(s.shape_.size(), [&](std::size_t b) {
     const std::uint32_t word = s.shape_[b];
+    if ((word & ~Snapshot<D>::solid_bit) == tetrahedron &&
+        is_sound_tetrahedron(s, static_cast<std::uint32_t>(b)))
+      return;
     if (!(word & Snapshot<D>::continuation_bit)) {
       check_cell(s, static_cast<std::uint32_t>(b));
       return;
@@ -245,47 +250,67 @@ void Environment_image<D>::check_blocks(const Snapshot<D>& s) {
     if (distance >= Snapshot_compiler<D>::blocks_for(shape.facet_count()))
       refuse_image("a block belongs to no cell");
   });
-  for_each_parallel(s.cell_of_index_.size(), [&](std::size_t i) {
-    const std::uint32_t block = s.cell_of_index_[i];
-    if (block == to_index(Cell::none)) {
-      if (!s.free_indices_.contains(static_cast<std::uint32_t>(i))) refuse_image("an index has no cell");
-    } else if (!s.is_cell(Cell{block}) || s.index_[block] != i) {
-      refuse_image("an index has another cell");
-    }
+  // All cells have different indices then.
+  check_each(s.shape_.size(), [&](std::size_t b) {
+    if (!s.is_cell(Cell{static_cast<std::uint32_t>(b)})) return;
+    if (s.index_[b] >= s.cell_of_index_.size() || s.cell_of_index_[s.index_[b]] != b)
+      refuse_image("the index of a cell belongs to another one");
   });
 }
 
-/// The number of facets of a cell to cells after it, less that of its facets to cells before it.
+/// Of the cells that begin in a range of blocks, the facets on the boundary and those to cells before their
+/// own. Returns the number of facets that lead to cells after their own, less that of those to cells before.
+/// \pre the range has at most blocks_at_once
 template <int D>
-std::ptrdiff_t Environment_image<D>::balance_of(const Snapshot<D>& s, Cell cell) {
+std::ptrdiff_t Environment_image<D>::check_links_of(const Snapshot<D>& s, std::uint32_t begin,
+                                                    std::uint32_t end, std::uint32_t tetrahedron) {
+  constexpr std::uint32_t mask = Snapshot<D>::link_mask, boundary = mask | Snapshot<D>::wall_bit;
+  std::array<std::uint32_t, 4 * blocks_at_once> before;  // facets of tetrahedra that lead to cells before
+  std::size_t count = 0;
   std::ptrdiff_t balance = 0;
-  for (std::size_t i = 0; i < 4 * s.block_count(cell); ++i) {
-    const std::uint32_t link = s.links(cell)[i] & Snapshot<D>::link_mask;
-    const bool is_link = link != Snapshot<D>::link_mask, is_after = link > to_index(cell);
-    balance += is_link ? 2 * is_after - 1 : 0;
+  for (std::uint32_t block = begin; block < end; ++block) {
+    const Cell cell{block};
+    const std::uint32_t* const links = s.links(cell);
+    if ((s.shape_[block] & ~Snapshot<D>::solid_bit) == tetrahedron) {
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t link = links[i] & mask;
+        before[count] = 4 * block + i;
+        count += link < block;  // without a branch, since it is as likely as not
+        balance += link != mask;
+        if ((link == mask && links[i] != boundary) || link == block) check_facet(s, cell, i);
+      }
+    } else if (s.is_cell(cell)) {
+      for (std::size_t i = 0; i < s.facet_count(cell); ++i) {
+        const std::uint32_t link = links[i] & mask;
+        if (link == mask || link <= block) check_facet(s, cell, i);
+        balance += link == mask ? 0 : link < block ? -1 : 1;
+      }
+    }
   }
-  return balance;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!is_sound_facet(s, before[k], tetrahedron)) check_facet(s, Cell{before[k] / 4}, before[k] % 4);
+  return balance - 2 * static_cast<std::ptrdiff_t>(count);
 }
 
-/// All facets between two cells. Where each to a cell after its own is found there, different ones have
-/// different other sides: if as many lead to cells before, these are all of them.
+/// All facets between two cells. Where each to a cell before its own is found there, different ones have
+/// different other sides: if as many lead to cells after, these are all of them.
 template <int D>
 void Environment_image<D>::check_links(const Snapshot<D>& s) {
-  const std::vector<std::uint8_t> are_tetrahedra = tetrahedra_of<D>(s.shapes_);
-  constexpr std::size_t blocks_at_once = 1024;
-  const std::ptrdiff_t balance = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, s.shape_.size(), blocks_at_once), std::ptrdiff_t{0},
-      [&](const auto& range, std::ptrdiff_t sum) {
-        for (std::size_t b = range.begin(); b != range.end(); ++b) {
-          const Cell cell{static_cast<std::uint32_t>(b)};
-          if (!s.is_cell(cell)) continue;
-          sum += balance_of(s, cell);
-          if (!has_sound_neighbours(s, cell, are_tetrahedra)) check_neighbours(s, cell);
-        }
-        return sum;
-      },
-      std::plus<>());
-  if (balance != 0) refuse_image("a cell is not the neighbour of its neighbour");
+  const std::uint32_t tetrahedron = tetrahedron_among<D>(s.shapes_);
+  const auto balance = [&](const tbb::blocked_range<std::uint32_t>& range, std::ptrdiff_t sum) {
+    for (std::uint32_t b = range.begin(); b < range.end(); b += blocks_at_once)
+      sum += check_links_of(s, b, std::min(range.end(), b + blocks_at_once), tetrahedron);
+    return sum;
+  };
+  const tbb::blocked_range<std::uint32_t> all(0, static_cast<std::uint32_t>(s.shape_.size()), blocks_at_once);
+  try {
+    if (tbb::parallel_reduce(all, std::ptrdiff_t{0}, balance, std::plus<>()) == 0) return;
+  } catch (const Error&) {  // that of the first cell comes next
+  }
+  for (std::uint32_t b = 0; b < s.shape_.size(); ++b)
+    if (const Cell cell{b}; s.is_cell(cell))
+      for (std::size_t i = 0; i < s.facet_count(cell); ++i) check_facet(s, cell, i);
+  refuse_image("a cell is not the neighbour of its neighbour");
 }
 
 template void Environment_image<2>::check_blocks(const Snapshot<2>&);

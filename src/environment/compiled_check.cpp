@@ -33,7 +33,7 @@ void Environment_image<D>::check_sizes(const Snapshot<D>& s) {
 template <int D>
 void Environment_image<D>::check_shapes(const Snapshot<D>& s) {
   if (s.shapes_.size() > Snapshot<D>::shape_mask) refuse_image("it has too many shapes");
-  for_each_parallel(s.shapes_.size(), [&](std::size_t number) {
+  check_each(s.shapes_.size(), [&](std::size_t number) {
     const Cell_shape& shape = s.shapes_[number];
     if (shape.loop_begin.front() != 0 || !std::ranges::is_sorted(shape.loop_begin) ||
         shape.loop_begin.back() != shape.loops.size())
@@ -52,18 +52,22 @@ void Environment_image<D>::check_free(const Snapshot<D>& s) {
     if (index >= s.cell_of_index_.size() || s.cell_of_index_[index] != to_index(Cell::none))
       refuse_image("an index in use is free");
   typename Snapshot<D>::Free_runs removed;
-  std::size_t end = 0;
+  std::size_t end = 0, cells = 0;
   bool are_in_turn = true;  // vertices of cells, as compiled
   for (std::uint32_t b = 0; b < s.shape_.size(); ++b) {
     if (s.shape_[b] & Snapshot<D>::continuation_bit) continue;
     const Cell_shape& shape = s.shapes_[s.shape_[b] & Snapshot<D>::shape_mask];
     if (s.is_cell(Cell{b})) {
+      ++cells;
       are_in_turn &= end <= s.vertex_begin_[b];
       end = std::size_t{s.vertex_begin_[b]} + shape.vertex_count;
     } else {
       removed.emplace(Snapshot_compiler<D>::blocks_for(shape.facet_count()), b);
     }
   }
+  // Cells have different indices, and those are not free.
+  if (cells + s.free_indices_.size() != s.cell_of_index_.size())
+    refuse_image("an index has no cell of its own");
   if (removed != s.free_blocks_) refuse_image("what was removed is not what is free");
   if (are_in_turn && s.free_vertices_.empty() && s.free_points_.empty()) return;
 
@@ -106,7 +110,7 @@ void Environment_image<D>::check(const Snapshot<D>& s) {
   check_sizes(s);
   check_shapes(s);
   const bool has_frame = !std::isnan(s.frame_.scale);
-  for_each_parallel(s.points_.size(), [&](std::size_t p) {
+  check_each(s.points_.size(), [&](std::size_t p) {
     if (!is_finite(s.points_[p])) refuse_image("a point is not finite");
     // Planes are compared on the assumption that all corners of cells lie where their bounds hold.
     if (Float_point<D> mapped; has_frame && !s.frame_.map(s.points_[p], mapped))

@@ -85,10 +85,11 @@ class Environment_image {
   static void check_blocks(const Snapshot<D>& snapshot);
   static void check_links(const Snapshot<D>& snapshot);
   static void check_cell(const Snapshot<D>& snapshot, std::uint32_t block);
-  static std::ptrdiff_t balance_of(const Snapshot<D>& snapshot, Cell cell);
-  static void check_neighbours(const Snapshot<D>& snapshot, Cell own);
-  static bool has_sound_neighbours(const Snapshot<D>& snapshot, Cell own,
-                                   const std::vector<std::uint8_t>& are_tetrahedra);
+  static bool is_sound_tetrahedron(const Snapshot<D>& snapshot, std::uint32_t block);
+  static void check_facet(const Snapshot<D>& snapshot, Cell own, std::size_t i);
+  static bool is_sound_facet(const Snapshot<D>& snapshot, std::uint32_t facet, std::uint32_t tetrahedron);
+  static std::ptrdiff_t check_links_of(const Snapshot<D>& snapshot, std::uint32_t begin, std::uint32_t end,
+                                       std::uint32_t tetrahedron);
   static std::size_t other_side(const Snapshot<D>& snapshot, Cell own, std::size_t i, Cell beyond);
   static void check_free(const Snapshot<D>& snapshot);
 };

@@ -11,12 +11,16 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "environment/images.h"
 
 namespace cellwalk {
 namespace {
@@ -117,6 +121,67 @@ TEST(EnvironmentThreads, RefuseWithTheSameWords) {
   const std::string refusal = on_threads(1, words);
   EXPECT_NE(refusal.find("is not exactly planar"), std::string::npos) << refusal;
   for (const int threads : {2, 4}) EXPECT_EQ(on_threads(threads, words), refusal);
+}
+
+/// An image of tetrahedra in which a cell is damaged.
+struct Damage {
+  std::uint32_t lowest;  ///< the first cell in which it shows
+  std::string reason;
+};
+
+/// Damages a cell in one of the ways that are found when cells are tested, or when links are.
+Damage damage(Bytes& image, bool is_of_links, std::uint32_t cell, bool first_way) {
+  constexpr std::uint32_t of_wall = 1u << 31, of_pair = 1u << 30, of_cell = of_pair - 1;  // bits of links
+  const auto entry = [&](const char* section, std::size_t i) -> std::uint32_t& {
+    return reinterpret_cast<std::uint32_t*>(test::section_of(image, section).data())[i];
+  };
+  if (!is_of_links) {
+    const std::uint32_t v = entry("vertex_begin", cell) + 1;
+    entry("vertices", v) = first_way ? ~0u : entry("vertices", v - 1);
+    return {cell, first_way ? "a cell has a point that is not there" : "a cell is not convex"};
+  }
+  for (std::size_t i = 4 * std::size_t{cell}; i < 4 * std::size_t{cell} + 4; ++i) {
+    std::uint32_t& word = entry("links", i);
+    const bool is_boundary = word == (of_cell | of_wall);
+    if (first_way != is_boundary) continue;
+    const std::uint32_t link = word & of_cell;
+    word ^= first_way ? of_pair : of_wall;
+    return {std::min(cell, link),
+            first_way ? "a facet of the boundary is no wall" : "a facet has two sides that differ"};
+  }
+  return {0, ""};  // no facet is of this kind
+}
+
+TEST(EnvironmentThreads, RefuseImagesForTheirLowestCell) {
+  Random random(3);
+  const auto environment = Environment<3>::build(tetrahedral_grid({.cells = {12, 12, 12}, .jitter = 0.1}));
+  const Bytes sound = compile_to_bytes<3>(environment, environment.certify(), {});
+  const auto cells = static_cast<std::uint32_t>(environment.snapshot().cell_count());
+  std::map<std::string, int> reasons;
+  for (int images = 0; images < 150;) {
+    Bytes image = sound;
+    const bool is_of_links = images % 2, first_way = random.chance(0.5);
+    const Damage one = damage(image, is_of_links, static_cast<std::uint32_t>(random.below(cells)), first_way);
+    const Damage other =
+        damage(image, is_of_links, static_cast<std::uint32_t>(random.below(cells)), !first_way);
+    if (one.reason.empty() || other.reason.empty() || one.lowest == other.lowest) continue;
+    ++images;
+    test::seal(image);
+    const std::string& expected = one.lowest < other.lowest ? one.reason : other.reason;
+    ++reasons[expected];
+    for (const int threads : {1, 2, 4})
+      on_threads(threads, [&] {
+        try {
+          open_compiled_copy(image);
+          ADD_FAILURE() << "was opened: " << expected;
+        } catch (const Error& error) {
+          EXPECT_NE(std::string(error.what()).find(expected), std::string::npos)
+              << error.what() << " with " << threads << " threads, and not: " << expected;
+        }
+      });
+  }
+  EXPECT_EQ(reasons.size(), 4u);
+  for (const auto& [reason, times] : reasons) EXPECT_GE(times, 20) << reason;
 }
 
 }  // namespace

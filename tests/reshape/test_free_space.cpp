@@ -83,12 +83,15 @@ void cut_many(std::size_t worlds) {
       "%dD: %zu cuts, %zu edges split, of these %zu of membranes in tissue, %zu refused; %zu facets slit, "
       "%zu vertices parted\n",
       D, count, split, fixed, refused, slit, opened);
-  // In the plane no edge is a facet of both.
-  if (D == 3) {
+  // These are counts of what the worlds of a seed happen to have. But in the plane an edge is a facet, and
+  // none is one of a membrane and of a solid cell.
+  if (D == 2) {
+    EXPECT_EQ(fixed, 0u);
+  } else {
     EXPECT_GT(fixed, count / 20);
   }
   EXPECT_GT(slit, count / 4);
-  EXPECT_GT(opened, count / 2);
+  EXPECT_GT(opened, D == 2 ? count : count / 2);  // in space, cuts that small part few vertices
 }
 
 TEST(FreeSpace, IsNotTakenByCuts2D) { cut_many<2>(150); }

@@ -162,8 +162,8 @@ void compare(test::Listing listing, std::size_t worlds) {
     tally.in_other_cells += twins.in_other_cells;
     Reshaping<D> here(twins.one.environment, twins.one.residents());
     Reshaping<D> there(twins.other.environment, twins.other.residents());
-    // Where things may go on on several sides, the one that they take is not that in the mirror: only the
-    // first change tells.
+    // Where things may go on on several sides, the one that they take depends on the order, and is not that
+    // in the mirror. Later changes meet other things there, so that only the first one tells.
     if (number % 3 == 0)
       ASSERT_NO_FATAL_FAILURE(cut_both<D>(here, there, listing, random, tally));
     else
@@ -178,13 +178,14 @@ void compare(test::Listing listing, std::size_t worlds) {
       "refused, %zu facets slit\n",
       D, tally.worlds, tally.in_other_cells, tally.changes, tally.made, tally.held, tally.split,
       tally.refused, tally.slits);
+  // These are counts of what the worlds of a seed happen to have; one world in three is cut.
   if (listing == test::Listing::other_order) {
-    EXPECT_GT(tally.in_other_cells, tally.worlds / 2);
+    EXPECT_GT(tally.in_other_cells, tally.worlds);
   }
-  EXPECT_GT(tally.made, tally.changes / 10);
-  EXPECT_GT(tally.held, tally.changes / 40);
-  EXPECT_GT(tally.slits, tally.worlds / 4);
-  EXPECT_GT(tally.refused, tally.worlds / 20);
+  EXPECT_GT(tally.made, tally.changes / 4);
+  EXPECT_GE(tally.held, D == 2 ? tally.changes / 10 : 1);  // in space, few are held
+  EXPECT_GT(tally.slits, D == 2 ? tally.worlds / 4 : 3 * tally.worlds);
+  EXPECT_GT(tally.refused, tally.worlds / 10);
 }
 
 TEST(Listings, InAnotherOrder2D) { compare<2>(test::Listing::other_order, 400); }

@@ -2,6 +2,8 @@
 #ifndef CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 #define CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 
+#include <cellwalk/kernel/error.h>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -15,6 +17,18 @@ void for_each_parallel(std::size_t n, const F& f) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
   });
+}
+
+/// The same for an f that throws an Error where i is unsound. Whatever the number of threads, it is that of
+/// the lowest such i.
+template <class F>
+void check_each(std::size_t n, const F& f) {
+  try {
+    for_each_parallel(n, f);
+  } catch (const Error&) {
+    for (std::size_t i = 0; i < n; ++i) f(i);
+    throw;
+  }
 }
 
 }  // namespace cellwalk
