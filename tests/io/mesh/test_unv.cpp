@@ -94,10 +94,11 @@ TEST(Unv, DatasetsMayBeSplitAndInAnyOrder) {
 TEST(Unv, NumbersOfNodesThatNoMeshHasAreRefused) {
   Unv_records records;
   records.nodes = {"0 1 1 11\n0 0 0\n"};
-  for (const std::string number : {"2147483648", "9223372036854775807", "99999999999999999999", "-1", "-7"}) {
+  for (const std::string number : {"2147483648", "9223372036854775807", "99999999999999999999", "-7"}) {
     records.nodes.resize(1);
     records.nodes.push_back(number + " 1 1 11\n0 0 1\n");
-    EXPECT_THROW(read_mesh("t.unv", records.in_one_of_each()), Error) << number;
+    const std::string why = refusal([&] { read_mesh("t.unv", records.in_one_of_each()); });
+    EXPECT_NE(why.find("is no number of a node"), std::string::npos) << why;
   }
 }
 
