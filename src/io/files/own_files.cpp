@@ -27,9 +27,10 @@ std::string_view why_not_own(const struct stat& status) {
   return {};
 }
 
-constexpr int deepest_folder = 64;         // folders within each other; a run makes three
+constexpr int deepest_folder = 16;         // folders within each other; a run makes three
 constexpr int most_removals = 3;           // where others write at the same moment
-constexpr std::size_t listed_size = 2048;  // bytes of names read at a time, on the stack of a signal handler
+constexpr std::size_t listed_size = 2048;  // bytes of names read at a time, at each depth: 16 of them are
+                                           // half the stack of a signal handler
 
 bool remove_at(int folder, const char* name, int depth) noexcept;
 
