@@ -85,8 +85,8 @@ std::optional<Unv_kind> kind_of_unv(std::int64_t type) {
   }
 }
 
-/// The datasets of one kind are read in a pass over the file, so that all nodes are there before the elements,
-/// and all elements before the groups.
+/// The datasets of one kind are read in a pass over the file, so that all nodes are there before the
+/// elements, and all elements before the groups.
 enum class Kind { nodes, elements, groups, others };
 
 Kind kind_of_dataset(std::int64_t number) {

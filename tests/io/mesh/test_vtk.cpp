@@ -9,9 +9,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdList.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -25,73 +23,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <sstream>
 
 #include "io/io_fixture.h"
-#include "volumes.h"
+#include "vtk_files.h"
 
 namespace cellwalk::io {
 namespace {
-
-Mesh_file read(const std::string& name, const std::string& text) {
-  const Folder folder;
-  return read_mesh(folder.write(name, text));
-}
-
-Cell_soup<3> volumes_of(const Mesh_file& file) { return std::get<Cell_soup<3>>(file.mesh); }
-
-const std::string points =
-    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n2 0 0\n2 0 1\n0 0 2\n-1 0 1\n";
-
-/// A voxel, a wedge in the order of VTK, a pyramid, a tetrahedron; a quad and a line.
-std::string legacy(const std::string& cells =
-                       "8 0 1 3 2 4 5 7 6\n6 1 2 8 5 6 9\n5 4 5 6 7 10\n4 4 10 7 11\n4 0 1 2 3\n2 0 1\n",
-                   const std::string& types = "11\n13\n14\n10\n9\n3\n") {
-  const auto numbers = std::ranges::count_if(cells, [](char c) { return c == ' ' || c == '\n'; });
-  return "# vtk DataFile Version 2.0\na title\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n" +
-         points + "CELLS 6 " + std::to_string(numbers) + "\n" + cells + "CELL_TYPES 6\n" + types;
-}
-
-vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<std::pair<int, std::vector<vtkIdType>>>& cells) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  vtkNew<vtkPoints> p;
-  p->SetDataTypeToDouble();
-  double x[3];
-  std::istringstream in(points);
-  while (in >> x[0] >> x[1] >> x[2]) p->InsertNextPoint(x);
-  grid->SetPoints(p);
-  for (const auto& [type, ids] : cells)
-    grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
-  return grid;
-}
-
-template <class Writer>
-std::string written(vtkUnstructuredGrid* grid, const std::function<void(Writer&)>& set = {}) {
-  const Folder folder;
-  vtkNew<Writer> writer;
-  writer->SetInputData(grid);
-  writer->SetFileName((folder / "t").c_str());
-  if (set) set(*writer);
-  writer->Write();
-  return content_of(folder / "t");
-}
-
-const std::vector<double> volumes{6, 3, 2, 1};  // sixths
-
-void expect_the_cells(const Mesh_file& file) {
-  const Cell_soup<3> soup = volumes_of(file);
-  EXPECT_EQ(soup.points.size(), 12u);
-  EXPECT_EQ(six_volumes(soup), volumes);
-  EXPECT_TRUE(all_closed(soup));
-  EXPECT_EQ(shared_facets(soup), 3u);
-}
-
-vtkNew<vtkUnstructuredGrid> the_cells() {
-  return grid_of({{VTK_HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7}},
-                  {VTK_WEDGE, {1, 2, 8, 5, 6, 9}},
-                  {VTK_PYRAMID, {4, 5, 6, 7, 10}},
-                  {VTK_TETRA, {4, 10, 7, 11}}});
-}
 
 TEST(VtkReader, LegacyFilesAreReadInEveryOrderOfCorners) {
   const Mesh_file file = read("t.vtk", legacy());
@@ -153,138 +90,6 @@ TEST(VtkReader, CollapsedCellsAreReadAsWhatTheyAre) {
     EXPECT_EQ(soup.cell_begin[4] - soup.cell_begin[3], 4u);
     EXPECT_GE(file.report.collapsed, 1u);
   }
-}
-
-// VTK would write beyond the memory that it takes for the numbers announced.
-TEST(VtkReader, CellsThatTakeOtherNumbersThanAnnouncedAreRefused) {
-  const std::string sound = legacy();
-  const std::size_t at = sound.find("CELLS 6 ") + 8;
-  int refused = 0;
-  for (int numbers = 1; numbers < 80; ++numbers) {
-    if (numbers == 35) continue;
-    std::string other = sound;
-    other.replace(at, 2, std::to_string(numbers));
-    EXPECT_THROW(read("t.vtk", other), Error) << numbers;
-    ++refused;
-  }
-  EXPECT_EQ(refused, 78);
-  const auto grid = the_cells();
-  std::string binary = written<vtkUnstructuredGridWriter>(grid, [](vtkUnstructuredGridWriter& w) {
-    w.SetFileTypeToBinary();
-    w.SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
-  });
-  const std::size_t list = binary.find('\n', binary.find("CELLS ")) + 1;
-  for (const char corners : {'\x07', '\x09', '\x7f'}) {
-    std::string other = binary;
-    other[list + 3] = corners;
-    EXPECT_THROW(read("t.vtk", other), Error);
-    other[list] = '\xff';
-    EXPECT_THROW(read("t.vtk", other), Error);
-  }
-}
-
-/// A list of few cells in a file with so many numbers that VTK would write far beyond the memory of the list.
-std::string overfull(const std::string& before, const std::string& list) {
-  std::string text = "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n" + before + list;
-  for (int i = 0; i < 10'000; ++i) text += "0 ";
-  return text + "\nCELL_TYPES 1\n10\n";
-}
-
-// VTK finds lists in more places than at the beginning of a word, and reads more as a number than digits.
-TEST(VtkReader, ListsAreFoundWhereVtkFindsThem) {
-  const std::string point = "POINTS 1 float\n0 0 0";
-  const std::string long_word = "CELLS" + std::string(250, 'x');
-  int refused = 0;
-  for (const std::string& before :
-       std::vector<std::string>{point + "\n", point, "FIELD f 0\n" + point + "\n", "FIELD f 0", "", "\v\f"})
-    for (const std::string word : {"CELLS ", "cElLs\n", "CELLSx ", "CELLS_OF_MINE\t"})
-      for (const std::string numbers :
-           {"1 2 ", "+1 +2 ", "001 002 ", "1\n2\n", "1 -2 ", "1 0 ", "2 3 1 0 ", "-1 2 "})
-        for (const std::string corners : {"9999 ", "+9999 ", "009999\n", "9998.5 ", "-9 ", "3 "}) {
-          if (numbers == "-1 2 " && corners != "3 ") continue;
-          EXPECT_THROW(read("t.vtk", overfull(before, word + numbers + corners)), Error)
-              << before << "|" << word << "|" << numbers << "|" << corners;
-          ++refused;
-        }
-  EXPECT_EQ(refused, 6 * 4 * (7 * 6 + 1));
-  EXPECT_THROW(read("t.vtk", overfull(point + "\n", long_word + "1 2 9999 ")), Error);
-  EXPECT_THROW(read("t.vtk", overfull(point + "\n", "CELLS 1 0 none ")), Error);
-}
-
-TEST(VtkReader, BinaryListsThatBeginLikeThoseWithOffsetsAreExamined) {
-  std::string text = "# vtk DataFile Version 2.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n" +
-                     std::string(12, '\0') + "CELLS 1 40\nOFFSETS " + std::string(400'000, '\0');
-  EXPECT_THROW(read("t.vtk", text), Error);
-  EXPECT_THROW(read("t.vtk", with(text, "CELLS 1 40\nOFFSETS", "CELLS 1 40 int\nOFFSETS")), Error);
-}
-
-TEST(VtkReader, CellsWithoutTypesAreRefused) {
-  const std::string sound = legacy();
-  int refused = 0;
-  for (int types = 0; types < 6; ++types, ++refused) {
-    const std::string why =
-        refusal([&] { read("t.vtk", with(sound, "CELL_TYPES 6", "CELL_TYPES " + std::to_string(types))); });
-    EXPECT_NE(why.find("the numbers of cells and of cell types differ"), std::string::npos) << why;
-  }
-  EXPECT_EQ(refused, 6);
-  EXPECT_THROW(read("t.vtk", with(sound, "POINTS 12", "POINTS -12")), Error);
-}
-
-// Names may be those of lists. Each file is as VTK writes it.
-TEST(VtkReader, ArraysMayHaveTheNamesOfLists) {
-  const auto grid = the_cells();
-  const auto array = [](const std::string& name, int values, int components) {
-    vtkNew<vtkIntArray> result;
-    result->SetName(name.c_str());
-    result->SetNumberOfComponents(components);
-    for (int i = 0; i < values * components; ++i) result->InsertNextValue(i % 7);
-    return result;
-  };
-  int read_well = 0;
-  for (const std::string name : {"cells", "lines", "vertices", "polygons", "triangle_strips", "points",
-                                 "cell_types", "CELLS", "point_data", "cell_data", "my_cells"})
-    for (const bool is_binary : {false, true})
-      for (const auto version :
-           {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1})
-        for (int kind = 0; kind < 5; ++kind) {
-          vtkNew<vtkUnstructuredGrid> named;
-          named->ShallowCopy(grid);
-          if (kind == 0) named->GetCellData()->SetScalars(array(name, 4, 1));
-          if (kind == 1) named->GetPointData()->SetVectors(array(name, 12, 3));
-          if (kind == 2) named->GetCellData()->AddArray(array(name, 4, 2));
-          if (kind == 3) named->GetPointData()->AddArray(array(name, 12, 1));
-          if (kind == 4) named->GetFieldData()->AddArray(array(name, 8, 1));
-          const std::string text =
-              written<vtkUnstructuredGridWriter>(named, [&](vtkUnstructuredGridWriter& w) {
-                if (is_binary) w.SetFileTypeToBinary();
-                w.SetFileVersion(version);
-                if (kind == 0) w.SetScalarsName(name.c_str());
-                if (kind == 1) w.SetVectorsName(name.c_str());
-              });
-          SCOPED_TRACE(text);
-          ASSERT_NE(text.find(name), std::string::npos);
-          expect_the_cells(read("t.vtk", text));
-          ++read_well;
-        }
-  EXPECT_EQ(read_well, 11 * 2 * 2 * 5);
-  // A table of colours, whose values follow its name.
-  for (const std::string values :
-       {"4\n0 0 0 1\n1 0 0 1\n1 1 0 1\n1 1 1 1\n", "4\n2 0 0 1\n1 0 0 1\n1 1 0 1\n1 1 1 1\n"})
-    EXPECT_EQ(
-        read("t.vtk",
-             legacy() + "CELL_DATA 6\nSCALARS s int 1\nLOOKUP_TABLE cells\n1 2 3 4 5 6\nLOOKUP_TABLE cells " +
-                 values)
-            .report.cells,
-        4u);
-}
-
-TEST(VtkReader, ListsWithinListsTakeNoLongerThanOne) {
-  std::string text = "# vtk DataFile Version 2.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n" +
-                     std::string(12, '\0');
-  // Each list passes over the heads of those after it: the five corners of its first cells.
-  const std::string head = std::string("\0\0\0\5cells 222222 444444\n", 24);
-  for (int i = 0; i < 200'000; ++i) text += head;
-  EXPECT_THROW(read("t.vtk", text), Error);
 }
 
 TEST(VtkReader, PolyhedraAreReadAndTheirFacesMadeAlike) {
