@@ -33,8 +33,10 @@ struct Step {
 template <int D>
 struct Edge_choice {
   Event_time<D> time;
-  int taken = 0;  ///< in the order of preference
-  bool has_more = false;
+  std::size_t taken = 0;        ///< in the order of preference
+  std::vector<Chain> chains{};  ///< on these sides, up to one after that taken
+
+  bool has_more() const { return chains.size() > taken + 1; }
 };
 
 template <int D>
@@ -120,7 +122,7 @@ class Event_sweep {
     }
     if (choices_passed_ == choices_->size()) choices_->push_back({line.time()});
     Edge_choice<D>& choice = (*choices_)[choices_passed_++];
-    return relink(snapshot_, line, start_, q_, chain, choice.taken, &choice.has_more);
+    return relink(snapshot_, line, start_, q_, chain, choice.taken, &choice.chains);
   }
 
   /// Whether a wall near the triangle lies in its plane; computed once.
@@ -218,7 +220,7 @@ void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
     if (accept(result)) return;
     // Sides taken after a contact do not matter.
     const auto is_exhausted = [&](const Edge_choice<D>& choice) {
-      return !choice.has_more || (result.contact && result.contact->time < choice.time.exact());
+      return !choice.has_more() || (result.contact && result.contact->time < choice.time.exact());
     };
     while (!choices.empty() && is_exhausted(choices.back())) choices.pop_back();
     if (choices.empty()) return;

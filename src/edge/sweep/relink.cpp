@@ -25,7 +25,7 @@ template <int D>
 class Relink_search {
  public:
   Relink_search(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start, const Particle<D>& q,
-                const Chain& chain)
+                const Chain& chain, std::vector<Chain>* found)
       : snapshot_(snapshot),
         line_(line),
         start_(start),
@@ -33,24 +33,23 @@ class Relink_search {
         chain_(chain),
         now_(at(line.time().value())),
         pieces_(pieces_of<D>(snapshot, now_, start, {chain.data(), chain.size()}, 1)),
-        cells_(linked_cells(snapshot, start, [&](const Cell_view<D>& cell, std::size_t i) {
-          return now_.in_facet(cell, i).has_value();
-        })) {}
+        cells_(linked_cells(
+            snapshot, start,
+            [&](const Cell_view<D>& cell, std::size_t i) { return now_.in_facet(cell, i).has_value(); })),
+        found_(found) {}
 
-  std::optional<Relinked<D>> run(int rank, bool* has_more) {
+  std::optional<Relinked<D>> run(std::size_t rank) {
     if (!lies_in_plane()) return {};
     const Event_time<D> end = next_root();
     after_.emplace(line_.triangle(), middle(line_.time().value(), end.value()));
-    if (!has_more) {
+    if (!found_) {
       Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
       if (!search.find(start_)) return {};
       return Relinked<D>{search.chain(), end};
     }
-    for (; rank >= 0; --rank)
-      if (!find_another()) return {};
-    const Relinked<D> result{found_.back(), end};
-    *has_more = find_another();
-    return result;
+    while (found_->size() <= rank + 1 && find_another()) continue;
+    if (found_->size() <= rank) return {};
+    return Relinked<D>{(*found_)[rank], end};
   }
 
   /// True if a path is not equal to the chain up to a parameter.
@@ -65,9 +64,9 @@ class Relink_search {
   bool is_accepted(const Chain& path) const {
     Half_facet wall = Half_facet::none;
     return are_equal(snapshot_, now_, start_, chain_, path, wall) &&
-           std::ranges::none_of(found_, [&](const Chain& other) {
+           (!found_ || std::ranges::none_of(*found_, [&](const Chain& other) {
              return are_equal(snapshot_, *after_, start_, other, path, wall);
-           });
+           }));
   }
   /// There are only two sides, so those that are not preferred need no order.
   bool comes_before(const Cell_view<D>&, const Cell_view<D>&) const { return false; }
@@ -79,7 +78,7 @@ class Relink_search {
   bool find_another() {
     Chain_search<D, Relink_search> search(snapshot_, *after_, q_, *this, line_.counts());
     if (!search.find_by_sides(start_)) return false;
-    found_.push_back(search.chain());
+    found_->push_back(search.chain());
     return true;
   }
 
@@ -110,7 +109,7 @@ class Relink_search {
   const std::vector<Piece> pieces_;  ///< of the chain
   const std::vector<Cell> cells_;    ///< linked with the chain somewhere on the edge
   std::optional<Rational_segment<D>> after_;
-  std::vector<Chain> found_;  ///< chains of the edge after that time
+  std::vector<Chain>* const found_;  ///< chains of the edge after that time
 };
 
 /// False proves that the plane of no facet (`of_walls`: of no wall) of the cells linked with the edge
@@ -143,14 +142,17 @@ bool has_wall_in_plane(const Snapshot<3>& snapshot, const Moving_line<3>& line, 
 
 template <int D>
 std::optional<Relinked<D>> relink(const Snapshot<D>& snapshot, const Moving_line<D>& line, Cell start,
-                                  const Particle<D>& q, const Chain& chain, int rank, bool* has_more) {
+                                  const Particle<D>& q, const Chain& chain, std::size_t rank,
+                                  std::vector<Chain>* found) {
   if (!may_lie_in_plane(snapshot, line, start, false)) return {};
-  return Relink_search<D>(snapshot, line, start, q, chain).run(rank, has_more);
+  return Relink_search<D>(snapshot, line, start, q, chain, found).run(rank);
 }
 
 template std::optional<Relinked<2>> relink<2>(const Snapshot<2>&, const Moving_line<2>&, Cell,
-                                              const Particle<2>&, const Chain&, int, bool*);
+                                              const Particle<2>&, const Chain&, std::size_t,
+                                              std::vector<Chain>*);
 template std::optional<Relinked<3>> relink<3>(const Snapshot<3>&, const Moving_line<3>&, Cell,
-                                              const Particle<3>&, const Chain&, int, bool*);
+                                              const Particle<3>&, const Chain&, std::size_t,
+                                              std::vector<Chain>*);
 
 }  // namespace cellwalk::detail
