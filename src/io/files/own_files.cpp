@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why something is not a folder or a file of its own; empty if it is.
-std::string_view why_not_own(const struct stat& status) {
+/// The kind of what is neither a folder nor a file with one name, and what to do; empty for these.
+std::string_view foreign_kind(const struct stat& status) {
   if (S_ISLNK(status.st_mode)) return "a symbolic link: remove it";
   if (S_ISDIR(status.st_mode)) return {};
   if (!S_ISREG(status.st_mode)) return "a pipe, a socket or a device: remove it";
@@ -69,7 +69,7 @@ void check_own(const fs::path& folder, const std::string& shown) {
   for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure)) {
     struct stat status;
     if (lstat(entry->path().c_str(), &status) != 0) continue;  // it is gone
-    if (const std::string_view what = why_not_own(status); !what.empty())
+    if (const std::string_view what = foreign_kind(status); !what.empty())
       throw Error(Error_code::input, fmt::format("{}: holds {}, {}", shown,
                                                  entry->path().lexically_relative(folder).string(), what));
   }
