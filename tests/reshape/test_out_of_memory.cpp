@@ -105,8 +105,8 @@ void run_out(std::size_t worlds) {
   EXPECT_GT(made, changes / 5);
 }
 
-/// Particles above a membrane, whose middle vertex pushes them into other cells; another one far away is first
-/// looked at in a later change.
+/// Particles above a membrane, whose middle vertex pushes them into other cells; another one far away is
+/// first looked at in a later change.
 template <int D>
 void push_out() {
   int failures = 0, moved = 0;
