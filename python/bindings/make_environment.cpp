@@ -161,7 +161,7 @@ void bind_makers(Environment_class& environment) {
                   "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
                   "see reshape().\n"
                   "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.\n"
-                  "time_limit: seconds that one run of a mesher may take, in a process of its own.")
+                  "time_limit: seconds that a mesher may take in all, in a process of its own.")
       .def_static(
           "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
           "Generates an environment. Kinds and options are those of `cellwalk "

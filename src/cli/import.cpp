@@ -54,7 +54,7 @@ void add_mesher_options(CLI::App& command, Mesher_options& options, double& tiss
       ->type_name("DIST");
   command
       .add_option("--time-limit", options.time_limit,
-                  "Seconds that one run of TetGen or Mesh_3 may take, after which it is ended")
+                  "Seconds that TetGen or Mesh_3 may take in all, after which it is ended")
       ->check(number_from(least_size, "greater than 0"))
       ->default_str("600")
       ->type_name("SECONDS");

@@ -36,6 +36,9 @@ using cellwalk::Error_code;
 using cellwalk::Ranks;
 
 constexpr std::string_view no_memory = "out of memory: use a smaller input or a larger machine";
+/// Where there is no error that tells: memory may not even have sufficed for one.
+constexpr std::string_view no_error =
+    "out of memory, or a defect of the program: use a smaller input or a larger machine, or report it";
 constexpr bool for_good = true;
 
 /// The first line of a message: that of a library may have further ones.
@@ -59,7 +62,7 @@ void say(std::string_view message) {
 /// The same at an error that nothing else can handle: on another thread, in a destructor, or while
 /// another error is reported. Mostly memory is used up.
 [[noreturn]] void end_at_error() {
-  if (std::current_exception() == nullptr) end_with(no_memory);  // not even for an exception
+  if (std::current_exception() == nullptr) end_with(no_error);
   try {
     throw;
   } catch (const std::bad_alloc&) {
@@ -91,20 +94,20 @@ void discard_and_stop(int signal) {
   cellwalk::cli::raise_at_last(signal);
 }
 
-/// Has unfinished files removed whatever signal ends the program. One that tells of a defect is left to those
-/// who handle it already, such as a sanitizer.
+/// Has unfinished files removed when a signal ends the program, but for SIGKILL, and those that others handle
+/// already, such as a sanitizer or a profiler.
 void handle_signals() {
   using namespace cellwalk::cli;
   static std::array<char, std::size_t{1} << 16> other_stack;  // bytes, for where the stack is used up
   const stack_t stack{.ss_sp = other_stack.data(), .ss_flags = 0, .ss_size = other_stack.size()};
   sigaltstack(&stack, nullptr);
   for (int signal = 1; signal < NSIG; ++signal) {
-    if (ends_programs(signal)) handle_unless_ignored(signal, discard_and_stop);
     struct sigaction action {};
-    if (!is_crash(signal) || sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL)
+    if (!(ends_programs(signal) || is_crash(signal)) || sigaction(signal, nullptr, &action) != 0 ||
+        action.sa_handler != SIG_DFL)
       continue;
     action.sa_handler = discard_and_stop;
-    action.sa_flags = SA_ONSTACK;
+    action.sa_flags = is_crash(signal) ? SA_ONSTACK : SA_RESTART;
     sigaction(signal, &action, nullptr);
   }
   // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.

@@ -26,8 +26,9 @@ using detail::Vec3;
 
 constexpr int band_pixels = 16;  // rows of pixels drawn at once, fewer where they hold too many fragments:
 constexpr double band_fragments = 4e6;  // 24 bytes each
-// How often samples may be covered, 20 to 50 ns each time: altogether, or each sample in a large picture.
-constexpr double most_covered = 1e8, most_layers = 8;
+// Samples of a picture, and how often they may be covered: altogether, or each sample in a large picture, but
+// not beyond the last bound. It takes 20 to 50 ns each time, so that no picture takes more than a minute.
+constexpr double most_samples = 1e9, most_covered = 1e8, most_layers = 8, most_covered_of_all = 1e9;
 constexpr double opaque_from = 0.995;
 constexpr double caption_size = 0.019;  // capitals' height in picture heights
 // Pixels; a corner further off is not drawn. With 8 samples a pixel, it fits into 32 bits with its fraction,
@@ -210,9 +211,13 @@ Image Renderer::render() const {
 
 /// The most samples that the drawing may take, as asked at most.
 Image render_within_bounds(const Drawing& drawing, const Picture_options& options) {
-  const double asked = double{1} * options.width * options.height * options.samples * options.samples;
-  const double most = std::max(most_covered, most_layers * asked);
-  for (int samples = options.samples;; --samples) {
+  const double pixels = double{1} * options.width * options.height;
+  const auto samples_of = [pixels](int samples) { return pixels * samples * samples; };
+  const double most =
+      std::clamp(most_layers * samples_of(options.samples), most_covered, most_covered_of_all);
+  int samples = options.samples;
+  while (samples_of(samples) > most_samples) --samples;  // one a pixel is always within the bound
+  for (;; --samples) {
     const Renderer renderer(drawing, options, samples);
     if (renderer.covered() <= most) return renderer.render();
     if (samples == 1)

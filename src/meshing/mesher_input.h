@@ -19,8 +19,11 @@ namespace cellwalk::detail {
 /// \pre the surfaces consist of triangles
 /// \param scale exponent of a factor
 inline Mesher_input mesher_input(const std::vector<Surface_soup>& surfaces, int scale) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   Mesher_input input;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (surfaces[s].points.size() > most - input.points.size())
+      throw Error(Error_code::input, "the surfaces have too many points for a mesher: more than 2^31");
     const auto first = static_cast<std::int32_t>(input.points.size());
     for (const Point<3>& p : surfaces[s].points) input.points.push_back(scaled(p, scale));
     for (const auto& f : surfaces[s].facets) {
@@ -29,9 +32,6 @@ inline Mesher_input mesher_input(const std::vector<Surface_soup>& surfaces, int 
       input.surfaces.push_back(static_cast<std::int32_t>(s));
     }
   }
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  if (input.points.size() > most)
-    throw Error(Error_code::input, "the surfaces have too many points for a mesher: more than 2^31");
   return input;
 }
 

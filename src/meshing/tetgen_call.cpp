@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -100,14 +101,18 @@ std::string mesh_by_tetgen(const std::vector<Surface_soup>& surfaces, const Feat
                            const Tetrahedralize_options& options, const Accept_mesh& accept) {
   const int scale = scale_of(surfaces);
   const Mesher_input input = mesher_input(surfaces, scale);
+  const auto start = std::chrono::steady_clock::now();
   std::string first_problem;
   for (const char* tolerance : tolerances) {
     try {
       const std::string switched = switches(options, scale, tolerance);
-      accept(result_of(run_helper(tetgen_helper, {switched}, input, options.limits), scale));
+      accept(result_of(run_helper(tetgen_helper, {switched}, input, options.limits, start), scale));
       if (first_problem.empty()) return {};
       return fmt::format("a tolerance of {} was needed: without it, {}; {}", tolerance, first_problem,
                          describe(narrow_places(surfaces), names));
+    } catch (const Used_up& error) {  // finer tolerances take no less
+      throw Error(error.code(),
+                  fmt::format("{}; {}", error.what(), describe(narrow_places(surfaces), names)));
     } catch (const Error& error) {
       if (error.code() != Error_code::not_certified) throw;
       if (first_problem.empty()) first_problem = error.what();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/kernel/crossing.h>
+#include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/internal/walk/star.h>
 
@@ -11,13 +12,14 @@ namespace {
 /// When the line ab passes that of ridge uv, which meets it in one point.
 Fraction passing_time(const Point<3>& a, const Point<3>& b, const Point<3>& u, const Point<3>& v) {
   // Any plane of the ridge gives it that does not contain ab: that of a point beside u on some axis.
-  for (std::size_t axis = 0;; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     Point<3> beside = u;
     beside[axis] = u[axis] == 0 ? 1 : 0;
     const Ring at_a = Exact_value::orientation(u, v, beside, a);
     const Ring span = at_a - Exact_value::orientation(u, v, beside, b);
     if (CGAL::sign(span) != CGAL::ZERO) return {at_a, span};
   }
+  refuse_uncertified();
 }
 
 template <int D>
@@ -37,9 +39,10 @@ Exact_time time_of(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D
                    const Side_taken& choice) {
   const Point<D>&u = snapshot.point(choice.u), &v = snapshot.point(choice.v);
   if (choice.u == choice.v) {
-    std::size_t axis = 0;
-    while (a[axis] == b[axis]) ++axis;
-    return to_time(Fraction(Ring(u[axis]) - Ring(a[axis]), Ring(b[axis]) - Ring(a[axis])));
+    for (std::size_t axis = 0; axis < D; ++axis)
+      if (a[axis] != b[axis])
+        return to_time(Fraction(Ring(u[axis]) - Ring(a[axis]), Ring(b[axis]) - Ring(a[axis])));
+    refuse_uncertified();
   }
   if constexpr (D == 3) {
     // The motion runs along the ridge that it starts on only.

@@ -128,7 +128,7 @@ TEST_F(Signals, OfBatchSystemsAreHandledWhateverTheLimits) {
         R"({"environment": {"generate": "hexes", "cells": 3}, "particles": [{"count": 2000, "speed": 9}],
                           "steps": 10000000, "output": {"motion_every": 0, "picture": false}})");
   const int status =
-      std::system(("cd '" + path("").string() + "' && (ulimit -c unlimited; ulimit -St 1; exec " +
+      std::system(("cd '" + path("").string() + "' && (ulimit -c unlimited; ulimit -St 3; exec " +
                    CELLWALK_PROGRAM + " run scene.json -o out --checkpoint-every 10000000) 2> /dev/null")
                       .c_str());
   EXPECT_EQ(status >> 8, 128 + SIGXCPU);

@@ -285,6 +285,20 @@ TEST(Picture, ManyLayersAreDrawnInBoundedMemory) {
   EXPECT_THROW(render(drawing, plain()), Error);
 }
 
+// In a large picture, few layers cover as many samples; it is refused before anything is drawn.
+TEST(Picture, LargeOnesOfManyLayersAreRefused) {
+  Drawing drawing;
+  const auto glass = flat(drawing, red, 0.01);
+  const auto add_layers = [&](int count) {
+    for (int i = 0; i < count; ++i)
+      add_square(drawing, 1, 1e-7 * static_cast<double>(drawing.triangles.size()), glass);
+  };
+  add_layers(40);
+  EXPECT_EQ(render(drawing, plain(128, 128)).rgb.size(), 3u * 128 * 128);
+  for (const int size : {8192, 10'000, 16'384})
+    EXPECT_THROW(render(drawing, plain(size, size)), Error) << size;
+}
+
 std::uint32_t number_at(const std::string& s, std::size_t i) {
   std::uint32_t n = 0;
   for (std::size_t k = 0; k < 4; ++k) n = n << 8 | static_cast<std::uint8_t>(s[i + k]);

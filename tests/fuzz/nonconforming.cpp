@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Layers of cells that are cut in different ways, and points that are moved: walls that nobody sees are
+// Layers of cells that are cut in different ways, and points that are moved: unintended walls are
 // refused, exactly where brute force in rationals finds them.
 #include "environment/nonconforming.h"
 
@@ -54,7 +54,7 @@ void build_and_judge(Decoder& in) {
   demand(kept.facing.overlapping.pairs == expected.size(), "facets overlap as rationals say");
   demand(expected.empty() || kept.facing.overlapping.cells == expected[0], "the first pair is named");
   const bool is_read = reads([&] { Environment<D>::build(soup, {.split = false}); }, codes);
-  demand(!is_read || expected.empty(), "walls that nobody sees are refused");
+  demand(!is_read || expected.empty(), "unintended walls are refused");
   const bool is_merged =
       reads([&] { Environment<D>::build(soup, {.duplicates = Duplicate_vertices::merge, .split = false}); },
             {Error_code::input, Error_code::not_certified});

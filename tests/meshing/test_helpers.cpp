@@ -85,7 +85,7 @@ struct Part {
   std::string script, message;
 };
 
-TEST_F(Helpers, EveryMisdeedIsAnError) {
+TEST_F(Helpers, EveryFailureIsAnError) {
   const test::Traces before;
   const std::string few = "wrote half a result (";
   const std::vector<Part> parts{
@@ -95,7 +95,6 @@ TEST_F(Helpers, EveryMisdeedIsAnError) {
        "crashed (signal 6, SIGABRT: Assertion `a > 0' failed)"},
       {"exit 1", "crashed (exit code 1)"},
       {"exit 90", "crashed (exit code 90)"},
-      {"exit 11", "ran out of memory; give a smaller surface or larger cells"},
       {"echo first >&2; echo second >&2; exit 10", "failed: first"},
       {"printf 'a\\033[1mb' >&2; exit 10", "failed: a?[1mb"},
       {"yes | head -c 1000000 >&2; exit 10", "failed: y"},
@@ -132,15 +131,32 @@ TEST_F(Helpers, TheirResultsAreNotTrusted) {
   before.expect_unchanged();
 }
 
+/// Finer tolerances would take as much.
+TEST_F(Helpers, OneThatRunsOutOfMemoryIsNotTriedAgain) {
+  const test::Traces before;
+  play("exit 11");
+  const std::string why = "ran out of memory; give a smaller surface or larger cells; ";
+  EXPECT_EQ(by_tetgen(), "4: TetGen " + why + place);
+  EXPECT_EQ(by_mesh3(), "4: Mesh_3 " + why + place);
+  EXPECT_EQ(runs(), 2u);
+  before.expect_unchanged();
+}
+
+/// The limit is that of all tries: the first fails, and the second hangs.
+TEST_F(Helpers, AllTriesHaveOneLimitOfTime) {
+  play("sleep 1; exit 14");
+  EXPECT_EQ(by_tetgen({1.5, {}}), "4: TetGen did not end within 1.5 s, the limit of time; " + place);
+  EXPECT_LE(runs(), 2u);
+}
+
 TEST_F(Helpers, OneThatHangsIsEnded) {
   const test::Traces before;
   play("sleep 1000");  // a process of its own, too
   const auto start = Clock::now();
-  EXPECT_EQ(
-      by_tetgen({0.2, {}}).rfind("4: TetGen did not end within 0.2 s, the limit of time, and failed", 0), 0u);
+  EXPECT_EQ(by_tetgen({0.2, {}}), "4: TetGen did not end within 0.2 s, the limit of time; " + place);
   EXPECT_EQ(by_mesh3({0.2, {}}), "4: Mesh_3 did not end within 0.2 s, the limit of time; " + place);
-  EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
-  EXPECT_EQ(runs(), 4u);
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(100)) << "not a tenth of what it would take";
+  EXPECT_LE(runs(), 2u) << "on a busy machine it is ended before it begins";
   for (const double never : {0.0, -1.0, std::nan("")})
     EXPECT_EQ(by_tetgen({never, {}}), "2: TetGen: the limit of time must be greater than 0");
   before.expect_unchanged();
@@ -158,8 +174,8 @@ TEST_F(Helpers, WhoWaitsMayStopThem) {
   EXPECT_THROW(by_tetgen(limits), Stopped);
   calls = 0;
   EXPECT_THROW(by_mesh3(limits), Stopped);
-  EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
-  EXPECT_EQ(runs(), 2u) << "no other tolerance is tried";
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(100)) << "not a sixth of its limit";
+  EXPECT_LE(runs(), 2u) << "no other tolerance is tried";
   before.expect_unchanged();
 }
 

@@ -4,20 +4,34 @@
 #define CELLWALK_TESTS_MESHING_TRACES_H
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <cerrno>
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 namespace cellwalk::test {
 
-/// Files where the test runs, dumps in the folder for temporary ones, beside which other tests may run,
-/// descriptors, and processes.
+/// Files in the current folder, which meanwhile is one of its own, dumps in the folder for temporary ones,
+/// beside which other tests may run, descriptors, and processes.
 class Traces {
  public:
+  Traces() {
+    std::string name = (std::filesystem::temp_directory_path() / "cellwalk-traces-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    std::filesystem::current_path(folder_);
+  }
+  ~Traces() {
+    std::filesystem::current_path(before_);
+    std::filesystem::remove_all(folder_);
+  }
+  Traces(const Traces&) = delete;
+  Traces& operator=(const Traces&) = delete;
+
   void expect_unchanged() const {
-    EXPECT_EQ(entries(".", ""), files_);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_));
     EXPECT_EQ(entries(std::filesystem::temp_directory_path(), "dump-bug"), dumps_);
     EXPECT_EQ(entries("/proc/self/fd", ""), descriptors_);
     EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a process is left";
@@ -32,7 +46,8 @@ class Traces {
     return count;
   }
 
-  std::size_t files_ = entries(".", ""), dumps_ = entries(std::filesystem::temp_directory_path(), "dump-bug");
+  std::filesystem::path before_ = std::filesystem::current_path(), folder_;
+  std::size_t dumps_ = entries(std::filesystem::temp_directory_path(), "dump-bug");
   std::size_t descriptors_ = entries("/proc/self/fd", "");
 };
 

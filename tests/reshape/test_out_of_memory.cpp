@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Memory that runs out at the first allocation of a change, at the second, and so on until the change is
 // made: each time the state is that before or that after it, and never one in between.
+#include <cellwalk/body/verified_stop.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "oracle/seed.h"
+#include "reshape/grids.h"
 #include "reshape/random_change.h"
 #include "reshape/state_digest.h"
 #include "walk/oracle_trial.h"
@@ -102,6 +104,70 @@ void run_out(std::size_t worlds) {
   EXPECT_GT(failures, 10 * changes);
   EXPECT_GT(made, changes / 5);
 }
+
+/// Particles above a membrane, whose middle vertex pushes them into other cells; another one far away is
+/// first looked at in a later change.
+template <int D>
+void push_out() {
+  int failures = 0, moved = 0;
+  for (long n = 0;; ++n) {
+    SCOPED_TRACE("allocation " + std::to_string(n));
+    Environment<D> environment = test::simplex_grid<D>(4);
+    test::add_membrane<D>(environment, 2);
+    const Snapshot<D>& snapshot = environment.snapshot();
+    const auto all = [](double coordinate) {
+      Point<D> x;
+      x.fill(coordinate);
+      return x;
+    };
+    const auto at = [&](double height) {
+      Point<D> x = all(2);
+      x[D - 1] = height;
+      return x;
+    };
+    const auto located = [&](const Point<D>& x) { return Locator<D>(snapshot).particles_at(x).front(); };
+    std::vector<Particle<D>> pushed, far{located(all(0.4375))};
+    std::vector<Point<D>> start;
+    for (const double side : {-0.25, 0.25}) {
+      Point<D> x = at(2.125);
+      x[0] += side;
+      start.push_back(x);
+      pushed.push_back(located(x));
+    }
+    const std::uint32_t middle = test::point_at<D>(environment, at(2)),
+                        low = test::point_at<D>(environment, all(1));
+    const std::vector<std::span<Particle<D>>> particles{pushed, far};
+    Reshaping<D> reshaping(environment, {{}, particles}, {.at_contact = At_contact::push});
+    bool has_failed = false;
+    allocations_left = n;
+    try {
+      reshaping.move(middle, at(2.5));
+    } catch (const std::bad_alloc&) {
+      has_failed = true;
+    }
+    allocations_left = -1;
+    failures += has_failed;
+    moved += has_failed && (pushed[0].position != start[0] || pushed[1].position != start[1]);
+    EXPECT_EQ(reshaping.move(low, all(1.03125)).end, Move_end::reached);
+    for (const double height : {2.25, 2.5, 2.75}) reshaping.move(middle, at(height));
+    reshaping.close();
+    for (Particle<D>& particle : pushed) {
+      Vector<D> up{};
+      up[D - 1] = 3.9375 - particle.position[D - 1];
+      std::vector<Contact<D>> met;
+      Walk_counts uncounted;
+      ASSERT_TRUE(in_closure(snapshot, particle.cell, particle.position));
+      advance(snapshot, particle, up, Wall_response{}, met, uncounted);
+      ASSERT_TRUE(met.empty()) << "the wall passed over it, and is above it now";
+    }
+    if (!has_failed) break;
+  }
+  EXPECT_GT(failures, 10);
+  EXPECT_GT(moved, 0);
+}
+
+TEST(OutOfMemory, PushedParticlesAreStillMet2D) { push_out<2>(); }
+TEST(OutOfMemory, PushedParticlesAreStillMet3D) { push_out<3>(); }
 
 TEST(OutOfMemory, NeverInBetween2D) { run_out<2>(10); }
 TEST(OutOfMemory, NeverInBetween3D) { run_out<3>(5); }

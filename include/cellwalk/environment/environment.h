@@ -36,7 +36,7 @@ class Wall_editor;
 }  // namespace detail
 
 /// The treatment of different points with equal coordinates. Boundary facets of free cells that overlap in
-/// a plane (Facing_walls) are refused as well, unless duplicates are kept: nobody sees the walls there.
+/// a plane (Facing_walls) are refused as well, unless duplicates are kept: the walls there are unintended.
 enum class Duplicate_vertices { refuse, merge, keep };
 
 struct Build_options {

@@ -28,7 +28,7 @@ struct Mesher_options {
   bool keep_obstacles = false;  ///< not by Mesh_3
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
-  double time_limit = 600;  ///< seconds that one run of TetGen or Mesh_3 may take, greater than 0
+  double time_limit = 600;  ///< seconds that TetGen or Mesh_3 may take in all, greater than 0
   /// Called at least every tenth of a second while TetGen or Mesh_3 runs. An exception that it throws ends
   /// the mesher and passes through.
   std::function<void()> on_wait{};

@@ -40,7 +40,7 @@ struct Mesh3_report {
 ///        10^8 cells or facets of any shape, and distances below 2^-20 of the bounding box's diagonal
 /// \throw Error(not_certified) if the mesh has no tetrahedron (sizes too large for the surface), or a flat
 ///        one; if Mesh_3 fails or crashes, or does not end in time: and where the surface is narrowest.
-///        Mesh_3 runs in a process of its own, which is no more then.
+///        Mesh_3 runs in a process of its own, which has ended by then.
 ///
 /// The same input gives the same mesh.
 /// Cost: about 30 us a tetrahedron.

@@ -9,8 +9,8 @@
 namespace cellwalk {
 
 struct Mesher_limits {
-  /// The longest that one run of a mesher may take, greater than 0. TetGen may run several times, with finer
-  /// and finer tolerances.
+  /// The longest that a mesher may take, greater than 0. TetGen may run several times in it, with finer and
+  /// finer tolerances.
   double seconds = 600;
   /// Called at least every tenth of a second while a mesher runs. An exception that it throws ends the mesher
   /// and passes through.

@@ -110,13 +110,18 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(folder->path_, ignored))) {
     const std::string path = folder->path_.string();
-    folder->unfinished_.make(path, [&] { return make_folder(path), true; });
-    folder->is_own_ = folder->is_new_ = true;
+    folder->unfinished_.make(path, [&] {
+      make_folder(path);
+      folder->is_own_ = folder->is_new_ = true;
+      folder->lock();  // before a signal may remove it: another process may be in it
+      return true;
+    });
   } else if (!is_of_a_run(folder->path_)) {
     throw Error(Error_code::usage,
                 folder->shown() + ": was not made by a run: remove it, or give another folder");
+  } else {
+    folder->lock();
   }
-  folder->lock();
   folder->sort_out_earlier();
   if (!replace && has_checkpoint(folder->checkpoints()))
     throw Error(Error_code::usage,

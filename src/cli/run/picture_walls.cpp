@@ -58,7 +58,6 @@ void draw_cells(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materi
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
     if (const Cell c = snapshot.cell(i); c != Cell::none) triangles += snapshot.facet_count(c) - 2;
   const double share = share_of(triangles), growth = 1 / std::sqrt(share);
-  const std::vector<Loop> facets{{}};
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
     if (c == Cell::none || !is_among(share, i)) continue;

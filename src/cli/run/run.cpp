@@ -122,7 +122,8 @@ std::string finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D
   if (parts.motion) parts.motion->commit();
   std::string not_drawn;
   if (parts.picture) not_drawn = draw(input, parts, folder / "picture.png");
-  const ordered_json said = report(input, parts);
+  ordered_json said = report(input, parts);
+  if (!not_drawn.empty()) said["no_picture"] = not_drawn;
   io::write_json(folder / "run.json", said);
   if (parts.record) write_trace(parts.record->trace(), outputs.record, folder);
   write_json(outputs.json, said);
@@ -277,6 +278,24 @@ void run(Run_options options, Ranks& ranks) {
   std::visit(run_it, source.scene);
 }
 
+/// \param output, force options that a run cannot have which goes on
+void add_checkpoint_options(CLI::App& command, Run_options& options, CLI::Option* output,
+                            CLI::Option* force) {
+  command
+      .add_option(
+          "--checkpoint-every", options.checkpoint_every,
+          "Keep all that is needed to go on with the run after every N steps, in DIR.part; the results are "
+          "the same")
+      ->type_name("N")
+      ->check(whole_number(1, 100000000));
+  command
+      .add_option("--resume", options.resume,
+                  "Go on with the run that --checkpoint-every kept in DIR.part, and that was stopped")
+      ->type_name("DIR")
+      ->excludes(output)
+      ->excludes(force);
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, Action& chosen) {
@@ -316,19 +335,7 @@ void add_run(CLI::App& app, Action& chosen) {
   add_json(*command, options->json);
   CLI::Option* const force =
       command->add_flag("--force", options->force, "Replace the folder if it holds an earlier run");
-  command
-      ->add_option(
-          "--checkpoint-every", options->checkpoint_every,
-          "Keep all that is needed to go on with the run after every N steps, in DIR.part; the results are "
-          "the same")
-      ->type_name("N")
-      ->check(whole_number(1, 100000000));
-  command
-      ->add_option("--resume", options->resume,
-                   "Go on with the run that --checkpoint-every kept in DIR.part, and that was stopped")
-      ->type_name("DIR")
-      ->excludes(output)
-      ->excludes(force);
+  add_checkpoint_options(*command, *options, output, force);
   add_examples(*command,
                {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
                 "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50",

@@ -160,13 +160,13 @@ void Facing_search<D>::compare(std::span<const std::uint32_t> own, std::span<con
   if (snapshot_.is_solid(c)) return;
   Predicate_counts counts;
   const auto points = snapshot_.points();
-  for (const auto& [i, is_leant_against] : others) {
+  for (const auto& [i, is_in_contact] : others) {
     const Boundary_facet<D>& f = facets_[i];
     const Cell d = snapshot_.cell_of(f.facet);
     if (snapshot_.is_solid(d) || snapshot_.index(d) > snapshot_.index(c)) continue;
     for (const std::uint32_t j : own) {
       const Boundary_facet<D>& g = facets_[j];
-      if (is_leant_against && lies_in_plane<D>(counts, points, f, g.loop) &&
+      if (is_in_contact && lies_in_plane<D>(counts, points, f, g.loop) &&
           overlap_in_plane<D>(counts, points, f, g.loop, true))
         add(overlapping_, i, j);
       else if (dot(normals_[i], normals_[j]) < facing_cosine && is_near(i, j))

@@ -19,7 +19,7 @@ namespace cellwalk::detail {
 /// A boundary facet of another cell, and whether the cell is on its outer side, with D vertices in its plane.
 struct Facing_candidate {
   std::uint32_t facet = 0;
-  bool is_leant_against = false;
+  bool is_in_contact = false;
 };
 
 /// Collects the pairs, from any threads; the result does not depend on their number.

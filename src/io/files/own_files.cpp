@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why something is not a folder or a file of its own; empty if it is.
-std::string_view why_not_own(const struct stat& status) {
+/// The kind of what is neither a folder nor a file with one name, and what to do; empty for these.
+std::string_view foreign_kind(const struct stat& status) {
   if (S_ISLNK(status.st_mode)) return "a symbolic link: remove it";
   if (S_ISDIR(status.st_mode)) return {};
   if (!S_ISREG(status.st_mode)) return "a pipe, a socket or a device: remove it";
@@ -27,9 +27,10 @@ std::string_view why_not_own(const struct stat& status) {
   return {};
 }
 
-constexpr int deepest_folder = 64;         // folders within each other; a run makes three
+constexpr int deepest_folder = 16;         // folders within each other; a run makes three
 constexpr int most_removals = 3;           // where others write at the same moment
-constexpr std::size_t listed_size = 2048;  // bytes of names read at a time, on the stack of a signal handler
+constexpr std::size_t listed_size = 2048;  // bytes of names read at a time, at each depth: 16 of them are
+                                           // half the stack of a signal handler
 
 bool remove_at(int folder, const char* name, int depth) noexcept;
 
@@ -68,7 +69,7 @@ void check_own(const fs::path& folder, const std::string& shown) {
   for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure)) {
     struct stat status;
     if (lstat(entry->path().c_str(), &status) != 0) continue;  // it is gone
-    if (const std::string_view what = why_not_own(status); !what.empty())
+    if (const std::string_view what = foreign_kind(status); !what.empty())
       throw Error(Error_code::input, fmt::format("{}: holds {}, {}", shown,
                                                  entry->path().lexically_relative(folder).string(), what));
   }

@@ -16,8 +16,6 @@
 namespace cellwalk::io {
 namespace {
 
-constexpr std::string_view blanks = " \t\v\f";
-
 /// A message in one line, for any bytes of a file that it quotes.
 std::string one_line(std::string message) {
   constexpr char first_printed = ' ', delete_character = 0x7f;

@@ -12,6 +12,9 @@
 
 namespace cellwalk::io {
 
+/// White space: within lines, and with their ends.
+inline constexpr std::string_view blanks = " \t\v\f", blanks_and_ends = " \t\v\f\r\n";
+
 /// The bytes of a file; a file compressed with gzip is inflated, whatever its name.
 /// \throw Error(input) if it cannot be read, or its gzip stream is damaged
 std::string load(const std::filesystem::path& path);

@@ -34,9 +34,10 @@ class Element_list {
   explicit Element_list(std::string name) : name_(std::move(name)) {}
 
   /// Of several nodes with one number the first counts.
+  /// \pre the number is at least 0, and needs at most 31 bits
   void add_node(std::int64_t number, const Point<3>& point) { nodes_.emplace_back(number, point); }
 
-  /// To be called after the last node, before index().
+  /// To be called once, after the last node and before the first element.
   void sort_nodes();
 
   /// The index of a node among all in the order of their numbers.

@@ -18,12 +18,21 @@ namespace cellwalk::io {
 namespace {
 
 using Number = std::int64_t;
+
+/// Elements are members of all groups of their entity. An element takes at least four bytes, so this bound is
+/// beyond 60 groups for each; it keeps a file in which both are many from taking the memory of their product.
+constexpr std::size_t most_members_per_byte = 16;
+
 using Dimension_and_tag = std::pair<Number, Number>;
 
 class Msh_reader {
  public:
-  Msh_reader(const std::string& name, Msh_source& in, const Msh_header& header)
-      : in_(in), header_(header), elements_(name), major_(header.version.front()) {
+  Msh_reader(const std::string& name, Msh_source& in, const Msh_header& header, std::size_t bytes)
+      : in_(in),
+        header_(header),
+        elements_(name),
+        major_(header.version.front()),
+        most_members_(most_members_per_byte * bytes) {
     if (major_ == '4') elements_.keep_unused_nodes();
   }
 
@@ -39,13 +48,13 @@ class Msh_reader {
   void read(const std::string& section) {
     const bool is_1 = major_ == '1', has_entities = header_.version == "4.1" || is_4_0();
     if (section == (is_1 ? "$NOD" : "$Nodes") || (is_1 && section == "$NOE"))
-      once("$Nodes", section), major_ == '4' ? blocks_of_nodes() : nodes(false), elements_.sort_nodes();
+      all_nodes(section, false);
     else if (section == "$ParametricNodes" && !is_1 && header_.binary)
       in_.fail("binary nodes with parameters are not read: write them without, or the mesh as text");
     else if (section == "$ParametricNodes" && !is_1)
-      once("$Nodes", section), nodes(true), elements_.sort_nodes();
+      all_nodes(section, true);
     else if (section == (is_1 ? "$ELM" : "$Elements"))
-      once("$Elements", section), major_ == '4' ? blocks_of_elements() : elements();
+      all_elements(section);
     else if (section == "$PhysicalNames")
       physical_names();
     else if (section == "$Entities" && has_entities)
@@ -55,6 +64,23 @@ class Msh_reader {
     else
       return in_.skip_section(section);
     in_.end_section(section);
+  }
+
+  void all_nodes(const std::string& section, bool have_parameters) {
+    once("$Nodes", section);
+    if (major_ == '4' && !have_parameters)
+      blocks_of_nodes();
+    else
+      nodes(have_parameters);
+    elements_.sort_nodes();
+  }
+
+  void all_elements(const std::string& section) {
+    once("$Elements", section);
+    if (major_ == '4')
+      blocks_of_elements();
+    else
+      elements();
   }
 
   void once(const std::string& kind, const std::string& section) {
@@ -72,6 +98,14 @@ class Msh_reader {
     return p;
   }
 
+  /// A tag, or a number of tags.
+  Number of_32_bits(std::string_view what) {
+    const Number value = in_.integer(what);
+    if (value != static_cast<std::int32_t>(value))  // as in Gmsh
+      in_.fail(fmt::format("{}: '{}' needs more than 32 bits", what, value));
+    return value;
+  }
+
   void skip_reals(Number count) {
     for (Number i = 0; i < count; ++i) in_.real("a coordinate");
   }
@@ -84,6 +118,11 @@ class Msh_reader {
     if (node < 0 || node > std::numeric_limits<std::int32_t>::max())  // as in Gmsh
       in_.fail(fmt::format("{} is no number of a node", node));
     return node;
+  }
+
+  void node(Number number, Number parameters) {
+    elements_.add_node(number, point());
+    skip_reals(parameters);
   }
 
   void nodes(bool have_parameters) {
@@ -107,8 +146,12 @@ class Msh_reader {
       node = *index;
     }
     const std::uint32_t position = elements_.add_element(number, kind, nodes_);
-    for (const Number tag : physical)
-      if (tag != 0) groups_[{kind.dimension, std::abs(tag)}].push_back(position);
+    for (const Number tag : physical) {
+      if (tag == 0) continue;
+      groups_[{kind.dimension, std::abs(tag)}].push_back(position);
+      if (++members_ > most_members_)
+        in_.fail("its elements are in more groups than a mesh of this size has: it is broken");
+    }
   }
 
   Element_kind kind_of(Number type) const {
@@ -126,8 +169,8 @@ class Msh_reader {
     for (Number i = 0; i < count; ++i) {
       const Number number = in_.integer("an element"), type = in_.integer("a type of elements");
       const Element_kind kind = kind_of(type);
-      const Number tags = major_ == '1' ? 2 : in_.integer("a number of tags");
-      const Number physical = tags > 0 ? in_.integer("a tag") : 0;
+      const Number tags = major_ == '1' ? 2 : of_32_bits("a number of tags");
+      const Number physical = tags > 0 ? of_32_bits("a tag") : 0;
       skip_integers(tags - 1, "a tag");
       if (major_ == '1')
         if (const Number n = in_.integer("a number of nodes"); n != kind.nodes)
@@ -138,13 +181,13 @@ class Msh_reader {
 
   void blocks_of_binary_elements(Number left) {
     while (left > 0) {
-      const Number type = in_.integer("a type"), count = in_.integer("a size"), tags = in_.integer("tags");
+      const Number type = in_.integer("a type"), count = in_.integer("a size"), tags = of_32_bits("tags");
       const Element_kind kind = kind_of(type);
       if (count <= 0 || count > left)
         in_.fail(fmt::format("a block of {} elements, where {} are left", count, left));
       left -= count;
       for (Number i = 0; i < count; ++i) {
-        const Number number = in_.integer("an element"), physical = tags > 0 ? in_.integer("a tag") : 0;
+        const Number number = in_.integer("an element"), physical = tags > 0 ? of_32_bits("a tag") : 0;
         skip_integers(tags - 1, "a tag");
         element(number, kind, std::array{physical});
       }
@@ -185,10 +228,9 @@ class Msh_reader {
       numbers.clear();
       for (Number i = 0; i < block.size; ++i, ++held) {
         numbers.push_back(node_number());
-        if (is_4_0()) elements_.add_node(numbers.back(), point()), skip_reals(parameters);
+        if (is_4_0()) node(numbers.back(), parameters);
       }
-      for (std::size_t i = 0; !is_4_0() && i < numbers.size(); ++i)
-        elements_.add_node(numbers[i], point()), skip_reals(parameters);
+      for (std::size_t i = 0; !is_4_0() && i < numbers.size(); ++i) node(numbers[i], parameters);
     }
     expect_all("nodes", total, held);
   }
@@ -234,7 +276,7 @@ class Msh_reader {
         }
         skip_reals(dimension == 0 && !is_4_0() ? 3 : 6);  // a point, or a box
         auto& physical = physical_of_[{dimension, tag}];
-        for (Number groups = in_.size(what); groups > 0; --groups) physical.push_back(in_.integer(what));
+        for (Number groups = in_.size(what); groups > 0; --groups) physical.push_back(of_32_bits(what));
         if (dimension > 0) skip_integers(in_.size(what), what);  // its boundary
       }
   }
@@ -250,6 +292,7 @@ class Msh_reader {
   const Msh_header& header_;
   Element_list elements_;
   char major_;
+  std::size_t members_ = 0, most_members_;  ///< of all groups
   std::set<std::string> seen_;
   std::vector<std::uint32_t> nodes_;
   std::map<Dimension_and_tag, std::string> names_;
@@ -271,7 +314,7 @@ Element_soup parse_msh(const std::string& name, std::string_view bytes, Lines li
   if (header.binary && header.size_of_sizes != size_of_sizes)
     fail(name, fmt::format("has numbers of {} bytes: only those of 8 are read", header.size_of_sizes));
   const auto source = header.binary ? msh_binary(name, bytes) : msh_text(name, bytes);
-  return Msh_reader(name, *source, header).read(lines, report);
+  return Msh_reader(name, *source, header, bytes.size()).read(lines, report);
 }
 
 }  // namespace cellwalk::io

@@ -13,8 +13,6 @@
 namespace cellwalk::io {
 namespace {
 
-constexpr std::string_view blanks_and_ends = " \t\v\f\r\n";
-
 /// The name of the end of a section: $EndNodes, or in version 1 $ENDNOD.
 bool is_end_of(std::string_view word, std::string_view section) {
   return same_word(word.substr(0, 4), "$End") &&

@@ -41,7 +41,7 @@ Mesh_file parse_by_vtk(const std::string& name, std::string_view bytes, Format f
     fail(name,
          "this build lacks VTK, which reads .vtk and .vtu: install libvtk9-dev and configure with "
          "-DCELLWALK_WITH_VTK=ON, or convert the file to .ovm");
-  check_vtk_counts(name, bytes, format);
+  if (format == Format::vtk_xml) check_vtk_counts(name, bytes);
   Read_report report;
   Element_soup soup = read_by(vtk_module(), "VTK", name, {bytes, format}, report);
   return volumes_or_polygons(name, std::move(soup), std::move(report));

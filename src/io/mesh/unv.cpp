@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// I-deas universal files: datasets between lines of -1. Read are nodes, elements and groups.
+// I-deas universal files: datasets between lines of -1, in any order. Read are nodes, elements and groups.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -83,40 +85,78 @@ std::optional<Unv_kind> kind_of_unv(std::int64_t type) {
   }
 }
 
+/// The datasets of one kind are read in a pass over the file, so that all nodes are there before the
+/// elements, and all elements before the groups.
+enum class Kind { nodes, elements, groups, others };
+
+Kind kind_of_dataset(std::int64_t number) {
+  switch (number) {
+    case 2411:
+    case 781:
+      return Kind::nodes;
+    case 2412:
+      return Kind::elements;
+    case 2435:
+    case 2452:
+    case 2467:
+    case 2477:
+      return Kind::groups;
+    default:
+      return Kind::others;
+  }
+}
+
 class Unv_reader {
  public:
   Unv_reader(const std::string& name, std::string_view text, Read_report& report)
-      : in_(name, text, std::nullopt), elements_(name), report_(report) {}
+      : start_(name, text, std::nullopt), elements_(name), report_(report) {}
 
   Element_soup read(Lines lines) {
-    if (!in_.has_word() || in_.peek("'-1'") != "-1") in_.fail("not a UNV file: it does not begin with '-1'");
-    while (in_.has_word()) {
-      if (const std::string_view word = in_.word("'-1'"); word != "-1")
-        in_.fail(fmt::format("'{}' where '-1' should begin a dataset", shown(word)));
-      dataset(in_.integer("the number of a dataset"));
-    }
-    if (!is_sorted_) elements_.sort_nodes();
+    read(Kind::nodes);
+    elements_.sort_nodes();
+    read(Kind::elements);
+    positions_ = elements_.positions();
+    read(Kind::groups);
     return elements_.take(lines, report_);
   }
 
  private:
-  void dataset(std::int64_t number) {
-    constexpr std::array<std::int64_t, 4> groups{2435, 2452, 2467, 2477};
-    if (number == 2411 || number == 781)
-      while (!is_end()) node();
-    else if (number == 2412)
-      while (!is_end()) element();
-    else if (std::find(groups.begin(), groups.end(), number) != groups.end())
-      this->groups();
-    else
-      while (!is_end()) in_.word("'-1'"), in_.leave_line();
+  void read(Kind kind) {
+    in_ = start_;
+    if (!in_.has_word() || in_.peek("'-1'") != "-1") in_.fail("not a UNV file: it does not begin with '-1'");
+    while (in_.has_word()) {
+      if (const std::string_view word = in_.word("'-1'"); word != "-1")
+        in_.fail(fmt::format("'{}' where '-1' should begin a dataset", shown(word)));
+      if (kind_of_dataset(in_.integer("the number of a dataset")) == kind)
+        dataset(kind);
+      else
+        skip_dataset();
+    }
   }
+
+  void dataset(Kind kind) {
+    while (!is_end()) {
+      if (kind == Kind::nodes) node();
+      if (kind == Kind::elements) element();
+      if (kind == Kind::groups) group();
+    }
+  }
+
+  static constexpr std::string_view end_of_dataset = "'-1', the end of a dataset,";
 
   /// True, and goes on, if a dataset ends here.
   bool is_end() {
-    if (in_.peek("'-1', the end of a dataset,") != "-1") return false;
-    in_.word("'-1'");
+    if (in_.peek(end_of_dataset) != "-1") return false;
+    in_.word(end_of_dataset);
     return true;
+  }
+
+  /// The end is a line with nothing but -1: others may begin with it.
+  void skip_dataset() {
+    for (bool is_end = false; !is_end;) {
+      in_.leave_line();
+      is_end = in_.word(end_of_dataset) == "-1" && in_.at_line_end();
+    }
   }
 
   void skip_integers(int count, std::string_view what) {
@@ -125,17 +165,15 @@ class Unv_reader {
 
   void node() {
     const std::int64_t number = in_.integer("a node");
-    if (number < 0) in_.fail(fmt::format("{} is no number of a node", number));
+    if (number < 0 || number > std::numeric_limits<std::int32_t>::max())
+      in_.fail(fmt::format("{} is no number of a node", number));
     skip_integers(3, "a coordinate system or colour");
     Point<3> p;
     for (double& x : p) x = in_.coordinate("a coordinate");
     elements_.add_node(number, p);
-    is_sorted_ = false;
   }
 
   void element() {
-    if (!is_sorted_) elements_.sort_nodes();
-    is_sorted_ = true;
     const std::int64_t number = in_.integer("an element"), type = in_.integer("a type of elements");
     skip_integers(3, "a property or colour");
     const std::int64_t count = in_.integer("a number of nodes");
@@ -160,38 +198,36 @@ class Unv_reader {
     elements_.add_element(number, known->kind, corners);
   }
 
-  /// Groups of elements and nodes, each with a name.
-  void groups() {
+  /// A group of elements and nodes, with a name.
+  void group() {
     constexpr std::int64_t of_elements = 8;  // the code of an entity
-    const auto positions = elements_.positions();
-    while (!is_end()) {
-      skip_integers(7, "a group");
-      const std::int64_t count = in_.integer("the number of entities of a group");
-      std::string name(in_.rest_of_line("the name of a group"));
-      in_.leave_line();
-      name.resize(name.find_last_not_of(" \t") + 1);
-      std::vector<std::uint32_t> members;
-      std::size_t others = 0;
-      for (std::int64_t i = 0; i < count; ++i) {
-        const std::int64_t code = in_.integer("an entity"), tag = in_.integer("an entity");
-        skip_integers(2, "an entity");
-        const auto found = positions.find(tag);
-        if (code == of_elements && found != positions.end())
-          members.push_back(found->second);
-        else
-          ++others;
-      }
-      if (others > 0)
-        report_.notes.push_back(
-            fmt::format("group \"{}\": {} entities that are no elements left out", shown(name), others));
-      if (!members.empty()) elements_.add_group(name, members);
+    skip_integers(7, "a group");
+    const std::int64_t count = in_.integer("the number of entities of a group");
+    std::string name(in_.rest_of_line("the name of a group"));
+    in_.leave_line();
+    name.resize(name.find_last_not_of(" \t") + 1);
+    std::vector<std::uint32_t> members;
+    std::size_t others = 0;
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t code = in_.integer("an entity"), tag = in_.integer("an entity");
+      skip_integers(2, "an entity");
+      const auto found = positions_.find(tag);
+      if (code == of_elements && found != positions_.end())
+        members.push_back(found->second);
+      else
+        ++others;
     }
+    if (others > 0)
+      report_.notes.push_back(
+          fmt::format("group \"{}\": {} entities that are no elements left out", shown(name), others));
+    if (!members.empty()) elements_.add_group(name, members);
   }
 
-  Word_reader in_;
+  const Word_reader start_;
+  Word_reader in_ = start_;
   Element_list elements_;
+  std::unordered_map<std::int64_t, std::uint32_t> positions_;
   Read_report& report_;
-  bool is_sorted_ = false;
 };
 
 }  // namespace

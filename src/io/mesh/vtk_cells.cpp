@@ -154,9 +154,10 @@ class Cell_reader {
         continue;
       }
       element(c, type, rows[c]);
-      if (soup().cell_count() > cells_before_)
-        collapsed_.settle_last(soup(), name_, fmt::format("cell {}", c)),
-            wedges.note_cell(type == VTK_WEDGE || is_quadratic_wedge(type));
+      if (soup().cell_count() > cells_before_) {
+        collapsed_.settle_last(soup(), name_, fmt::format("cell {}", c));
+        wedges.note_cell(type == VTK_WEDGE || is_quadratic_wedge(type));
+      }
       cells_before_ = soup().cell_count();
     }
     if (const std::size_t turned = wedges.settle())
@@ -204,12 +205,11 @@ class Cell_reader {
            fmt::format("cell {} has {} points, of {} that its type takes", c, v.size(), shape->corners));
     straightened_ += shape->straightened;
     v.resize(shape->corners);
-    if (type == VTK_VOXEL) std::swap(v[2], v[3]), std::swap(v[6], v[7]);
-    if (type == VTK_PIXEL) std::swap(v[2], v[3]);
-    if (shape->dimension == 2)
-      collapsed_.settle(v, soup().points), elements_.polygons.push_back(std::move(v));
-    else
-      volume(v);
+    if (type == VTK_VOXEL || type == VTK_PIXEL) std::swap(v[2], v[3]);
+    if (type == VTK_VOXEL) std::swap(v[6], v[7]);
+    if (shape->dimension == 3) return volume(v);
+    collapsed_.settle(v, soup().points);
+    elements_.polygons.push_back(std::move(v));
   }
 
   void volume(const Indices& v) {

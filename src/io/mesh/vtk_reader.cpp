@@ -16,11 +16,13 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <limits>
+#include <optional>
 #include <regex>
 
 #include "io/files/text.h"
 #include "reader_module.h"
 #include "vtk_cells.h"
+#include "vtk_lists.h"
 
 namespace cellwalk::io {
 namespace {
@@ -97,7 +99,7 @@ Read_elements from_data_object(const std::string& name, vtkDataObject* data, con
   refuse(name, format, complaint);
 }
 
-Read_elements parse_legacy(const std::string& name, const std::string& bytes, Read_report& report) {
+Read_elements parse_legacy(const std::string& name, std::string bytes, Read_report& report) {
   Line_reader in(name, bytes, std::nullopt);
   in.next_line();
   const std::string_view first = in.rest(), title = "# vtk DataFile Version ";
@@ -106,11 +108,13 @@ Read_elements parse_legacy(const std::string& name, const std::string& bytes, Re
   report.format = fmt::format("VTK legacy {}", first.substr(title.size()));
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     fail(name, "larger than 2 GiB, which VTK cannot read as a legacy file: write it as .vtu");
+  const std::optional<std::string> broken = hide_broken_lists(bytes);
   const Silence silence;
   vtkNew<vtkGenericDataObjectReader> reader;
   reader->ReadFromInputStringOn();
   reader->SetBinaryInputString(bytes.data(), static_cast<int>(bytes.size()));
   reader->Update();
+  if (broken && (!reader->GetOutput() || !silence.complaint().empty())) fail(name, *broken);
   return from_data_object(name, reader->GetOutput(), report.format, silence.complaint());
 }
 

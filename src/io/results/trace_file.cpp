@@ -130,7 +130,8 @@ Trace parse_trace(const std::string& name, std::string_view bytes) {
   trace.answers = take_array<std::uint8_t>(bytes, trace.moves());
   if (const std::string what = flaw(trace); !what.empty()) fail(name, what);
   if (trace.cells() > std::max<std::uint64_t>(cells_of_any_file, cells_a_byte * file_size))
-    fail(name, fmt::format("announces a grid of {} cells in {} bytes: it is damaged, get it anew",
+    fail(name, fmt::format("announces a grid of {} cells in {} bytes, too large for so little motion: it may "
+                           "be damaged; get it anew, or record in a smaller grid",
                            trace.cells(), file_size));
   return trace;
 }

@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
+#include <new>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,7 +46,9 @@ inline std::span<char* const> begin_helper(int argc, char** argv, Mesher_input& 
   if (argc < options || std::string_view(argv[version]) != CELLWALK_VERSION) end_helper(other_version);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[parent])) end_helper(cut_short);  // it was dead before
-  // No core, and no file at all: Mesh_3 would leave its dumps where the user works.
+  // No core, nor one for a program that collects them, and no file at all: Mesh_3 would leave its dumps where
+  // the user works.
+  prctl(PR_SET_DUMPABLE, 0);
   const rlimit no_core{0, 0}, no_more_files{output_descriptor + 1, output_descriptor + 1};
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_NOFILE, &no_more_files);
@@ -56,6 +59,8 @@ inline std::span<char* const> begin_helper(int argc, char** argv, Mesher_input& 
     reader.expect_end();
   } catch (const Error&) {
     end_helper(cut_short);
+  } catch (const std::bad_alloc&) {
+    end_helper(out_of_memory);
   }
   return {argv + options, static_cast<std::size_t>(argc - options)};
 }

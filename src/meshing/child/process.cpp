@@ -22,7 +22,7 @@ namespace cellwalk::detail {
 namespace {
 
 /// How often a process is looked at where the system does not tell of its end.
-constexpr int glance = 5;  // milliseconds
+constexpr int longest_unwatched = 5;  // milliseconds
 
 /// The files and signals that a process begins with.
 class Start {
@@ -88,7 +88,7 @@ std::optional<Process::End> Process::wait(std::chrono::milliseconds longest) {
   if (watch_ >= 0)
     ::poll(&watched, 1, milliseconds);
   else
-    ::poll(nullptr, 0, std::min(glance, milliseconds));
+    ::poll(nullptr, 0, std::min(longest_unwatched, milliseconds));
   return end(WNOHANG);
 }
 

@@ -34,6 +34,10 @@ constexpr std::size_t longest_complaint = 4096, longest_shown = 160;
   throw Error(Error_code::not_certified, fmt::format("{} {}", helper.mesher, what));
 }
 
+[[noreturn]] void give_up(const Helper& helper, const std::string& what) {
+  throw Used_up(Error_code::not_certified, fmt::format("{} {}", helper.mesher, what));
+}
+
 [[noreturn]] void refuse_missing(const Helper& helper) {
   throw Error(Error_code::usage,
               fmt::format("this build has no {}: the program {} is not there; build it ({}), or name its "
@@ -89,7 +93,7 @@ void expect_success(const Helper& helper, const Process::End& end, const Memory_
                 fmt::format("{} is of another version of Cellwalk than {}: name the folder "
                             "of this one's in CELLWALK_LIBEXEC",
                             helper.program, CELLWALK_VERSION));
-  if (end.code == out_of_memory) fail(helper, "ran out of memory; give a smaller surface or larger cells");
+  if (end.code == out_of_memory) give_up(helper, "ran out of memory; give a smaller surface or larger cells");
   if (end.code == mesher_failed) fail(helper, fmt::format("failed{}", complaint(said)));
   constexpr int largest_code = 10;  // that TetGen throws
   if (end.code > mesher_failed && end.code <= mesher_failed + largest_code)
@@ -99,13 +103,13 @@ void expect_success(const Helper& helper, const Process::End& end, const Memory_
 }
 
 /// Waits for the end.
-Process::End end_of(Process& process, const Helper& helper, const Mesher_limits& limits) {
-  const auto start = Clock::now();
+Process::End end_of(Process& process, const Helper& helper, const Mesher_limits& limits,
+                    Clock::time_point start) {
   for (;;) {
     const std::chrono::duration<double> left(limits.seconds -
                                              std::chrono::duration<double>(Clock::now() - start).count());
     if (left.count() <= 0)
-      fail(helper, fmt::format("did not end within {:g} s, the limit of time", limits.seconds));
+      give_up(helper, fmt::format("did not end within {:g} s, the limit of time", limits.seconds));
     // Not longer than until the limit, and a millisecond more, since a part of one would be none.
     const auto longest = std::min<std::chrono::duration<double>>(left, longest_silence);
     const auto end = process.wait(std::chrono::duration_cast<std::chrono::milliseconds>(longest) +
@@ -131,7 +135,7 @@ fs::path find_helper(const Helper& helper) {
 }
 
 Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& options,
-                         const Mesher_input& input, const Mesher_limits& limits) {
+                         const Mesher_input& input, const Mesher_limits& limits, Clock::time_point start) {
   if (!(limits.seconds > 0))
     throw Error(Error_code::usage,
                 fmt::format("{}: the limit of time must be greater than 0", helper.mesher));
@@ -147,7 +151,7 @@ Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& o
   std::vector<std::string> arguments{CELLWALK_VERSION, std::to_string(::getpid())};
   arguments.insert(arguments.end(), options.begin(), options.end());
   Process process(program.string(), arguments, in, out, said);
-  expect_success(helper, end_of(process, helper, limits), said);
+  expect_success(helper, end_of(process, helper, limits, start), said);
   const std::vector<std::byte> bytes = out.read();
   try {
     Mesher_output output;

@@ -3,8 +3,10 @@
 #ifndef CELLWALK_MESHING_CHILD_RUN_HELPER_H
 #define CELLWALK_MESHING_CHILD_RUN_HELPER_H
 
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/meshing/mesher_limits.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,14 +28,23 @@ inline constexpr Helper mesh3_helper{"cellwalk-mesh3", "Mesh_3"};
 /// there is none.
 std::filesystem::path find_helper(const Helper& helper);
 
+/// A mesher used up the time or memory that it has: another try would, too.
+class Used_up : public Error {
+ public:
+  using Error::Error;
+};
+
 /// What a helper made, with indices that are not checked. Several threads may call it.
-/// \throw Error(not_certified) if the mesher fails, crashes, writes what it should not, or does not end in
-///        time: the name of the mesher and what it did
+/// \param start from when on its limit of time counts
+/// \throw Used_up (not_certified) if it does not end in time, or runs out of memory
+/// \throw Error(not_certified) if the mesher fails, crashes, or writes what it should not: the name of the
+///        mesher and what it did
 /// \throw Error(usage) if there is no such program, or it belongs to another version, or for a limit that is
 ///        not positive; Error(other) if the system cannot run it
-/// \throw what limits.on_wait throws; the process is no more then
+/// \throw what limits.on_wait throws, once the process has ended
 Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& options,
-                         const Mesher_input& input, const Mesher_limits& limits);
+                         const Mesher_input& input, const Mesher_limits& limits,
+                         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now());
 
 }  // namespace cellwalk::detail
 

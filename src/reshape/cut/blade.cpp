@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What is a blade, and what is none.
+// Blades: the conditions on their points and pieces, and how they are made.
+#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
@@ -15,10 +16,10 @@
 namespace cellwalk {
 namespace {
 
-/// What is off a plane, or a side, by no more than this share of the size of a polygon is on it: corners that
-/// are rounded, or have few digits more than that, span no plane exactly. Nothing needs to lie on a blade.
+/// A corner counts as in a plane, or on a side, if its distance is at most this share of the size of the
+/// polygon: rounded corners span no plane exactly. Nothing needs to lie on a blade.
 constexpr double flatness = 1e-9;
-/// And by no more than so many units in the last place of its largest coordinate, where it lies far off.
+/// The distance may also be this many units in the last place of its largest coordinate, far from the origin.
 constexpr double flatness_ulps = 4;
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::input, what); }
@@ -26,8 +27,7 @@ constexpr double flatness_ulps = 4;
 template <int D>
 void check_points(std::span<const Point<D>> points, std::size_t least) {
   if (points.size() < least) refuse("a blade has at least " + std::to_string(least) + " points");
-  for (const Point<D>& x : points)
-    if (!is_finite(x)) refuse("a point of the blade is not finite: correct its coordinates");
+  for (const Point<D>& x : points) detail::check_finite(x, "a point of the blade");
 }
 
 /// Points in doubles that neither overflow nor underflow, and how far off each other they count as one.

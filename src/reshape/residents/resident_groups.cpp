@@ -55,6 +55,7 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
     edges += group.edges.size();
   }
   seen_.resize(edges);
+  most_entries_ = most_for(0);
 }
 
 template <int D>
@@ -79,7 +80,7 @@ std::size_t Resident_groups<D>::open(const Box<D>& box) {
     ++open_;
     ++opened;
   }
-  if (opened != 0) most_entries_ = most_for(entries_.size());
+  if (opened != 0 && most_entries_ != 0) most_entries_ = most_for(entries_.size());
   return opened;
 }
 

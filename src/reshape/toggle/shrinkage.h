@@ -20,8 +20,8 @@
 
 namespace cellwalk::detail {
 
-/// One change: a facet that is closed, a cell that is filled, or cells that all leaves, where it can be in
-/// others as well.
+/// One change: a facet that is closed, a cell that is filled, or cells that must be vacated, where it can be
+/// in others as well.
 template <int D>
 class Shrinkage {
  public:
@@ -29,7 +29,7 @@ class Shrinkage {
   Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Half_facet closed, Walk_counts& counts);
   /// \param filled a free cell
   Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, Cell filled, Walk_counts& counts);
-  /// \param left free cells that all leaves, but for faces; nothing else changes
+  /// \param left free cells that everything but faces is first moved out of; nothing else changes
   Shrinkage(Wall_editor<D>& editor, Resident_groups<D>& groups, std::span<const Cell> left,
             Walk_counts& counts);
   Shrinkage(const Shrinkage&) = delete;

@@ -49,6 +49,39 @@ TEST(Msh, ElementsThatNameNodesThatAreNotThereAreRefused) {
     }
 }
 
+TEST(Msh, TagsHaveAtMost32Bits) {
+  int refused = 0;
+  for (const std::string tag :
+       {"-9223372036854775808", "9223372036854775807", "-2147483649", "2147483648", "99999999999999999999"}) {
+    for (const std::string& text :
+         {with(version_1, "1 4 1 1 4", "1 4 TAG 1 4"), with(version_2, "1 4 2 1 1", "1 4 2 TAG 1"),
+          with(version_2, "1 4 2 1 1", "1 4 TAG 1 1"), with(version_4_0, "1 1 1 0 0\n", "1 1 1 1 TAG 0\n")}) {
+      const std::string said = why(with(text, "TAG", tag));
+      EXPECT_TRUE(holds(said, "needs more than 32 bits")) << said;
+      ++refused;
+    }
+  }
+  EXPECT_EQ(refused, 20);
+  EXPECT_EQ(read(with(version_2, "1 4 2 1 1", "1 4 2 -2147483648 1")).groups.size(), 1u);
+}
+
+// An entity with many groups and many elements would take the memory of their product.
+TEST(Msh, ElementsInMoreGroupsThanTheFileHasRoomForAreRefused) {
+  const auto with_groups = [](int groups, int elements) {
+    std::string tags, members;
+    for (int i = 1; i <= groups; ++i) tags.append(" ").append(std::to_string(i));
+    for (int i = 0; i < elements; ++i) members.append(std::to_string(i + 1)).append(" 1 2 3 4\n");
+    const std::string in_groups =
+        with(with(version_4_0, "1 1 1 0 0\n", "1 1 1 GROUPS 0\n"), "GROUPS", std::to_string(groups) + tags);
+    const std::string count = std::to_string(elements);
+    return with(with(with(in_groups, "1 1\n1 3 4 1\n", "1 COUNT\n1 3 4 COUNT\n"), "COUNT", count),
+                "COUNT\n1 1 2 3 4\n", count + "\n" + members);
+  };
+  EXPECT_EQ(read(with_groups(20, 3)).groups.size(), 20u);
+  EXPECT_TRUE(
+      holds(why(with_groups(5000, 50'000)), "more groups than a mesh of this size has: it is broken"));
+}
+
 TEST(Msh, NumbersMayHaveGapsAndAnyOrder) {
   const std::string gaps =
       with(with(version_2, "4 0 0 1\n", "9000000 0 0 1\n"), "1 2 3 4\n", "1 2 3 9000000\n");

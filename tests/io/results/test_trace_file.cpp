@@ -101,9 +101,13 @@ TEST(TraceFile, RefusesGridsThatAreTooLargeForItsBytes) {
   };  // of 20 cells
   EXPECT_EQ(parse_trace("t.bin", with_layers(50'000)).cells(), 1'000'000u);
   EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(50'001)); }),
-            "t.bin: announces a grid of 1000020 cells in 672 bytes: it is damaged, get it anew");
+            "t.bin: announces a grid of 1000020 cells in 672 bytes, too large for so little motion: it may "
+            "be damaged; get it anew, "
+            "or record in a smaller grid");
   EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(200'000'000)); }),
-            "t.bin: announces a grid of 4000000000 cells in 672 bytes: it is damaged, get it anew");
+            "t.bin: announces a grid of 4000000000 cells in 672 bytes, too large for so little motion: it "
+            "may be damaged; get it anew, "
+            "or record in a smaller grid");
 }
 
 TEST(TraceFile, RefusesStepsInWhichNothingMoves) {

@@ -13,7 +13,7 @@
 namespace cellwalk::detail {
 
 /// Changes of an environment that leave its geometry alone, in map and snapshot. Names of cells and facets
-/// are kept. Each change raises the epoch. It is made whole, or an error leaves all as it was.
+/// are kept. Each change raises the epoch. Each change is atomic: an error leaves everything unchanged.
 template <int D>
 class Wall_editor {
  public:

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "vtk_lists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/files/text.h"
+
+namespace cellwalk::io {
+namespace {
+
+constexpr std::size_t longest_word = 255, longest_line = 255;  // characters that VTK takes at once
+
+/// A part of the text, read as VTK does: by a stream in the locale "C".
+class Vtk_stream {
+ public:
+  explicit Vtk_stream(std::string_view rest) : rest_(rest) {}
+
+  std::string_view word() {
+    skip_white_space();
+    return take(std::min(rest_.substr(0, longest_word).find_first_of(blanks_and_ends), longest_word));
+  }
+
+  /// It may have either sign, and ends where its digits do. None where the stream fails.
+  template <class Integer>
+  std::optional<Integer> integer() {
+    skip_white_space();
+    const bool is_negative = rest_.starts_with('-'), has_sign = is_negative || rest_.starts_with('+');
+    const std::size_t begin = has_sign ? 1 : 0;
+    const std::string_view digits = rest_.substr(begin, rest_.find_first_not_of("0123456789", begin) - begin);
+    if (digits.empty()) return {};
+    rest_.remove_prefix(begin + digits.size());
+    constexpr Integer least = std::numeric_limits<Integer>::min(), most = std::numeric_limits<Integer>::max();
+    Integer value = 0;  // negative, since that reaches further
+    for (const char c : digits) {
+      const auto digit = static_cast<Integer>(c - '0');
+      if (value < (least + digit) / 10) return {};
+      value = static_cast<Integer>(10 * value - digit);
+    }
+    if (is_negative) return value;
+    if (value < -most) return {};
+    return static_cast<Integer>(-value);
+  }
+
+  /// Goes to the next line; false if VTK does not find its end.
+  bool next_line() {
+    const std::size_t end = rest_.substr(0, longest_line + 1).find('\n');
+    if (end == std::string_view::npos) return false;
+    take(end + 1);
+    return true;
+  }
+
+  /// Four bytes with the highest first.
+  std::optional<std::int32_t> binary() {
+    if (rest_.size() < 4) return {};
+    std::uint32_t value = 0;
+    for (const char c : take(4)) value = value << 8 | static_cast<unsigned char>(c);
+    return static_cast<std::int32_t>(value);
+  }
+
+  /// False at the end of the text.
+  bool skip_bytes(std::uint64_t count) {
+    if (count > rest_.size()) return false;
+    take(static_cast<std::size_t>(count));
+    return true;
+  }
+
+ private:
+  void skip_white_space() { take(rest_.find_first_not_of(blanks_and_ends)); }
+
+  std::string_view take(std::size_t count) {
+    const std::string_view taken = rest_.substr(0, count);
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+
+  std::string_view rest_;
+};
+
+enum class Content { values, types, cells };  ///< of a list: one number for each, or corners of cells
+
+struct Keyword {
+  std::string_view word;
+  Content content;
+};
+
+constexpr std::array<Keyword, 9> keywords{{{"points", Content::values},
+                                           {"point_data", Content::values},
+                                           {"cell_data", Content::values},
+                                           {"cell_types", Content::types},
+                                           {"cells", Content::cells},
+                                           {"polygons", Content::cells},
+                                           {"lines", Content::cells},
+                                           {"vertices", Content::cells},
+                                           {"triangle_strips", Content::cells}}};
+
+/// The part of a file of which VTK makes lists, after its title.
+class Legacy_lists {
+ public:
+  explicit Legacy_lists(std::string_view bytes) : bytes_(bytes), steps_left_(bytes.size()) {
+    const std::string first_line(bytes.substr(0, std::min(bytes.find('\n'), longest_line)));
+    int major = 0, minor = 0;
+    constexpr std::size_t version = 22;  // characters before it
+    if (first_line.size() > version &&
+        std::sscanf(first_line.c_str() + version, "%d.%d", &major, &minor) == 2)
+      have_offsets_ = major >= 5;
+    begin_ = std::min(bytes.find('\n'), bytes.size() - 1) + 1;
+    begin_ = std::min(bytes.find('\n', begin_), bytes.size() - 1) + 1;
+    is_binary_ = same_word(Vtk_stream(bytes.substr(begin_)).word().substr(0, 6), "BINARY");
+  }
+
+  /// The places of the keywords with which VTK would go wrong.
+  std::vector<std::size_t> broken() {
+    constexpr std::string_view first_letters = "pclvtPCLVT";
+    for (std::size_t at = begin_; (at = bytes_.find_first_of(first_letters, at)) != std::string_view::npos;
+         ++at)
+      for (const Keyword& keyword : keywords)
+        if (same_word(bytes_.substr(at, keyword.word.size()), keyword.word)) examine(at, keyword);
+    for (const auto& [at, count] : types_)
+      if (std::cmp_less(count, most_cells_))
+        refuse(at, "the numbers of cells and of cell types differ: the file is broken");
+    return std::move(broken_);
+  }
+
+  const std::string& problem() const { return problem_; }
+
+ private:
+  void refuse(std::size_t at, const std::string& problem) {
+    if (broken_.empty()) problem_ = problem;
+    broken_.push_back(at);
+  }
+
+  /// As text, a value needs a digit and a blank.
+  bool is_too_large(std::int64_t count) const { return std::cmp_greater(count, bytes_.size() / 2); }
+
+  void examine(std::size_t at, const Keyword& keyword) {
+    Vtk_stream in(bytes_.substr(at));
+    in.word();
+    const auto count = in.integer<std::int64_t>();
+    const auto numbers = keyword.content == Content::cells ? in.integer<std::int64_t>() : 0;
+    if (!count || !numbers) return;  // VTK says so
+    for (const std::int64_t announced : {*count, *numbers}) {
+      if (announced < 0)
+        return refuse(at, fmt::format("announces {} {}: it is broken", announced, keyword.word));
+      if (is_too_large(announced))
+        return refuse(
+            at, fmt::format("announces {} {}, more than its {} bytes can hold: it is cut short or broken",
+                            announced, keyword.word, bytes_.size()));
+    }
+    if (keyword.content == Content::types) types_.emplace_back(at, *count);
+    if (keyword.content != Content::cells) return;
+    std::int64_t cells = *count;
+    if (have_offsets_)
+      cells = same_word(in.word(), "OFFSETS") ? *count - 1 : 0;
+    else if (!take(cells, *numbers, in))
+      return refuse(
+          at, fmt::format("its {} {} do not take the {} numbers that are announced for them: it is broken",
+                          *count, keyword.word, *numbers));
+    if (keyword.word == "cells") most_cells_ = std::max(most_cells_, cells);
+  }
+
+  /// True if cells, each a number of corners and these, take the numbers that are announced for all, or VTK
+  /// finds before that they end. Otherwise it writes beyond its memory.
+  bool take(std::int64_t& cells, std::int64_t numbers, Vtk_stream in) {
+    if (is_binary_ && !in.next_line()) return false;
+    std::int64_t taken = 0;
+    for (std::int64_t i = 0; i < cells; ++i) {
+      if (taken == numbers || steps_left_ == 0) return false;
+      --steps_left_;  // one list is no longer than the file: only lists within others use up the steps
+      const auto corners = is_binary_ ? in.binary() : in.integer<std::int32_t>();
+      if (!corners) return ends(cells);
+      if (*corners < 0 || *corners >= numbers - taken) return false;
+      taken += 1 + *corners;
+      if (is_binary_ && !in.skip_bytes(4 * static_cast<std::uint64_t>(*corners))) return ends(cells);
+      for (std::int32_t k = 0; !is_binary_ && k < *corners; ++k)
+        if (!in.integer<std::int32_t>()) return ends(cells);
+    }
+    return taken == numbers;
+  }
+
+  /// VTK refuses the list, so that no cells are made of it.
+  static bool ends(std::int64_t& cells) {
+    cells = 0;
+    return true;
+  }
+
+  std::string_view bytes_;
+  std::size_t begin_, steps_left_;
+  bool have_offsets_ = false, is_binary_ = false;
+  std::int64_t most_cells_ = 0;
+  std::vector<std::pair<std::size_t, std::int64_t>> types_;
+  std::vector<std::size_t> broken_;
+  std::string problem_;
+};
+
+}  // namespace
+
+std::optional<std::string> hide_broken_lists(std::string& bytes) {
+  if (bytes.empty()) return {};
+  Legacy_lists lists(bytes);
+  const std::vector<std::size_t> broken = lists.broken();
+  if (broken.empty()) return {};
+  for (const std::size_t at : broken) bytes[at] = '_';
+  return lists.problem();
+}
+
+}  // namespace cellwalk::io
