@@ -2,8 +2,11 @@
 // Files of elements, and what is looked at before VTK reads a file.
 #include <cellwalk/io/mesh_file.h>
 
+#include <string>
+
 #include "fuzz/targets.h"
 #include "io/mesh/element_parsers.h"
+#include "io/mesh/vtk_lists.h"
 #include "io/mesh/vtk_text.h"
 
 namespace cellwalk::fuzz {
@@ -27,8 +30,10 @@ void msh(std::string_view bytes) {
 }
 
 void vtk(std::string_view bytes) {
-  for (const io::Format format : {io::Format::vtk, io::Format::vtk_xml})
-    reads([&] { io::check_vtk_counts("in", bytes, format); });
+  reads([&] { io::check_vtk_counts("in", bytes); });
+  std::string legacy(bytes);
+  io::hide_broken_lists(legacy);
+  demand(!io::hide_broken_lists(legacy), "a broken list that is not hidden");
 }
 
 }  // namespace cellwalk::fuzz
