@@ -58,19 +58,13 @@ class Vtk_stream {
     return true;
   }
 
-  /// Four bytes with the highest first.
-  std::optional<std::int32_t> binary() {
-    if (rest_.size() < 4) return {};
-    std::uint32_t value = 0;
-    for (const char c : take(4)) value = value << 8 | static_cast<unsigned char>(c);
-    return static_cast<std::int32_t>(value);
-  }
-
-  /// False at the end of the text.
-  bool skip_bytes(std::uint64_t count) {
-    if (count > rest_.size()) return false;
-    take(static_cast<std::size_t>(count));
-    return true;
+  /// Its bytes, the highest first.
+  template <class Integer>
+  std::optional<Integer> binary() {
+    if (rest_.size() < sizeof(Integer)) return {};
+    std::uint64_t value = 0;
+    for (const char c : take(sizeof(Integer))) value = value << 8 | static_cast<unsigned char>(c);
+    return static_cast<Integer>(value);
   }
 
  private:
@@ -83,6 +77,29 @@ class Vtk_stream {
   }
 
   std::string_view rest_;
+};
+
+/// Numbers of a cell as the faces of a polyhedron: how many, and of each how many corners, and these.
+class Face_stream {
+ public:
+  void add(std::int64_t number) {
+    if (is_empty_)
+      faces_left_ = number;
+    else if (corners_left_ > 0)
+      --corners_left_;
+    else {
+      --faces_left_;
+      corners_left_ = number;
+    }
+    is_empty_ = false;
+    is_sound_ &= faces_left_ >= 0 && corners_left_ >= 0;
+  }
+  /// True if all that is announced is there, and nothing else.
+  bool is_whole() const { return !is_empty_ && is_sound_ && faces_left_ == 0 && corners_left_ == 0; }
+
+ private:
+  bool is_empty_ = true, is_sound_ = true;
+  std::int64_t faces_left_ = 0, corners_left_ = 0;
 };
 
 enum class Content { values, types, cells };  ///< of a list: one number for each, or corners of cells
@@ -124,15 +141,26 @@ class Legacy_lists {
          ++at)
       for (const Keyword& keyword : keywords)
         if (same_word(bytes_.substr(at, keyword.word.size()), keyword.word)) examine(at, keyword);
-    for (const auto& [at, count] : types_)
-      if (std::cmp_less(count, most_cells_))
-        refuse(at, "the numbers of cells and of cell types differ: the file is broken");
+    for (const Types& types : types_) {
+      if (types.count < most_cells_)
+        refuse(types.at, "the numbers of cells and of cell types differ: the file is broken");
+      else if (std::ranges::any_of(types.polyhedra, [&](std::size_t cell) {
+                 return cell < may_be_polyhedra_.size() && !may_be_polyhedra_[cell];
+               }))
+        refuse(types.at, "the faces of a polyhedron are not as many as announced: the file is broken");
+    }
     return std::move(broken_);
   }
 
   const std::string& problem() const { return problem_; }
 
  private:
+  struct Types {
+    std::size_t at;
+    std::int64_t count;
+    std::vector<std::size_t> polyhedra;  ///< the numbers of these cells
+  };
+
   void refuse(std::size_t at, const std::string& problem) {
     if (broken_.empty()) problem_ = problem;
     broken_.push_back(at);
@@ -155,16 +183,50 @@ class Legacy_lists {
             at, fmt::format("announces {} {}, more than its {} bytes can hold: it is cut short or broken",
                             announced, keyword.word, bytes_.size()));
     }
-    if (keyword.content == Content::types) types_.emplace_back(at, *count);
+    if (keyword.content == Content::types) examine_types(at, *count, in);
     if (keyword.content != Content::cells) return;
     std::int64_t cells = *count;
-    if (have_offsets_)
-      cells = same_word(in.word(), "OFFSETS") ? *count - 1 : 0;
-    else if (!take(cells, *numbers, in))
+    if (have_offsets_) {
+      cells = std::max<std::int64_t>(*count - 1, 0);
+      if (!same_word(in.word(), "OFFSETS"))
+        cells = 0;
+      else if (!take_with_offsets(cells, *numbers, in))
+        return refuse(at, "its offsets leave the connectivity: the file is broken");
+    } else if (!take(cells, *numbers, in)) {
       return refuse(
           at, fmt::format("its {} {} do not take the {} numbers that are announced for them: it is broken",
                           *count, keyword.word, *numbers));
+    }
     if (keyword.word == "cells") most_cells_ = std::max(most_cells_, cells);
+  }
+
+  template <class Integer>
+  std::optional<std::int64_t> number(Vtk_stream& in) const {
+    const std::optional<Integer> number = is_binary_ ? in.binary<Integer>() : in.integer<Integer>();
+    return number ? std::optional<std::int64_t>(*number) : std::nullopt;
+  }
+
+  /// False if no step is left: one list is no longer than the file, only lists within others use them up.
+  bool step() { return steps_left_ != 0 && steps_left_-- != 0; }
+
+  void examine_types(std::size_t at, std::int64_t count, Vtk_stream in) {
+    constexpr std::int64_t polyhedron = 42;
+    Types& types = types_.emplace_back(Types{at, count, {}});
+    if (is_binary_ && !in.next_line()) return;
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto type = number<std::int32_t>(in);
+      if (!type) return;  // VTK says so
+      if (!step()) return refuse(at, "a list within others: the file is broken");
+      if (*type == polyhedron) types.polyhedra.push_back(static_cast<std::size_t>(i));
+    }
+  }
+
+  void note(std::int64_t cell, const Face_stream& faces) {
+    const auto i = static_cast<std::size_t>(cell);
+    if (i == may_be_polyhedra_.size())
+      may_be_polyhedra_.push_back(faces.is_whole());
+    else
+      may_be_polyhedra_[i] = may_be_polyhedra_[i] && faces.is_whole();
   }
 
   /// True if cells, each a number of corners and these, take the numbers that are announced for all, or VTK
@@ -173,17 +235,54 @@ class Legacy_lists {
     if (is_binary_ && !in.next_line()) return false;
     std::int64_t taken = 0;
     for (std::int64_t i = 0; i < cells; ++i) {
-      if (taken == numbers || steps_left_ == 0) return false;
-      --steps_left_;  // one list is no longer than the file: only lists within others use up the steps
-      const auto corners = is_binary_ ? in.binary() : in.integer<std::int32_t>();
+      if (taken == numbers || !step()) return false;
+      const auto corners = number<std::int32_t>(in);
       if (!corners) return ends(cells);
       if (*corners < 0 || *corners >= numbers - taken) return false;
       taken += 1 + *corners;
-      if (is_binary_ && !in.skip_bytes(4 * static_cast<std::uint64_t>(*corners))) return ends(cells);
-      for (std::int32_t k = 0; !is_binary_ && k < *corners; ++k)
-        if (!in.integer<std::int32_t>()) return ends(cells);
+      Face_stream faces;
+      for (std::int64_t k = 0; k < *corners; ++k) {
+        const auto corner = number<std::int32_t>(in);
+        if (!corner) return ends(cells);
+        faces.add(*corner);
+      }
+      note(i, faces);
     }
     return taken == numbers;
+  }
+
+  /// The numbers of a list after its keyword, OFFSETS or CONNECTIVITY. None if VTK refuses them.
+  std::optional<std::vector<std::int64_t>> array(std::int64_t count, Vtk_stream& in) {
+    const bool is_long = lower(in.word()) == "vtktypeint64";  // all others have 32 bits, or are refused
+    if (is_binary_ && !in.next_line()) return {};
+    std::vector<std::int64_t> numbers;
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto next = is_long ? number<std::int64_t>(in) : number<std::int32_t>(in);
+      if (!next || !step()) return {};
+      numbers.push_back(*next);
+    }
+    return numbers;
+  }
+
+  /// The same for cells whose corners are in one array, and where they begin in another.
+  bool take_with_offsets(std::int64_t& cells, std::int64_t numbers, Vtk_stream in) {
+    const std::string type = lower(Vtk_stream(in).word());
+    if (type != "vtktypeint64" && type != "vtktypeint32") return false;
+    const auto offsets = array(cells + 1, in);
+    if (!offsets || !same_word(in.word(), "CONNECTIVITY")) return steps_left_ != 0 && ends(cells);
+    const std::string other = lower(Vtk_stream(in).word());
+    if (other != "vtktypeint64" && other != "vtktypeint32") return false;
+    const auto corners = array(numbers, in);
+    if (!corners) return steps_left_ != 0 && ends(cells);
+    if (offsets->front() < 0 || offsets->back() > numbers || !std::ranges::is_sorted(*offsets)) return false;
+    for (std::int64_t i = 0; i < cells; ++i) {
+      Face_stream faces;
+      const auto begin = static_cast<std::size_t>(i);
+      for (std::int64_t k = (*offsets)[begin]; k < (*offsets)[begin + 1]; ++k)
+        faces.add((*corners)[static_cast<std::size_t>(k)]);
+      note(i, faces);
+    }
+    return true;
   }
 
   /// VTK refuses the list, so that no cells are made of it.
@@ -196,7 +295,8 @@ class Legacy_lists {
   std::size_t begin_, steps_left_;
   bool have_offsets_ = false, is_binary_ = false;
   std::int64_t most_cells_ = 0;
-  std::vector<std::pair<std::size_t, std::int64_t>> types_;
+  std::vector<Types> types_;
+  std::vector<bool> may_be_polyhedra_;  ///< for each number of a cell: in all lists
   std::vector<std::size_t> broken_;
   std::string problem_;
 };

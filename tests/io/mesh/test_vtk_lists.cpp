@@ -7,6 +7,10 @@
 #include <vtkPointData.h>
 #include <vtkUnstructuredGridWriter.h>
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "vtk_files.h"
 
 namespace cellwalk::io {
@@ -88,6 +92,56 @@ TEST(VtkLists, CellsWithoutTypesAreRefused) {
 }
 
 // Names may be those of lists. Each file is as VTK writes it.
+// VTK would read the faces of a polyhedron beyond its list.
+TEST(VtkLists, FacesOfPolyhedraEndWithTheirList) {
+  const std::string before = "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::array<int, 17> sound{4, 3, 0, 1, 2, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3};
+  const auto file = [&](int version, const std::vector<int>& stream) {
+    const auto size = std::to_string(stream.size()), more = std::to_string(stream.size() + 1);
+    std::string text = "# vtk DataFile Version " + std::to_string(version) + ".1\nt\n" + before;
+    text += version == 5
+                ? "CELLS 2 " + size + "\nOFFSETS vtktypeint64\n0 " + size + "\nCONNECTIVITY vtktypeint64\n"
+                : "CELLS 1 " + more + "\n" + size + " ";
+    for (const int number : stream) text += std::to_string(number) + " ";
+    return text + "\nCELL_TYPES 1\n42\n";
+  };
+  int refused = 0;
+  for (const int version : {4, 5}) {
+    const std::vector<int> stream(sound.begin(), sound.end());
+    EXPECT_EQ(volumes_of(read("t.vtk", file(version, stream))).cell_count(), 1u);
+    for (std::size_t at : {0, 1, 5, 9, 13})
+      for (const int number : {-1, 5, 17, 1000, 100'000, 2'000'000'000}) {
+        std::vector<int> other = stream;
+        other[at] = number;
+        EXPECT_THROW(read("t.vtk", file(version, other)), Error) << at << " " << number;
+        ++refused;
+      }
+    for (std::size_t size = 0; size < stream.size(); ++size, ++refused)
+      EXPECT_THROW(read("t.vtk", file(version, {stream.begin(), stream.begin() + size})), Error) << size;
+  }
+  EXPECT_EQ(refused, 2 * (30 + 17));
+}
+
+TEST(VtkLists, OffsetsStayInTheConnectivity) {
+  vtkNew<vtkUnstructuredGrid> grid = grid_of({});
+  const vtkIdType faces[] = {3, 0, 1, 2, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4};
+  grid->InsertNextCell(VTK_POLYHEDRON, 4, faces);
+  const std::string binary =
+      written<vtkUnstructuredGridWriter>(grid, [](auto& writer) { writer.SetFileTypeToBinary(); });
+  EXPECT_EQ(volumes_of(read("t.vtk", binary)).cell_count(), 1u);
+  const std::size_t at = binary.find('\n', binary.find("OFFSETS")) + 1;
+  int refused = 0;
+  for (std::size_t byte = 0; byte < 16; ++byte)
+    for (const char value : {'\x01', '\x7f', '\x80', '\xff'}) {
+      std::string other = binary;
+      other[at + byte] = value;
+      if (other == binary) continue;
+      EXPECT_THROW(read("t.vtk", other), Error) << byte;
+      ++refused;
+    }
+  EXPECT_GE(refused, 60);
+}
+
 TEST(VtkLists, ArraysMayHaveTheNamesOfLists) {
   const auto grid = the_cells();
   const auto array = [](const std::string& name, int values, int components) {
