@@ -8,8 +8,6 @@
 //   fcl_boxes      its AABB hierarchy and its test of triangles, called directly with the triangle (a, b, b):
 //                  the test projects onto axes, the axis of a zero normal separates nothing, and the axes of
 //                  a segment against a triangle are left. Nothing is enlarged.
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
@@ -20,32 +18,19 @@
 #include <vector>
 
 #include "body_box.h"
+#include "common/peers/fcl_walls.h"
 #include "families.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {
 namespace {
 
+using experiments::fcl_model;
+using experiments::fcl_point;
+
 /// Width of a thin triangle, in cells: far below what a wrong answer could be told from, far above the
 /// rounding of its box.
 constexpr double thin = 0x1p-30;
-
-fcl::Vector3d fcl_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
-
-template <class Bv>
-std::shared_ptr<fcl::BVHModel<Bv>> fcl_model(const Wall_mesh& walls) {
-  std::vector<fcl::Vector3d> points;
-  points.reserve(walls.points.size());
-  for (const Point<3>& p : walls.points) points.push_back(fcl_point(p));
-  std::vector<fcl::Triangle> triangles;
-  triangles.reserve(walls.triangles.size());
-  for (const auto& t : walls.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  auto model = std::make_shared<fcl::BVHModel<Bv>>();
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
-  model->addSubModel(points, triangles);
-  model->endModel();
-  return model;
-}
 
 class Collide : public Stateless {
  public:
@@ -86,7 +71,7 @@ class Collide : public Stateless {
 
 class Boxes : public Stateless {
  public:
-  using Model = fcl::BVHModel<fcl::AABBd>;
+  using Model = experiments::Fcl_boxes;
   explicit Boxes(std::shared_ptr<Model> walls) : walls_(std::move(walls)) {}
 
   template <class Counter>
@@ -101,23 +86,12 @@ class Boxes : public Stateless {
  private:
   template <class Counter>
   bool hits(const fcl::Vector3d& a, const fcl::Vector3d& b, Counter& counter) {
-    const fcl::AABBd box(a, b);
-    stack_.assign(1, 0);
-    while (!stack_.empty()) {
-      const fcl::BVNode<fcl::AABBd>& node = walls_->getBV(stack_.back());
-      stack_.pop_back();
-      if (!node.bv.overlap(box)) continue;
-      if (!node.isLeaf()) {
-        stack_.push_back(node.leftChild());
-        stack_.push_back(node.rightChild());
-        continue;
-      }
+    return experiments::visit_triangles(*walls_, fcl::AABBd(a, b), stack_, [&](int i) {
       counter.triangle_tests();
-      const fcl::Triangle& t = walls_->tri_indices[node.primitiveId()];
+      const fcl::Triangle& t = walls_->tri_indices[i];
       const fcl::Vector3d* x = walls_->vertices;
-      if (fcl::detail::Intersectd::intersect_Triangle(a, b, b, x[t[0]], x[t[1]], x[t[2]])) return true;
-    }
-    return false;
+      return fcl::detail::Intersectd::intersect_Triangle(a, b, b, x[t[0]], x[t[1]], x[t[2]]);
+    });
   }
 
   std::shared_ptr<Model> walls_;

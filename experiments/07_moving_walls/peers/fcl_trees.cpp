@@ -3,18 +3,17 @@
 // as it was and as it is. It is traversed here, as FCL has no queries by boxes.
 //
 //   fcl_refit   beginUpdateModel, updateSubModel, endUpdateModel: all boxes anew, bottom up
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/utility.h>
 
 #include <utility>
 
+#include "common/peers/fcl_walls.h"
 #include "tree.h"
 
 namespace cellwalk::moving_walls {
 namespace {
 
-fcl::Vector3d fcl_point(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+using experiments::fcl_point;
 
 class Fcl_tree : public Wall_tree {
  public:
@@ -39,21 +38,13 @@ class Fcl_tree : public Wall_tree {
  private:
   void query(const Box& box, std::vector<std::uint32_t>& triangles) override {
     const fcl::AABBd asked(fcl_point(box.low), fcl_point(box.high));
-    stack_.assign(1, 0);
-    while (!stack_.empty()) {
-      const fcl::BVNode<fcl::AABBd>& node = model_.getBV(stack_.back());
-      stack_.pop_back();
-      if (!node.bv.overlap(asked)) continue;
-      if (node.isLeaf()) {
-        triangles.push_back(static_cast<std::uint32_t>(node.primitiveId()));
-      } else {
-        stack_.push_back(node.leftChild());
-        stack_.push_back(node.rightChild());
-      }
-    }
+    experiments::visit_triangles(model_, asked, stack_, [&](int i) {
+      triangles.push_back(static_cast<std::uint32_t>(i));
+      return false;
+    });
   }
 
-  fcl::BVHModel<fcl::AABBd> model_;
+  experiments::Fcl_boxes model_;
   std::vector<fcl::Vector3d> points_;
   std::vector<int> stack_;
 };
