@@ -52,6 +52,9 @@ Peers build(const Scene_walls& walls, const Motion& motion, const std::string& o
 #ifdef CELLWALK_WITH_BULLET
   add_bullet_peers(walls, motion, peers);
 #endif
+#ifdef CELLWALK_WITH_FCL
+  add_fcl_peers(walls, motion, peers);
+#endif
 #ifdef CELLWALK_WITH_EMBREE
   add_embree_peers(walls, motion, peers);
 #endif
@@ -87,6 +90,7 @@ std::vector<Row> measure(const Scene_walls& walls, const Motion& motion, const M
                     peer->is_reproducible,
                     peer->margin_steps,
                     peer->build,
+                    peer->edge_cells,
                     replayed.missed,
                     replayed.reported,
                     peer->counts(),

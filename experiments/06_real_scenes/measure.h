@@ -21,6 +21,7 @@ struct Row {
   bool is_exact = false, is_reproducible = true;
   double margin = 0;
   Build build;
+  double edge_cells = 0;                   ///< as of the method
   std::uint64_t missed = 0, reported = 0;  ///< moves answered free, or blocked, that are not
   std::optional<Body_counts> counts;
   std::vector<double> rounds;   ///< nanoseconds a move of a vertex
@@ -36,6 +37,7 @@ void members(Archive& archive, Value& row) requires std::same_as<std::remove_con
   archive(row.is_reproducible);
   archive(row.margin);
   experiments::members_of_build(archive, row.build);
+  archive(row.edge_cells);
   archive(row.missed);
   archive(row.reported);
   archive(row.counts);

@@ -39,26 +39,28 @@ std::string answers(const std::vector<Result>& results) {
 }
 
 std::string time_columns(const Row& row) {
-  if (row.rounds.empty()) return ",,,,,";
+  if (row.rounds.empty()) return ",,,,,,";
   using experiments::quantile;
-  return fmt::format("{:.2f},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f}", experiments::median(row.rounds),
-                     *std::ranges::min_element(row.rounds), quantile(row.step_us, 0.5),
-                     quantile(row.step_us, 0.99), quantile(row.step_us, 0.999), quantile(row.step_us, 1));
+  const double middle = quantile(row.step_us, 0.5), longest = quantile(row.step_us, 1);
+  return fmt::format("{:.2f},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}", experiments::median(row.rounds),
+                     *std::ranges::min_element(row.rounds), middle, quantile(row.step_us, 0.99),
+                     quantile(row.step_us, 0.999), longest, longest / middle);
 }
 
 std::string work_columns(const Row& row) {
-  if (!row.counts) return ",,,,,,";
+  if (!row.counts) return ",,,,,,,";
   const Body_counts& c = *row.counts;
   const Edge_counts& e = c.edges;
-  return fmt::format("{},{},{},{},{},{},{}", c.in_region, c.regions, c.region_cells, e.edges, e.walk.walks,
-                     e.walk.crossings, e.walk.predicates.fallbacks);
+  return fmt::format("{:.3f},{},{},{},{},{},{},{}", row.edge_cells, c.in_region, c.regions, c.region_cells,
+                     e.edges, e.walk.walks, e.walk.crossings, e.walk.predicates.fallbacks);
 }
 
 std::string csv(const std::vector<Result>& results, int rounds) {
   std::string text = answer_header;
   text +=
       ",library,exact,cells,walls,edges,steps,step_length,ns_per_vertex_move,ns_least,step_us_median,"
-      "step_us_p99,step_us_p999,step_us_max,build_ms,bytes,in_region,regions,region_cells,edges_checked,"
+      "step_us_p99,step_us_p999,step_us_max,step_max_over_median,build_ms,bytes,edge_cells,in_region,regions,"
+      "region_cells,edges_checked,"
       "walks,crossings,fallbacks";
   for (int i = 1; i <= rounds; ++i) text += fmt::format(",ns_round_{}", i);
   text += '\n';
@@ -86,6 +88,9 @@ void write_report(const std::filesystem::path& folder, const std::vector<Result>
   manifest["versions"]["cgal"] = CGAL_VERSION_STR;
 #ifdef CELLWALK_WITH_BULLET
   manifest["versions"]["bullet"] = CELLWALK_WITH_BULLET;
+#endif
+#ifdef CELLWALK_WITH_FCL
+  manifest["versions"]["fcl"] = CELLWALK_WITH_FCL;
 #endif
 #ifdef CELLWALK_WITH_EMBREE
   manifest["versions"]["embree"] = RTC_VERSION_STRING;

@@ -46,6 +46,7 @@ class Peer {
   bool is_reproducible = true;  ///< its answers are the same on every machine
   double margin_steps = 0;      ///< by how many steps boxes are enlarged
   Build build;
+  double edge_cells = 0;  ///< of Cellwalk: the mean number of cells that an edge lies in
 };
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
@@ -76,6 +77,7 @@ struct Scene_walls {
 void add_cellwalk_peers(const Scene_walls& walls, const Motion& motion, Peers& peers);
 void add_cgal_peers(const Scene_walls& walls, const Motion& motion, Peers& peers);
 void add_bullet_peers(const Scene_walls& walls, const Motion& motion, Peers& peers);
+void add_fcl_peers(const Scene_walls& walls, const Motion& motion, Peers& peers);
 void add_embree_peers(const Scene_walls& walls, const Motion& motion, Peers& peers);
 
 }  // namespace cellwalk::real_scenes

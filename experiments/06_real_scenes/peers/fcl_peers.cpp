@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// FCL's hierarchy of axis-aligned boxes, in double precision. The planes of the triangles are kept beside it;
+// where the ends of a segment lie on different sides, FCL's test of two triangles is given the segment as the
+// triangle (a, b, b): it projects onto axes, the axis of a zero normal separates nothing, and the axes of a
+// segment against a triangle are left.
+//
+//   fcl_body, fcl_group, fcl_star   boxes are kept for each body, group of 8 vertices, star of a vertex
+//   fcl_move                        a traversal by the box of each move
+#include <fcl/narrowphase/detail/traversal/collision/intersect.h>
+
+#include "common/peers/fcl_walls.h"
+#include "common/peers/wall_triangle.h"
+#include "kept_boxes.h"
+
+namespace cellwalk::real_scenes {
+namespace {
+
+using experiments::Wall_triangle;
+
+struct Fcl {
+  explicit Fcl(const Wall_mesh& mesh) : model(experiments::fcl_model<fcl::AABBd>(mesh)) {
+    candidates.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      candidates.emplace_back(mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2));
+  }
+
+  struct Candidate {
+    Candidate(const Point<3>& a, const Point<3>& b, const Point<3>& c)
+        : triangle(a, b, c), box(experiments::box_of(a, b, c)) {}
+    Wall_triangle<double> triangle;
+    Float_box box;
+  };
+  using Place = experiments::Vector_of<double>;
+
+  void query(const Box& box, std::vector<Candidate>& list) {
+    const fcl::AABBd asked(experiments::fcl_point(box.low), experiments::fcl_point(box.high));
+    experiments::visit_triangles(*model, asked, stack, [&](int i) {
+      list.push_back(candidates[static_cast<std::size_t>(i)]);
+      return false;
+    });
+  }
+  Place place(const Point<3>& p) const { return experiments::rounded<double>(p); }
+  bool is_behind(const Candidate& c, const Place& p) const { return c.triangle.side(p) > 0; }
+  bool is_on_line(const Candidate& c, const Place& a, const Place& b) const {
+    const auto& t = c.triangle.corners;
+    return fcl::detail::Intersectd::intersect_Triangle(point(a), point(b), point(b), point(t[0]), point(t[1]),
+                                                       point(t[2]));
+  }
+  static fcl::Vector3d point(const Place& p) { return {p.x, p.y, p.z}; }
+
+  std::shared_ptr<experiments::Fcl_boxes> model;
+  std::vector<Candidate> candidates;
+  std::vector<int> stack;
+};
+
+}  // namespace
+
+void add_fcl_peers(const Scene_walls& walls, const Motion& motion, Peers& peers) {
+  Build build;
+  const auto fcl =
+      experiments::measured_build(build, "wall", [&] { return std::make_shared<Fcl>(*walls.mesh); });
+  add_kept_boxes("fcl", false, motion, fcl, build, peers);
+}
+
+}  // namespace cellwalk::real_scenes
