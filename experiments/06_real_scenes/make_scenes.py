@@ -28,7 +28,13 @@ VESSEL = {"generate": "vessel"}
 # The trunk of a small vessel, for the quick form.
 SMALL_VESSEL = {"generate": "vessel", "generations": 1, "cell_size": 0.4}
 SMALL_PATH = [[0, 0, 0.2], [2, 1, 6]]
+# A long trunk that bends, and forks twice, for a catheter of twice the length.
+LONG_VESSEL = {"generate": "vessel", "length": 16, "generations": 2, "curvature": 1}
+# The share of the moves of a catheter pressed into a bend that walls block, at least.
+PRESSED = 0.1
 GRAVITY = [0, 0, -9.81]
+# From one end of the artery of the aneurysm to another.
+ARTERY = [[-20.5, -16.5, -14.08], [9.39, 0.48, 5.47]]
 
 
 def rounded(points):
@@ -141,8 +147,8 @@ class Maker:
             quiet([self.cellwalk, "import", self.out / surface, *extra, "--quality", "1.5", "-o", path])
         return self.file(name, make)
 
-    def add(self, name, scene, first_step=0):
-        """Records a scene and lists it."""
+    def add(self, name, scene, first_step=0, least_blocked=0.0):
+        """Records a scene and lists it; `least_blocked`: the share of its moves without which it is refused."""
         if not re.search(self.options.only, name):
             return
         text = json.dumps({"title": name, "output": {"frame_every": 0, "motion_every": 0}, **scene}, indent=1)
@@ -153,16 +159,17 @@ class Maker:
             quiet([self.cellwalk, "run", self.out / source, "-o", folder, "--record", path])
             shutil.rmtree(folder)
         trace = self.file(f"{name}.trace", record)
-        self.list.append({"name": name, "scene": source, "trace": trace, "first_step": first_step})
+        self.list.append({"name": name, "scene": source, "trace": trace, "first_step": first_step,
+                          "least_blocked": least_blocked})
         self.write_list()
         print(f"{name}: {trace}", flush=True)
 
-    def add_finer(self, name, environment):
-        """The same motion among finer cells in the same walls, which scenes in one environment share."""
+    def add_finer(self, name, environment, most=math.inf):
+        """The same motion among finer cells in the same walls, which scenes in one environment share; `most`: times finer."""
         entry = next((e for e in self.list if e["name"] == name), None)
         if entry is None or not self.finer_cells.exists():
             return
-        for times in self.options.finer:
+        for times in (n for n in self.options.finer if float(n) <= most):
             cells = self.file(f"{environment}_finer_{times}.ovm",
                               lambda path: quiet([self.finer_cells, self.out / "scenes.json", name, str(times), path]))
             self.list.append({**entry, "name": f"{name}_finer_{times}", "environment": cells})
@@ -176,6 +183,12 @@ class Maker:
 def catheter(path, spacing, particles, advance=None):
     result = {"path": path, "spacing": spacing, "particles": particles, "stiffness": 0.8}
     return {**result, "advance": advance} if advance else result
+
+
+def pressed(path, spacing, particles, twist, degrees=30, **more):
+    """A catheter that is naturally curved all along, and turned while it is pushed: so it presses on the walls of each bend."""
+    rod = {**catheter(path, spacing, particles), "steering": "none", "twist": twist, **more}
+    return {**rod, "tip": {"length": round((particles - 2) * spacing, 9), "degrees": degrees}}
 
 
 def soft(file, **more):
@@ -197,8 +210,11 @@ def full(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(5, 0.25))
     maker.add("S1a_vessel", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.2, 110), "steps": 240}, 80)
     maker.add("S1b_vessel_fine", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.05, 440), "steps": 960}, 320)
+    maker.add("R1_pressed", {"environment": LONG_VESSEL, "catheter": pressed([[0, 0, 0.2], [0, 0, 4]], 0.2, 200, 0.1), "steps": 400},
+              240, PRESSED)
+    maker.add_finer("R1_pressed", "long_vessel")
     maker.add("S3_spheres", {"environment": VESSEL, "bodies": [soft(sphere, count=50, seed=3, speed=1)], "restitution": 0.6,
-                             "time_step": 0.01, "steps": 180}, 60)
+                             "time_step": 0.01, "steps": 180}, 60, 0.01)
     for name in ("S1a_vessel", "S1b_vessel_fine", "S3_spheres"):
         maker.add_finer(name, "vessel")
     if maker.has_tetgen():
@@ -212,25 +228,30 @@ def full(maker):
         maker.add("S5_rigid_ring", {"environment": rooms, "bodies": [{"file": rigid, "position": [5, 4.6, 5.9], "velocity": [0.7, 0.4, -1],
                                                                       "spin": [0.4, 0.7, 0.2]}],
                                     "gravity": GRAVITY, "restitution": 0.5, "friction": 0.1, "time_step": 0.005, "steps": 400})
+        maker.add_finer("S5_rigid_ring", "room")
     maker.add("S6_at_rest", {"environment": {"generate": "hexes", "cells": [10, 10, 4], "rotated": 1},
                              "bodies": [soft("sphere.off", scale=2, count=30, seed=5)], "gravity": GRAVITY, "restitution": 0.2,
                              "friction": 0.6, "time_step": 0.01, "steps": 800}, 700)
+    maker.add_finer("S6_at_rest", "grid")
     maker.add("S7_many", {"environment": {"generate": "hexes", "cells": [100, 100, 100], "solid": 0.1},
                           "bodies": [{"shape": "hexahedron", "side": 0.3, "count": 10000, "seed": 7, "speed": 2}],
                           "time_step": 0.01, "steps": 30})
+    maker.add_finer("S7_many", "large_grid", most=2)
     if maker.options.data and maker.has_tetgen():
         aneurysm(maker, sphere)
 
 
 def aneurysm(maker, sphere):
-    """Scenes in a public mesh of an aneurysm; the route of the catheter leads from one end of the artery to another."""
+    """Scenes in a public mesh of an aneurysm."""
     surface = Path(maker.options.data) / "surface/aneurysm3D_1.off"
     cells = maker.imported("aneurysm.ovm", surface)
-    rod = {**catheter([[-20.5, -16.5, -14.08], [9.39, 0.48, 5.47]], 0.6, 70), "find_route": True}
+    rod = {**catheter(ARTERY, 0.6, 70), "find_route": True}
     maker.add("S2_aneurysm", {"environment": cells, "catheter": rod, "steps": 140}, 50)
     maker.add("S3_aneurysm_spheres", {"environment": cells, "bodies": [soft(sphere, scale=2, count=50, seed=3, speed=2)],
                                       "restitution": 0.6, "time_step": 0.01, "steps": 180}, 60)
-    for name in ("S2_aneurysm", "S3_aneurysm_spheres"):
+    rod = pressed(ARTERY, 0.8, 130, 0.05, find_route=True)
+    maker.add("R2_pressed_aneurysm", {"environment": cells, "catheter": rod, "steps": 220}, 110, PRESSED)
+    for name in ("R2_pressed_aneurysm", "S2_aneurysm", "S3_aneurysm_spheres"):
         maker.add_finer(name, "aneurysm")
 
 
@@ -238,6 +259,7 @@ def quick(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(2, 0.3))
     maker.add("S1a_vessel", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.2, 30), "steps": 60}, 10)
     maker.add("S1b_vessel_fine", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.05, 100), "steps": 160}, 60)
+    maker.add("R1_pressed", {"environment": SMALL_VESSEL, "catheter": pressed(SMALL_PATH, 0.2, 60, 1, 90), "steps": 120}, 60, PRESSED)
     maker.add("S3_spheres", {"environment": SMALL_VESSEL, "bodies": [soft(sphere, count=6, seed=3, speed=1)], "restitution": 0.6,
                              "time_step": 0.02, "steps": 60})
     solid = {"generate": "hexes", "cells": [6, 6, 4], "solid": 0.06, "seed": 3}

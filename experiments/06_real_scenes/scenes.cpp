@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <utility>
 #include <variant>
@@ -21,6 +22,15 @@ Cell_soup<3> read_cells(const std::filesystem::path& path) {
   io::Mesh_file file = io::read_mesh(path.string());
   if (auto* soup = std::get_if<Cell_soup<3>>(&file.mesh)) return std::move(*soup);
   throw Error(Error_code::input, fmt::format("{}: holds no 3D cells", path.string()));
+}
+
+void check_share(const Scene_entry& entry, const Motion& motion) {
+  const double share =
+      static_cast<double>(std::ranges::count(motion.blocked, 1)) / static_cast<double>(motion.blocked.size());
+  if (share < entry.least_blocked)
+    throw Error(Error_code::input,
+                fmt::format("{}: walls block {:.2f} % of the moves; this scene is to have at least {:g} %",
+                            entry.name, 100 * share, 100 * entry.least_blocked));
 }
 
 }  // namespace
@@ -36,6 +46,7 @@ std::vector<Scene_entry> read_scene_list(const std::filesystem::path& path) {
                       {},
                       folder / item.at("trace").get<std::string>(),
                       item.at("first_step")};
+    entry.least_blocked = item.value("least_blocked", 0.0);
     if (item.contains("environment")) entry.environment = folder / item.at("environment").get<std::string>();
     entries.push_back(std::move(entry));
   }
@@ -58,6 +69,7 @@ Loaded_scene load_scene(const Scene_entry& entry) {
     throw Error(Error_code::input,
                 fmt::format("{}: holds no answers, or no step {}", entry.trace.string(), entry.first_step));
   Loaded_scene scene{load_cells(entry), {}, make_motion(std::move(trace), entry.first_step)};
+  check_share(entry, scene.motion);
   scene.gluing = glue(scene.soup);
   return scene;
 }

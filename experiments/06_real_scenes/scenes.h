@@ -22,9 +22,11 @@ struct Scene_entry {
   std::filesystem::path environment;  ///< other cells with the same walls; empty: those of the scene
   std::filesystem::path trace;        ///< what the run recorded
   std::uint32_t first_step = 0;       ///< earlier ones are not measured
+  double least_blocked = 0;  ///< share of the moves: with fewer contacts it is not the scene that is meant
 };
 
-/// Reads a list: JSON, an array of objects with these keys; names of files are relative to its folder.
+/// Reads a list: JSON, an array of objects with these keys, of which `environment` and `least_blocked` may be
+/// missing; names of files are relative to its folder.
 /// \throw std::runtime_error if it is no such list
 std::vector<Scene_entry> read_scene_list(const std::filesystem::path& path);
 
@@ -34,7 +36,8 @@ struct Loaded_scene {
   Motion motion;
 };
 
-/// \throw Error as the readers do; Error(input) if the scene is 2D or the trace does not suit
+/// \throw Error as the readers do; Error(input) if the scene is 2D, the trace does not suit, or fewer moves are
+///        blocked than the entry demands
 Loaded_scene load_scene(const Scene_entry& entry);
 
 /// The cells of the environment of an entry.

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Runs experiment 06 in its quick form, without times, and compares moves, blocked moves and wrong answers with expected/answers.csv.
 
-usage: test_real_scenes.py BUILD_DIR [PART ...]     the parts that were built: bullet, embree, tetgen
-       test_real_scenes.py BUILD_DIR --update       writes expected/answers.csv anew; needs bullet
+usage: test_real_scenes.py BUILD_DIR [PART ...]     the parts that were built: bullet, embree, fcl, tetgen
+       test_real_scenes.py BUILD_DIR --update       writes expected/answers.csv anew; needs bullet and fcl
 
 Expected are the rows of methods whose answers are the same on every machine. Counts of Cellwalk's work are not compared: they
 change with every better certificate.
@@ -24,11 +24,12 @@ from tables import read_rows  # noqa: E402
 KEPT = [(kept, margin) for kept in ("star", "group", "body") for margin in ("2", "6", "20")]
 PEERS = {
     "bullet": {("bullet_move", "0"), *((f"bullet_{kept}", margin) for kept, margin in KEPT)},
+    "fcl": {("fcl_move", "0"), *((f"fcl_{kept}", margin) for kept, margin in KEPT)},
     "embree": {(f"embree_{lanes}{mode}", "0") for lanes in (8, 16) for mode in ("", "_robust")},
 }
 EXACT = {("cellwalk_three_segments", "0"), ("cellwalk_complete", "0"), ("cgal_move", "0"), ("cgal_tree", "0"),
          *((f"cgal_{kept}", margin) for kept, margin in KEPT)}
-SCENES = ["S1a_vessel", "S1b_vessel_fine", "S3_spheres", "S4_soft_ring", "S5_rigid_ring", "S6_at_rest", "S7_many"]
+SCENES = ["S1a_vessel", "S1b_vessel_fine", "R1_pressed", "S3_spheres", "S4_soft_ring", "S5_rigid_ring", "S6_at_rest", "S7_many"]
 
 
 def spoil(source, target):
@@ -100,6 +101,16 @@ class RealScenes(quick_case.QuickCase):
             self.assertGreater(int(row["cells"]), 4 * int(coarse["cells"]), row)
             self.assertEqual(coarse["walls"], row["walls"], row)
             self.assertEqual((coarse["blocked"], "0", "0"), (row["blocked"], row["missed"], row["false"]), row)
+
+    def test_a_scene_with_too_few_contacts_is_refused(self):
+        scenes = self.out / "scenes"
+        entry = next(e for e in json.loads((scenes / "scenes.json").read_text(encoding="utf-8")) if e["name"] == "R1_pressed")
+        self.assertEqual(0.1, entry["least_blocked"])
+        (scenes / "one.json").write_text(json.dumps([{**entry, "least_blocked": 0.9}]), encoding="utf-8")
+        result = subprocess.run([self.program("real_scenes"), scenes / "one.json", "--out", self.out / "refused", "--rounds", "0"],
+                                capture_output=True, text=True)
+        self.assertEqual(1, result.returncode)
+        self.assertRegex(result.stderr, "R1_pressed: walls block 17.69 % of the moves; this scene is to have at least 90 %")
 
     def test_a_wrong_answer_shows(self):
         scenes, out = self.out / "scenes", self.out / "spoiled"
