@@ -7,6 +7,7 @@ usage: summarize.py DIR     writes tables.md, and ratios and times as .gp, .png,
 Without gnuplot the tables and the plots' scripts are written, and the program says so and returns 3.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -16,9 +17,12 @@ import plots  # noqa: E402
 from tables import read_rows, table, unique  # noqa: E402
 
 OWN = {"cellwalk_three_segments": "Cellwalk, three segments", "cellwalk_complete": "Cellwalk, complete sweep"}
-LIBRARIES = {"bullet": "Bullet", "embree": "Embree", "cgal": "CGAL, exact"}
-STEP_TIMES = ["step_us_median", "step_us_p99", "step_us_p999", "step_us_max"]
+COMPLETE = "cellwalk_complete"
+LIBRARIES = {"bullet": "Bullet", "fcl": "FCL", "embree": "Embree", "cgal": "CGAL, exact"}
+STEP_TIMES = ["step_us_median", "step_us_p99", "step_us_p999", "step_us_max", "step_max_over_median"]
+STEP_TITLES = ["median", "99 %", "99.9 %", "longest", "longest / median"]
 WORK = ["in_region", "edges_checked", "walks", "crossings", "region_cells", "fallbacks"]
+FINER = re.compile(r"(.*)_finer_([0-9.]+)")
 
 
 def number(text):
@@ -30,16 +34,6 @@ def number(text):
 
 def time(row):
     return float(row["ns_per_vertex_move"])
-
-
-def best(rows):
-    """Of each method the row of its best margin; the first one without times."""
-    found = {}
-    for row in rows:
-        known = found.get(row["method"])
-        if known is None or (row["ns_per_vertex_move"] and time(row) < time(known)):
-            found[row["method"]] = row
-    return found
 
 
 def fastest(rows, exact=False, library=None):
@@ -58,42 +52,59 @@ def described(row):
     return f'{number(row["ns_per_vertex_move"])} ({row["method"].split("_", 1)[1].replace("_", " ")}{margin})'
 
 
-def by_scene(scenes, cell):
-    """A table with a line a method and a column a scene."""
-    methods = unique(m for rows in scenes.values() for m in best(rows))
-    return table(["method", *scenes],
-                 [[m, *(cell(best(rows)[m]) if m in best(rows) else "" for rows in scenes.values())] for m in methods])
+def of_method(rows, method):
+    return next(r for r in rows if r["method"] == method)
+
+
+def share_blocked(row):
+    return f"{100 * int(row['blocked']) / int(row['moves']):.2g} %"
 
 
 def scene_table(scenes):
     keys = ["cells", "walls", "bodies", "vertices", "edges", "steps", "moves", "blocked"]
-    return table(["scene", *keys, "step length", "blocked, %"],
-                 [[name, *(f"{int(rows[0][k]):,}" for k in keys), rows[0]["step_length"],
-                   f"{100 * int(rows[0]['blocked']) / int(rows[0]['moves']):.2g}"] for name, rows in scenes.items()])
+    return table(["scene", *keys, "step length", "moves blocked", "cells an edge lies in"],
+                 [[name, *(f"{int(rows[0][k]):,}" for k in keys), rows[0]["step_length"], share_blocked(rows[0]),
+                   number(of_method(rows, COMPLETE)["edge_cells"])] for name, rows in scenes.items()])
 
 
-def ratio_table(scenes):
-    """The table of the README."""
+def ratio_table(scenes, coarse=None):
+    """A table of the README. `coarse`: the scenes with the cells that these are finer than."""
     libraries = unique(r["library"] for rows in scenes.values() for r in rows if r["library"] != "cellwalk")
     header = ["scene", "cells", "moves blocked", *OWN.values(), *(f"fastest of {LIBRARIES.get(name, name)}" for name in libraries),
               "complete / fastest", "complete / fastest exact"]
     lines = []
     for name, rows in scenes.items():
-        own = {m: next(r for r in rows if r["method"] == m) for m in OWN}
+        own = {m: of_method(rows, m) for m in OWN}
         found = [fastest(rows, library=library) for library in libraries]
-        lines.append([f"`{name}`", f"{int(rows[0]['cells']):,}", f"{100 * int(rows[0]['blocked']) / int(rows[0]['moves']):.2g} %",
+        lines.append([f"`{name}`", f"{int(rows[0]['cells']):,}", share_blocked(rows[0]),
                       *(number(r["ns_per_vertex_move"]) for r in own.values()), *map(described, found),
-                      f"{ratio(own['cellwalk_complete'], fastest(rows)):.1f}",
-                      f"{ratio(own['cellwalk_complete'], fastest(rows, exact=True)):.1f}"])
+                      f"{ratio(own[COMPLETE], fastest(rows)):.2f}", f"{ratio(own[COMPLETE], fastest(rows, exact=True)):.2f}"])
+        if coarse is not None:
+            before = coarse.get(FINER.fullmatch(name)[1])
+            lines[-1].append(f"{ratio(own[COMPLETE], of_method(before, COMPLETE)):.2f}" if before else "")
+    return table(header + (["complete / with the coarse cells"] if coarse is not None else []), lines)
+
+
+def step_table(scenes):
+    """A table of the README: Cellwalk beside the peer that is the fastest on average."""
+    lines = []
+    for name, rows in scenes.items():
+        for row in (of_method(rows, COMPLETE), fastest(rows)):
+            margin = f', {row["margin_steps"]}' if row["margin_steps"] != "0" else ""
+            lines.append([f"`{name}`", f'`{row["method"]}`{margin}', *(number(row[k]) for k in STEP_TIMES)])
+    return table(["scene", "method", *STEP_TITLES], lines, 2)
+
+
+def method_table(rows, timed):
+    """All methods and margins in a scene."""
+    header = ["method", "margin, steps", "missed", "false", "building, ms", "held, MB"]
+    lines = [[r["method"], r["margin_steps"], r["missed"], r["false"], number(r["build_ms"]), number(str(int(r["bytes"]) / 1e6))]
+             for r in rows]
+    if timed:
+        header[2:2] = ["ns a move", *STEP_TITLES]
+        for line, row in zip(lines, rows):
+            line[2:2] = [number(row["ns_per_vertex_move"]), *(number(row[k]) for k in STEP_TIMES)]
     return table(header, lines)
-
-
-def margin_table(scenes):
-    kept = [r for rows in scenes.values() for r in rows if r["margin_steps"] != "0"]
-    keys = unique((r["method"], r["margin_steps"]) for r in kept)
-    found = {(r["method"], r["margin_steps"], r["scene"]): r for r in kept}
-    return table(["method", "margin, steps", *scenes],
-                 [[*key, *(number(found[(*key, s)]["ns_per_vertex_move"]) if (*key, s) in found else "" for s in scenes)] for key in keys], 2)
 
 
 def work_table(scenes):
@@ -101,28 +112,26 @@ def work_table(scenes):
     for name, rows in scenes.items():
         for row in rows:
             if row["library"] == "cellwalk":
-                lines.append([name, row["method"], *(f"{int(row[c]) / int(row['moves']):.3g}" for c in WORK)])
+                counts = [f"{int(row[c]) / int(row['moves']):.3g}" for c in WORK]
+                lines.append([name, row["method"], *counts])
     return table(["scene", "method", *WORK], lines, 2)
 
 
 def tables(scenes):
     """All tables as Markdown."""
     timed = any(rows[0]["ns_per_vertex_move"] for rows in scenes.values())
+    coarse = {name: rows for name, rows in scenes.items() if not FINER.fullmatch(name)}
+    finer = {name: rows for name, rows in scenes.items() if FINER.fullmatch(name)}
     text = "# Real scenes: results\n\n## Scenes\n\n" + scene_table(scenes)
     if timed:
-        text += "\n## Cellwalk beside the fastest peers (nanoseconds a move of a vertex with its edges; method and margin in steps)\n\n"
-        text += ratio_table(scenes)
-        text += "\n## Nanoseconds a move (medians; with boxes kept: the best margin)\n\n"
-        text += by_scene(scenes, lambda r: number(r["ns_per_vertex_move"]))
-        text += "\n## Microseconds a step of all bodies: median / 99 % / 99.9 % / most, each step by its least round\n\n"
-        text += by_scene(scenes, lambda r: " / ".join(number(r[k]) for k in STEP_TIMES))
-    text += "\n## Wrong answers: missed / false, of all moves\n\n"
-    text += by_scene(scenes, lambda r: f'{r["missed"]} / {r["false"]}')
-    if timed:
-        text += "\n## Margins of kept boxes: nanoseconds a move\n\n" + margin_table(scenes)
-    text += "\n## Building: milliseconds; megabytes held\n\n"
-    text += by_scene(scenes, lambda r: f'{number(r["build_ms"])}; {number(str(int(r["bytes"]) / 1e6))}')
+        if coarse:
+            text += "\n## A vertex move with its edges: nanoseconds (of peers: method, margin in steps)\n\n" + ratio_table(coarse)
+        if finer:
+            text += "\n## The same among finer cells\n\n" + ratio_table(finer, coarse)
+        text += "\n## A step of all bodies: microseconds, each step by its least round\n\n" + step_table(scenes)
     text += "\n## Cellwalk's work a move\n\n" + work_table(scenes)
+    for name, rows in scenes.items():
+        text += f"\n## All methods: {name}\n\n" + method_table(rows, timed)
     return text
 
 
@@ -155,7 +164,7 @@ set key tmargin center horizontal Left reverse samplen 1 maxcols 2 width 2
 
 
 def scripts(scenes):
-    own = {m: [next(r for r in rows if r["method"] == m) for rows in scenes.values()] for m in OWN}
+    own = {m: [of_method(rows, m) for rows in scenes.values()] for m in OWN}
     peers = {"fastest peer": [fastest(rows) for rows in scenes.values()],
              "fastest exact peer": [fastest(rows, exact=True) for rows in scenes.values()]}
     ratios = {f"{OWN[m]} / {name}": [ratio(a, b) for a, b in zip(own[m], found)] for name, found in peers.items() for m in OWN}
