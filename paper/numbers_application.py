@@ -3,13 +3,14 @@
 
 from collect_numbers import count, decimal, escaped, percent, read, span
 
-TITLES = {"S1a_vessel": "catheter, vessel", "S1b_vessel_fine": "fine catheter, vessel", "S2_aneurysm": "catheter, aneurysm",
+TITLES = {"R1_pressed": "pressed catheter, vessel", "R2_pressed_aneurysm": "pressed catheter, aneurysm",
+          "S1a_vessel": "catheter, vessel", "S1b_vessel_fine": "fine catheter, vessel", "S2_aneurysm": "catheter, aneurysm",
           "S3_spheres": "soft spheres, vessel", "S3_aneurysm_spheres": "soft spheres, aneurysm", "S4_soft_ring": "soft ring",
           "S5_rigid_ring": "rigid ring", "S6_at_rest": "bodies at rest", "S7_many": "many hexahedra"}
 RINGS = ("S4_soft_ring", "S5_rigid_ring")
 AT_REST = "S6_at_rest"
-CATHETERS = ("S1a_vessel", "S1b_vessel_fine", "S2_aneurysm")
-LIBRARIES = {"bullet": "Bullet", "embree": "Embree", "cgal": "CGAL"}
+CATHETERS = ("R1_pressed", "R2_pressed_aneurysm", "S1a_vessel", "S1b_vessel_fine", "S2_aneurysm")
+LIBRARIES = {"bullet": "Bullet", "fcl": "FCL", "embree": "Embree", "cgal": "CGAL"}
 # What a method is, by the second word of its name.
 KINDS = {"star": "kept boxes", "group": "kept boxes", "body": "kept boxes", "move": "a box of each move", "8": "rays", "16": "rays", "tree": "segments"}
 HAPTIC_PERIOD = 1000  # microseconds, of a device served at 1 kHz
@@ -61,7 +62,7 @@ def define_wrong(report, scenes):
 
 def rounded_peers(rows):
     rounded = []
-    for library in ("bullet", "embree"):
+    for library in ("bullet", "fcl", "embree"):
         methods = {}
         for r in rows:
             if r["library"] == library:
@@ -71,7 +72,7 @@ def rounded_peers(rows):
             tallies = [wrong({r["scene"]: r for r in of_method}.values()) for of_method in methods.values()]
             missed, false = min(tallies, key=sum)
             chosen = list(methods.values())[tallies.index([missed, false])]
-            at_rest = sum(wrong({r["scene"]: r for r in chosen if r["scene"] == AT_REST}.values()))
+            at_rest = sum(wrong({r["scene"]: r for r in chosen if r["scene"].partition("_finer_")[0] == AT_REST}.values()))
             where = "there" if rounded else "of these where bodies rest on oblique walls"
             rounded.append(f"{LIBRARIES[library]} misses {count(missed)} blocked moves and makes up {count(false)} ({count(at_rest)} {where})")
     if not rounded:
