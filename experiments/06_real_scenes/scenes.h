@@ -36,8 +36,8 @@ struct Loaded_scene {
   Motion motion;
 };
 
-/// \throw Error as the readers do; Error(input) if the scene is 2D, the trace does not suit, or fewer moves are
-///        blocked than the entry demands
+/// \throw Error as the readers do; Error(input) if the scene is 2D, the trace does not suit, or fewer moves
+///        are blocked than the entry demands
 Loaded_scene load_scene(const Scene_entry& entry);
 
 /// The cells of the environment of an entry.

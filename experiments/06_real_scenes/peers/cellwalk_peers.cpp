@@ -16,11 +16,13 @@ namespace {
 /// Of so many steps, evenly spread, edges are looked up.
 constexpr std::size_t sampled_steps = 32;
 
-/// The mean number of cells that an edge lies in, where vertices stand before a step.
+/// The mean number of cells that an edge lies in, where vertices stand before a step. Edges of length 0, which
+/// wait at the entry of a catheter, are left out.
 double mean_edge_cells(const Snapshot<3>& snapshot, const Locator<3>& locator, const Motion& motion) {
   std::size_t edges = 0, cells = 0;
   Walk_counts counts;
   const auto look_up = [&](const Particle<3>& a, const Particle<3>& b) {
+    if (a.position == b.position) return;
     const Chain_result<3> found = find_chain(snapshot, a, b, counts, false);
     if (found.contact) return;
     ++edges;
