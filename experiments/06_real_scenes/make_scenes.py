@@ -187,7 +187,7 @@ def catheter(path, spacing, particles, advance=None):
 
 def pressed(path, spacing, particles, twist, degrees=30, **more):
     """A catheter that is naturally curved all along, and turned while it is pushed: so it presses on the walls of each bend."""
-    rod = {**catheter(path, spacing, particles), "steering": "none", "twist": twist, **more}
+    rod = {**catheter(path, spacing, particles, spacing / 4), "steering": "none", "twist": twist, **more}
     return {**rod, "tip": {"length": round((particles - 2) * spacing, 9), "degrees": degrees}}
 
 
@@ -210,8 +210,8 @@ def full(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(5, 0.25))
     maker.add("S1a_vessel", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.2, 110), "steps": 240}, 80)
     maker.add("S1b_vessel_fine", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.05, 440), "steps": 960}, 320)
-    maker.add("R1_pressed", {"environment": LONG_VESSEL, "catheter": pressed([[0, 0, 0.2], [0, 0, 4]], 0.2, 200, 0.1), "steps": 400},
-              240, PRESSED)
+    maker.add("R1_pressed", {"environment": LONG_VESSEL, "catheter": pressed([[0, 0, 0.2], [0, 0, 4]], 0.2, 200, 0.07), "steps": 800},
+              560, PRESSED)
     maker.add_finer("R1_pressed", "long_vessel")
     maker.add("S3_spheres", {"environment": VESSEL, "bodies": [soft(sphere, count=50, seed=3, speed=1)], "restitution": 0.6,
                              "time_step": 0.01, "steps": 180}, 60, 0.01)
@@ -249,8 +249,8 @@ def aneurysm(maker, sphere):
     maker.add("S2_aneurysm", {"environment": cells, "catheter": rod, "steps": 140}, 50)
     maker.add("S3_aneurysm_spheres", {"environment": cells, "bodies": [soft(sphere, scale=2, count=50, seed=3, speed=2)],
                                       "restitution": 0.6, "time_step": 0.01, "steps": 180}, 60)
-    rod = pressed(ARTERY, 0.8, 130, 0.05, find_route=True)
-    maker.add("R2_pressed_aneurysm", {"environment": cells, "catheter": rod, "steps": 220}, 110, PRESSED)
+    rod = pressed(ARTERY, 0.7, 150, 0.025, find_route=True)
+    maker.add("R2_pressed_aneurysm", {"environment": cells, "catheter": rod, "steps": 500}, 300, PRESSED)
     for name in ("R2_pressed_aneurysm", "S2_aneurysm", "S3_aneurysm_spheres"):
         maker.add_finer(name, "aneurysm")
 
@@ -259,7 +259,7 @@ def quick(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(2, 0.3))
     maker.add("S1a_vessel", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.2, 30), "steps": 60}, 10)
     maker.add("S1b_vessel_fine", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.05, 100), "steps": 160}, 60)
-    maker.add("R1_pressed", {"environment": SMALL_VESSEL, "catheter": pressed(SMALL_PATH, 0.2, 60, 1, 90), "steps": 120}, 60, PRESSED)
+    maker.add("R1_pressed", {"environment": SMALL_VESSEL, "catheter": pressed(SMALL_PATH, 0.2, 60, 0.5, 90), "steps": 240}, 160, PRESSED)
     maker.add("S3_spheres", {"environment": SMALL_VESSEL, "bodies": [soft(sphere, count=6, seed=3, speed=1)], "restitution": 0.6,
                              "time_step": 0.02, "steps": 60})
     solid = {"generate": "hexes", "cells": [6, 6, 4], "solid": 0.06, "seed": 3}

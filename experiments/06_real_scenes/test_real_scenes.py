@@ -110,7 +110,7 @@ class RealScenes(quick_case.QuickCase):
         result = subprocess.run([self.program("real_scenes"), scenes / "one.json", "--out", self.out / "refused", "--rounds", "0"],
                                 capture_output=True, text=True)
         self.assertEqual(1, result.returncode)
-        self.assertRegex(result.stderr, "R1_pressed: walls block 17.69 % of the moves; this scene is to have at least 90 %")
+        self.assertRegex(result.stderr, "R1_pressed: walls block 17.04 % of the moves; this scene is to have at least 90 %")
 
     def test_a_wrong_answer_shows(self):
         scenes, out = self.out / "scenes", self.out / "spoiled"
