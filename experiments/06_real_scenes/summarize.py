@@ -125,10 +125,13 @@ def tables(scenes):
     text = "# Real scenes: results\n\n## Scenes\n\n" + scene_table(scenes)
     if timed:
         if coarse:
-            text += "\n## A vertex move with its edges: nanoseconds (of peers: method, margin in steps)\n\n" + ratio_table(coarse)
+            text += "\n## A vertex move with its edges\n\n" + ratio_table(coarse)
         if finer:
             text += "\n## The same among finer cells\n\n" + ratio_table(finer, coarse)
-        text += "\n## A step of all bodies: microseconds, each step by its least round\n\n" + step_table(scenes)
+        if coarse:
+            text += "\n## Steps\n\n" + step_table(coarse)
+        if finer:
+            text += "\n## Steps among finer cells\n\n" + step_table(finer)
     text += "\n## Cellwalk's work a move\n\n" + work_table(scenes)
     for name, rows in scenes.items():
         text += f"\n## All methods: {name}\n\n" + method_table(rows, timed)
