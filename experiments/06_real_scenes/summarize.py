@@ -152,7 +152,9 @@ set logscale y
 set yrange [{lowest / 1.3:.4g}:{highest * 1.3:.4g}]
 set xrange [-0.6:{len(scenes) - 0.4}]
 set ylabel {plots.quoted(ylabel)}
-set xtics rotate by -35 noenhanced
+set xtics rotate by -55 noenhanced
+set bmargin 15
+set rmargin 9
 set grid xtics ytics lc rgb "#dddddd" lt 1
 set key tmargin center horizontal Left reverse samplen 1 maxcols 2 width 2
 """
