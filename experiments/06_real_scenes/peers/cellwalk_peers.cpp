@@ -16,7 +16,7 @@ namespace {
 /// Of so many steps, evenly spread, edges are looked up.
 constexpr std::size_t sampled_steps = 32;
 
-/// The mean number of cells that an edge lies in, where vertices stand before a step. Edges of length 0, which
+/// The mean number of cells that an edge lies in, where vertices stand before a step. Edges of length 0, as
 /// wait at the entry of a catheter, are left out.
 double mean_edge_cells(const Snapshot<3>& snapshot, const Locator<3>& locator, const Motion& motion) {
   std::size_t edges = 0, cells = 0;
