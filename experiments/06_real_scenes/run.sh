@@ -5,7 +5,7 @@
 #
 #   experiments/06_real_scenes/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build]
 #
-# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about an hour, 4 GB of files and 5 GB of memory.
+# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about an hour, 4 GB of files, processes of up to 5 GB.
 # With CELLWALK_TEST_DATA, a folder of public meshes, also the scenes in an aneurysm. Scenes in OUT/scenes are not made again.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
