@@ -25,13 +25,14 @@ def write(folder, name, rows):
         writer.writerows(rows)
 
 
-def figure_8(folder, peers=True, paper=200, kept=8):
+def figure_8(folder, peers=True, paper=200, kept=8, rigid=True):
     methods = {"cellwalk_three_segments": 10, "cellwalk_triangle": 15, "double_walk": 30}
     if peers:
         methods |= {"bullet_swept_box": paper, "bullet_kept_box": kept}
     write(folder, "figure_8.csv", [
-        {"trace": f"n_{n}", "cells": n, "method": m, "ns_per_vertex_move": ns * (1 if n == 1000 else 1.5), "missed": 0, "false": 0,
-         "hits": 300, "moves": 72000, "clear_moves": 72000 - 18 * n // 5} for n in (1000, 10000) for m, ns in methods.items()])
+        {"trace": f"{motion}n_{n}", "cells": n, "method": m, "ns_per_vertex_move": ns / parts * (1 if n == 1000 else 1.5), "missed": 0, "false": 0,
+         "hits": 300, "steps": 40 // parts, "moves": 72000 // parts, "held": 216 if parts == 1 else 360, "clear_moves": 72000 - 18 * n // 5}
+        for motion, parts in (("", 1), ("rigid_", 2))[:1 + rigid] for n in (1000, 10000) for m, ns in methods.items()])
 
 
 def exact_versus_float(folder):
@@ -163,6 +164,9 @@ class CollectNumbers(unittest.TestCase):
         macros = self.macros()
         self.assertEqual("1.5", macros["FigEightGrowth"])
         self.assertIn("compares with takes 20 times as long", macros["FigEightBullet"])
+        self.assertEqual(("40", "3"), (macros["FigEightSteps"], macros["FigEightHeld"]))
+        self.assertIn(r"(20 steps; walls hold 10 of 1,000 moves), the complete sweep takes 7.5 to 11\,ns, three segments 5 to 7.5\,ns, Bullet with",
+                      macros["FigEightRigid"])
         self.assertEqual(("0.5", "50.0"), (macros["FigEightOverDouble"], macros["FigEightClear"]))
         self.assertEqual(("2\\,000", "0"), (macros["ExactWalks"], macros["ExactWalksWrong"]))
         self.assertEqual(("1.0", "2.0"), (macros["DoubleWrong"], macros["TolerantWrong"]))
@@ -207,6 +211,8 @@ class CollectNumbers(unittest.TestCase):
         for name, make, other, macro, claim in (
                 ("figure_8", figure_8, {"paper": 5}, "FigEightBullet", "the original conclusion holds"),
                 ("figure_8", figure_8, {"kept": 300}, "FigEightBullet", "a stronger competitor"),
+                ("figure_8", figure_8, {"rigid": False}, "FigEightRigid", "aim at rigid cubes"),
+                ("figure_8", figure_8, {"peers": False}, "FigEightRigid", "Bullet with kept boxes"),
                 ("contact_search", contact_search, {"late": {"dichotomic_segment": 0}}, "SearchSegmentLate", "late in up to"),
                 ("real_scenes", real_scenes, {"rounded": False}, "AppRounded", "Bullet misses"),
                 ("real_scenes", real_scenes, {"scenes": 2}, "AppFiner", "times shorter"),

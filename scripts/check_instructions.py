@@ -38,9 +38,9 @@ COUNTED = ("cellwalk::Replay::step()", "cellwalk::Body_replay::step()")
 BASELINE = "glibc.cpu.hwcaps=" + ",".join(
     f"-{name}" for name in ("AVX2", "AVX2_Usable", "AVX_Fast_Unaligned_Load", "AVX512F", "AVX512VL", "ERMS", "FSRM", "SSSE3", "SSE4_1", "SSE4_2"))
 
-# The paper's scene, a catheter in tetrahedra, and soft bodies: how a trace is made, and its environment where it has none of its own.
+# The grid of the paper's scene with rigid bodies, a catheter in tetrahedra, and soft bodies: how a trace is made, and its environment where it has none of its own.
 SCENES = {
-    "figure_8": ([["make_traces", "TRACE", "--cells", "10", "10", "10", "--steps", "100"]], None),
+    "figure_8": ([["make_traces", "TRACE", "--motion", "rigid", "--cells", "10", "10", "10", "--steps", "100"]], None),
     "catheter": ([["cellwalk", "generate", "vessel", "--generations", "2", "-o", "vessel.ovm"],
                   ["cellwalk", "run", "DATA/catheter.json", "--set", "environment.generations=2", "--steps", "150",
                    "--set", "output.picture=false", "-o", "catheter", "--record", "TRACE"]],

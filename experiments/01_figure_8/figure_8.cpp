@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -19,6 +20,12 @@ namespace {
 
 using namespace cellwalk;
 using namespace cellwalk::figure_8;
+
+/// The moves that walls prevent.
+std::uint64_t held(const Trace& trace) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(trace.answers, [](unsigned a) { return (a & segment_bits) != 0; }));
+}
 
 Result measure_file(const std::filesystem::path& file, const std::vector<Family>& families,
                     const Measure_options& options) {
@@ -33,9 +40,10 @@ Result measure_file(const std::filesystem::path& file, const std::vector<Family>
                 trace.speed,
                 trace.bodies,
                 trace.steps,
+                held(trace),
                 {}};
-  fmt::print("{}: {} cells, {} wall triangles, {} moves\n", result.trace, result.cells, result.walls,
-             result.moves());
+  fmt::print("{}: {} cells, {} wall triangles, {} moves, {} held\n", result.trace, result.cells, result.walls,
+             result.moves(), result.held);
   result.rows = measure(world, trace, families, options);
   for (const Row& row : result.rows)
     fmt::print("  {:<26}{:>10.1f} ns a move   {:>6} missed {:>6} false of {}\n", row.method, row.median(),

@@ -16,7 +16,7 @@ namespace {
 
 std::string csv(const std::vector<Result>& results, int rounds) {
   std::string text =
-      "trace,cells,solid_cells,walls,body_side,bodies,steps,moves,method,reproducible,hits,missed,false,"
+      "trace,cells,solid_cells,walls,body_side,bodies,steps,moves,held,method,reproducible,hits,missed,false,"
       "ns_per_vertex_move,us_per_step,build_ms,bytes,bytes_per,unit,boxes,queries,triangle_tests,walks,"
       "crossings,signs,"
       "fallbacks,certified_edges,clear_moves";
@@ -25,8 +25,9 @@ std::string csv(const std::vector<Result>& results, int rounds) {
   for (const Result& result : results)
     for (const Row& row : result.rows) {
       const std::uint64_t units = row.build.per == std::string_view("wall") ? result.walls : result.cells;
-      text += fmt::format("{},{},{},{},{},{},{},{},", result.trace, result.cells, result.solid_cells,
-                          result.walls, result.body_side, result.bodies, result.steps, result.moves());
+      text += fmt::format("{},{},{},{},{},{},{},{},{},", result.trace, result.cells, result.solid_cells,
+                          result.walls, result.body_side, result.bodies, result.steps, result.moves(),
+                          result.held);
       text += fmt::format("{},{},{},{},{},", row.method, row.is_reproducible ? 1 : 0, row.hits,
                           row.wrong.missed, row.wrong.reported);
       const double moves_a_step = static_cast<double>(result.bodies) * trace_vertices;
@@ -66,6 +67,7 @@ void write_report(const std::filesystem::path& folder, const std::vector<Result>
                                   {"body_side", r.body_side},
                                   {"speed", r.speed},
                                   {"steps", r.steps},
+                                  {"held", r.held},
                                   {"seed", r.seed}});
   io::write_file(folder / "figure_8.csv", csv(results, options.rounds));
   io::write_json(folder / "manifest.json", manifest);

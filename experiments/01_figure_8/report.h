@@ -18,6 +18,7 @@ struct Result {
   std::uint64_t cells = 0, solid_cells = 0, walls = 0, seed = 0;
   double body_side = 0, speed = 0;
   std::uint32_t bodies = 0, steps = 0;
+  std::uint64_t held = 0;  ///< moves after which the vertex is where it was: a wall is in the way
   std::vector<Row> rows;
 
   std::uint64_t moves() const { return std::uint64_t{bodies} * steps * trace_vertices; }

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Tables and the plot of figure 8 from figure_8.csv.
+"""Tables and the plots of figure 8 from figure_8.csv.
 
-usage: summarize.py DIR        reads DIR/figure_8.csv; writes tables.md, figure_8.gp, figure_8.png, .svg and .pdf there
+usage: summarize.py DIR        reads DIR/figure_8.csv; writes tables.md there, and figure_8.gp, .png, .svg and .pdf: the motion of the
+                               paper; figure_8_rigid.*: that of rigid bodies
 
-Without gnuplot the tables and the plot's script are written, and the program says so and returns 3.
+Without gnuplot the tables and the scripts of the plots are written, and the program says so and returns 3.
 """
 
 import math
@@ -30,6 +31,7 @@ PLOTTED = {
     "cgal_segment": ("CGAL, segments*", CGAL, 1, 11, 2),
 }
 LOWEST = ["cellwalk_triangle", "cellwalk_three_segments", "bullet_kept_box", "cgal_kept_box", "double_walk"]  # enlarged, on a linear scale
+RIGID = "rigid_"  # begins the names of traces of rigid bodies
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "fallbacks", "certified_edges", "clear_moves"]
 
 
@@ -49,28 +51,47 @@ def by_trace(rows, traces, cell):
                   for m in unique(r["method"] for r in rows)])
 
 
-def tables(rows):
-    """All tables as Markdown."""
+def is_rigid(row):
+    return row["trace"].startswith(RIGID)
+
+
+def times(rows):
+    traces = unique(r["trace"] for r in rows)
+    if not any(r["ns_per_vertex_move"] for r in rows):
+        return ""
+    text = "\n### Nanoseconds a move of a vertex with its three edges (medians)\n\n"
+    text += by_trace(rows, traces, lambda r: nanoseconds(r["ns_per_vertex_move"]))
+    text += "\n### Microseconds a step of all bodies\n\n"
+    return text + by_trace(rows, traces, lambda r: number(r["us_per_step"], 0))
+
+
+def of_motion(rows):
+    """The tables of the traces of one motion as Markdown."""
     traces = unique(r["trace"] for r in rows)
     first = {t: next(r for r in rows if r["trace"] == t) for t in traces}
-    text = "# Figure 8: results\n\n## Traces\n\n"
-    text += table(["trace", "cells", "solid", "wall triangles", "body side", "bodies", "steps", "moves"],
-                  [[t, *(f"{int(first[t][k]):,}" for k in ("cells", "solid_cells", "walls")), first[t]["body_side"],
-                    *(f"{int(first[t][k]):,}" for k in ("bodies", "steps", "moves"))] for t in traces])
-    if any(r["ns_per_vertex_move"] for r in rows):
-        text += "\n## Nanoseconds a move of a vertex with its three edges (medians)\n\n"
-        text += by_trace(rows, traces, lambda r: nanoseconds(r["ns_per_vertex_move"]))
-        text += "\n## Microseconds a step of all bodies\n\n"
-        text += by_trace(rows, traces, lambda r: number(r["us_per_step"], 0))
-    text += "\n## Wrong answers: missed / false, of the hits among the bits that a method gives\n\n"
+    text = table(["trace", "cells", "solid", "wall triangles", "body side", "bodies", "steps", "moves", "held by walls, of 1,000 moves"],
+                 [[t, *(f"{int(first[t][k]):,}" for k in ("cells", "solid_cells", "walls")), first[t]["body_side"],
+                   *(f"{int(first[t][k]):,}" for k in ("bodies", "steps", "moves")),
+                   f'{1000 * int(first[t]["held"]) / int(first[t]["moves"]):.1f}'] for t in traces])
+    text += times(rows)
+    text += "\n### Wrong answers: missed / false, of the hits among the bits that a method gives\n\n"
     text += by_trace(rows, traces, lambda r: f'{r["missed"]} / {r["false"]} of {r["hits"]}')
-    text += "\n## Building: milliseconds; bytes a wall triangle or a cell\n\n"
+    text += "\n### Building: milliseconds; bytes a wall triangle or a cell\n\n"
     text += by_trace(rows, traces, lambda r: f'{number(r["build_ms"], 0)}; {r["bytes_per"]} a {r["unit"]}')
     for trace in traces:
-        text += f"\n## Work a move on {trace}\n\nThe same on every machine, but for Embree.\n\n"
+        text += f"\n### Work a move on {trace}\n\nThe same on every machine, but for Embree.\n\n"
         text += table(["method", *COUNTS],
                       [[r["method"], *(f"{int(r[c]) / int(r['moves']):.4g}" if int(r[c]) else "" for c in COUNTS)]
                        for r in rows if r["trace"] == trace])
+    return text
+
+
+def tables(rows):
+    """All tables as Markdown."""
+    text = "# Figure 8: results\n"
+    for title, of in (("Bodies deform and bounce", [r for r in rows if not is_rigid(r)]), ("Rigid bodies", [r for r in rows if is_rigid(r)])):
+        if of:
+            text += f"\n## {title}\n\n{of_motion(of)}"
     return text
 
 
@@ -119,9 +140,9 @@ unset arrow
         for m, (colour, dash, mark, width) in styles.items()) + "\n"
 
 
-def plot_script(rows):
-    """The script of gnuplot for the traces named n_*, or None where there are not two of them with times."""
-    rows = [r for r in rows if r["trace"].startswith("n_") and r["ns_per_vertex_move"] and r["method"] in PLOTTED]
+def plot_script(rows, prefix=""):
+    """The script of gnuplot for the traces named n_* behind a prefix, or None where there are not two of them with times."""
+    rows = [r for r in rows if r["trace"].startswith(prefix + "n_") and r["ns_per_vertex_move"] and r["method"] in PLOTTED]
     sizes = sorted({int(r["cells"]) for r in rows})
     if len(sizes) < 2:
         return None
@@ -154,11 +175,14 @@ def main():
     folder = Path(sys.argv[1])
     rows = read_rows(folder / "figure_8.csv")
     (folder / "tables.md").write_text(tables(rows), encoding="utf-8")
-    script = plot_script(rows)
-    if script is None:
-        print("summarize: no times of two sizes: no plot")
-        return 0
-    return 0 if plots.draw(folder, "figure_8", script) else plots.NO_GNUPLOT
+    status = 0
+    for name, prefix in (("figure_8", ""), ("figure_8_rigid", RIGID)):
+        script = plot_script(rows, prefix)
+        if script is None:
+            print(f"summarize: no times of two sizes: no plot {name}")
+        elif not plots.draw(folder, name, script):
+            status = plots.NO_GNUPLOT
+    return status
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ compared: its counts change with every better certificate.
 """
 
 import csv
+import math
 import struct
 import subprocess
 import sys
@@ -35,7 +36,8 @@ PEERS = {
     "fcl": {"fcl_collide", "fcl_boxes"},
 }
 EXACT = {"cellwalk_three_segments", "cellwalk_triangle", "cgal_segment", "cgal_triangle", "cgal_kept_box"}
-TRACES = ["n_1e3", "n_1e4", "side_0.1", "side_1", "side_3", "solid_01", "solid_30"]
+BOTH = ["n_1e3", "n_1e4", "side_0.1", "side_1", "side_3"]  # motions
+TRACES = [*BOTH, *("rigid_" + t for t in [*BOTH, "solid_01", "solid_30"])]
 
 
 def read(path):
@@ -54,6 +56,38 @@ def kept(row):
     """What of a row is expected again."""
     counts = [] if row["method"].startswith("cellwalk") else COUNTS
     return {c: row[c] if c in ["trace", "method", *ANSWERS, *counts] else "" for c in COLUMNS}
+
+
+class Trace:
+    """A trace in a grid (docs/formats.md), replayed by its own answers."""
+
+    def __init__(self, path):
+        data = path.read_bytes()
+        self.bodies, self.steps, obstacles = struct.unpack("<3I", data[20:32])
+        self.side, self.speed = struct.unpack("<2d", data[48:64])
+        start = 64 + 4 * (obstacles + obstacles % 2)
+        vertices = 8 * self.bodies
+        points = list(struct.iter_unpack("<3d", data[start:len(data) - vertices * self.steps]))
+        self.starts, self.targets = points[:vertices], points[vertices:]
+        self.answers = data[len(data) - vertices * self.steps:]
+
+    def motion(self, body):
+        """Before each step of a body, and after the last: its positions, and whether walls hold one back in the step."""
+        x = self.starts[8 * body:8 * body + 8]
+        for step in range(self.steps):
+            at = 8 * (step * self.bodies + body)
+            held = [a & 0b1111 != 0 for a in self.answers[at:at + 8]]
+            yield list(x), any(held)
+            x = [old if stays else new for old, new, stays in zip(x, self.targets[at:at + 8], held)]
+        yield x, False
+
+    def strain(self, x):
+        """The largest change of an edge against its length at rest."""
+        return max(abs(math.dist(x[v], x[v ^ 1 << k]) / self.side - 1) for v in range(8) for k in range(3))
+
+
+def centre(x):
+    return [sum(p[k] for p in x) / len(x) for k in range(3)]
 
 
 def spoil(source, target):
@@ -113,6 +147,40 @@ class Figure8(unittest.TestCase):
                         "10"], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual((self.out / "traces" / "n_1e3.bin").read_bytes(), again.read_bytes())
 
+    def test_bodies_start_as_in_the_scene_of_the_paper(self):
+        subprocess.run([self.build / "cellwalk", "run", "-o", self.out / "run", "--steps", "1", "--record", self.out / "run.trace", "--set",
+                        "output.picture=false"], check=True, stdout=subprocess.DEVNULL)
+        trace = Trace(self.out / "traces" / "n_1e3.bin")
+        data = (self.out / "run.trace").read_bytes()
+        head = 16 + trace.bodies * (12 + 8 * 12)
+        points = list(struct.iter_unpack("<3d", data[head:head + 3 * 24 * len(trace.starts)]))
+        self.assertEqual(trace.starts, points[:len(trace.starts)])
+        self.assertEqual(trace.targets[:len(trace.starts)], points[2 * len(trace.starts):], "goals of the first step")
+
+    def test_bodies_deform_recover_and_bounce(self):
+        file, steps = self.out / "bounces.bin", 100
+        subprocess.run([self.build / "experiments/01_figure_8/make_traces", file, "--steps", str(steps)], check=True,
+                       stdout=subprocess.DEVNULL)
+        trace = Trace(file)
+        deformed = recovered = bounces = 0
+        for body in range(trace.bodies):
+            before, free, way = None, 0, None
+            for x, is_held in trace.motion(body):
+                strain = trace.strain(x)
+                deformed += strain > 0.05
+                if free >= 20:  # each step of free flight halves what deforms
+                    recovered += 1
+                    self.assertLess(strain, 1e-4, "a body that met no wall for so long is a cube")
+                if before and free >= 20:
+                    now = [b - a for a, b in zip(before, centre(x))]
+                    bounces += way is not None and sum(a * b for a, b in zip(way, now)) < 0
+                    way = now
+                    self.assertLess(math.hypot(*now), 1.001 * trace.speed, "none gains energy; that of the spin is a thousandth")
+                before, free = centre(x), 0 if is_held else free + 1
+        self.assertGreater(deformed, 500)
+        self.assertGreater(recovered, 8000)
+        self.assertGreater(bounces, 60)
+
     def test_tables_name_every_method_and_trace(self):
         text = (self.out / "tables.md").read_text(encoding="utf-8")
         for name in {r["method"] for r in self.rows}.union(TRACES):
@@ -129,6 +197,9 @@ class Figure8(unittest.TestCase):
             self.assertIn(f"${name} << END", script)
             self.assertEqual(script.count(style[0]), 2 if name in summarize.LOWEST else 1, name)
         self.assertIsNone(summarize.plot_script(rows[:len(plotted)]), "one size is no line")
+        self.assertIsNone(summarize.plot_script(rows, summarize.RIGID), "rigid bodies have a plot of their own")
+        rigid = [{**r, "trace": summarize.RIGID + r["trace"]} for r in rows]
+        self.assertEqual(script, summarize.plot_script(rigid, summarize.RIGID))
 
 
 def update(build):

@@ -102,9 +102,9 @@ class Ray : public Stateless {
 class Body_box {
  public:
   static constexpr unsigned bits = segment_bits;
-  Body_box(std::shared_ptr<Bullet> bullet, double margin) : bullet_(std::move(bullet)), kept_(margin) {}
+  Body_box(std::shared_ptr<Bullet> bullet, double steps) : bullet_(std::move(bullet)), kept_(steps) {}
 
-  void prepare(const Trace& trace) { kept_.reset(trace.bodies); }
+  void prepare(const Trace& trace) { kept_.reset(trace); }
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& box, std::vector<Candidate>& list) {
@@ -139,7 +139,7 @@ void add_bullet_peers(const Grid_world& world, Peers& peers) {
   add_peer(peers, CELLWALK_BULLET_NAME("bullet_swept_box"), Swept_box(bullet), build);
   add_peer(peers, CELLWALK_BULLET_NAME("bullet_ray"), Ray(bullet), build);
   add_peer(peers, CELLWALK_BULLET_NAME("bullet_body_box"), Body_box(bullet, 0), build);
-  add_peer(peers, CELLWALK_BULLET_NAME("bullet_kept_box"), Body_box(bullet, kept_margin), build);
+  add_peer(peers, CELLWALK_BULLET_NAME("bullet_kept_box"), Body_box(bullet, kept_steps), build);
 }
 
 }  // namespace cellwalk::figure_8

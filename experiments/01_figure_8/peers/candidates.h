@@ -12,17 +12,19 @@
 
 namespace cellwalk::figure_8 {
 
-/// By how much the box of a body is enlarged before its walls are kept: five steps at the speed of the scene.
-inline constexpr double kept_margin = 0.1;
+/// By how much the box of a body is enlarged before its walls are kept: so many steps at the speed of the
+/// trace.
+inline constexpr double kept_steps = 5;
 
 /// Candidate: has a member `box`, in which the wall lies.
 template <class Candidate>
 class Kept_candidates {
  public:
-  explicit Kept_candidates(double margin) : margin_(margin) {}
+  explicit Kept_candidates(double steps) : steps_(steps) {}
 
-  void reset(std::size_t bodies) {
-    if (bodies_.size() < bodies) bodies_.resize(bodies);
+  void reset(const Trace& trace) {
+    margin_ = steps_ * trace.speed;
+    if (bodies_.size() < trace.bodies) bodies_.resize(trace.bodies);
     for (Body& b : bodies_) b.box = Box::nowhere();
   }
   /// The walls that a body may meet in a step: those kept whose boxes meet that of the step. `query(box,
@@ -51,7 +53,7 @@ class Kept_candidates {
     Box box = Box::nowhere();
     std::vector<Candidate> list;
   };
-  double margin_;
+  double steps_, margin_ = 0;
   std::vector<Body> bodies_;
   std::vector<const Candidate*> near_;
 };

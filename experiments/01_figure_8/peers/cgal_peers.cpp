@@ -71,9 +71,9 @@ struct Candidate {
 class Kept_box {
  public:
   static constexpr unsigned bits = segment_bits;
-  explicit Kept_box(std::shared_ptr<Cgal> cgal) : cgal_(std::move(cgal)), kept_(kept_margin) {}
+  explicit Kept_box(std::shared_ptr<Cgal> cgal) : cgal_(std::move(cgal)), kept_(kept_steps) {}
 
-  void prepare(const Trace& trace) { kept_.reset(trace.bodies); }
+  void prepare(const Trace& trace) { kept_.reset(trace); }
   template <class Counter>
   bool start(std::size_t body, const Point<3>* positions, const Point<3>* targets, Counter& counter) {
     const auto query = [this](const Box& b, std::vector<Candidate>& list) { cgal_->query(b, list); };

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The motion of the paper's figure 8: the scene of `cellwalk run` without a scene, by the rule of traces.
+#include <cellwalk/body/generate.h>
+#include <cellwalk/internal/simulation/trace_recorder.h>
+#include <cellwalk/io/scene.h>
+#include <cellwalk/simulation/world.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "motions.h"
+
+namespace cellwalk::figure_8 {
+namespace {
+
+/// The scene with bodies as the options have them.
+Scene<3> scene_of(const Trace_options& options) {
+  auto scene = std::get<Scene<3>>(io::read_scene(CELLWALK_PAPER_SCENE));
+  Body_start<3>& cubes = scene.bodies.at(0);
+  std::get<Hexahedron_shape>(std::get<Body_shape<3>>(cubes.source)).side = options.body_side;
+  Particle_cloud& cloud = cubes.cloud.value();
+  cloud.count = options.bodies;
+  if (options.speed) cloud.speed = *options.speed / scene.time_step;
+  return scene;
+}
+
+/// The rule of traces, and contacts, which tell the bodies how to bounce.
+Body_options rule() {
+  Body_options options = trace_options(Sweep::triangle);
+  options.reported = Reported::contacts;
+  return options;
+}
+
+}  // namespace
+
+Trace record_deforming(const Snapshot<3>& snapshot, Trace start, const Trace_options& options) {
+  const Scene<3> scene = scene_of(options);
+  const Body_start<3>& cubes = scene.bodies.front();
+  start.speed = cubes.cloud->speed * scene.time_step;
+  World<3> world(snapshot, scene, {generate_body(std::get<Body_shape<3>>(cubes.source))}, rule());
+  for (const Moving_body<3>& moving : world.bodies()) {
+    const auto positions = moving.body().positions();
+    start.start_positions.insert(start.start_positions.end(), positions.begin(), positions.end());
+  }
+  Trace_recorder recorder(snapshot, Locator<3>(snapshot), std::move(start));
+  std::vector<Point<3>> targets;
+  for (std::uint32_t step = 0; step < options.steps; ++step) {
+    world.step();
+    targets.clear();
+    for (const Moving_body<3>& moving : world.bodies())
+      targets.insert(targets.end(), moving.targets().begin(), moving.targets().end());
+    recorder.step(targets);
+    // Two bodies moved by one rule, one for contacts and one for answers.
+    for (std::size_t b = 0; b < options.bodies; ++b)
+      if (!std::ranges::equal(world.positions(b), recorder.bodies()[b].positions()))
+        throw std::logic_error("a body of the simulation is not where its trace has it");
+  }
+  return recorder.trace();
+}
+
+}  // namespace cellwalk::figure_8
