@@ -97,7 +97,7 @@ std::vector<Chosen> choices() {
   no_body_region.body_region = false;
   no_stars.star_regions = false;
   no_clusters.clusters = false;
-  no_planes.planes = false;
+  no_planes.chains_in_place = false;
   constexpr Edge_certificates edges, none{false, false, false, false};
   std::vector<Chosen> result{{"all", true, all, edges},
                              {"no_region_of_the_body", true, no_body_region, edges},

@@ -66,6 +66,7 @@ std::span<Particle<D>> Body_access<D>::particles() {
 
 template <int D>
 Chain& Body_access<D>::chain(std::size_t edge) {
+  state_->corners_of_chains[edge].clear();
   return state_->chains[edge];
 }
 

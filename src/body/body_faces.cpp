@@ -25,7 +25,7 @@ std::size_t place_of(std::span<const Corner> edges, std::uint32_t edge) {
 }
 
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
-const Chain* moved_chain(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex,
+const Chain* moved_chain(const Body_state<3>& body, const Move_scratch<3>& scratch, std::uint32_t vertex,
                          std::uint32_t edge) {
   const Moved_chain& moved = scratch.chains[place_of(body.topology.corners_of(vertex), edge)];
   return moved.is_free ? &moved.chain : nullptr;
@@ -74,7 +74,7 @@ struct Star_of_vertex {
   std::vector<std::uint32_t> names;  ///< the numbers of the faces
 };
 
-Star_of_vertex star_of(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex) {
+Star_of_vertex star_of(const Body_state<3>& body, const Move_scratch<3>& scratch, std::uint32_t vertex) {
   const auto corners = body.topology.corners_of(vertex);
   Star_of_vertex star;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -93,7 +93,7 @@ Star_of_vertex star_of(const Body_state<3>& body, const Move_scratch& scratch, s
 }
 
 /// What comes between parts of the body that have the vertex alone in common.
-void sweep_parts(const Body_state<3>& body, const Move_scratch& scratch, std::uint32_t vertex,
+void sweep_parts(const Body_state<3>& body, const Move_scratch<3>& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   if (body.topology.is_joined_at(vertex)) return;
   const Star_of_vertex star = star_of(body, scratch, vertex);
@@ -107,7 +107,7 @@ void sweep_parts(const Body_state<3>& body, const Move_scratch& scratch, std::ui
 /// What faces that moved in their planes rest on after the move, as agreed with all that is joined to them;
 /// or a contact, if they cannot agree.
 /// \pre all else is free
-void settle_flat_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+void settle_flat_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                        const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   const Star_of_vertex star = star_of(body, scratch, vertex);
   const Flat_faces found = find_flat_faces(*body.snapshot, path, star.edges, star.faces,
@@ -174,7 +174,7 @@ namespace {
 
 /// As sweep_faces(), with edges on their sides of walls. True if there is no contact but one that is due to
 /// these sides.
-bool is_blocked_by_sides(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+bool is_blocked_by_sides(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                          const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   bool are_walls_near = false;
   std::optional<Contact<3>> marked;  // of an edge on the other side: the move is real until another contact
@@ -215,7 +215,7 @@ bool is_blocked_by_sides(const Body_state<3>& body, Move_scratch& scratch, std::
 
 }  // namespace
 
-void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+void sweep_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   if (!is_blocked_by_sides(body, scratch, vertex, path, first, counts)) return;
   // Edges that pass walls in the plane of their motion may do so on the sides of their faces.
@@ -232,7 +232,10 @@ void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t
     if (i == taken.size()) break;
     ++taken[i];
     for (std::size_t e = 0; e <= i; ++e)
-      if (!chains[e].empty()) scratch.chains[e].chain = chains[e][taken[e]];
+      if (!chains[e].empty()) {
+        scratch.chains[e].chain = chains[e][taken[e]];
+        scratch.chains[e].is_in_place = false;
+      }
     first.reset();
     scratch.supporting_walls.clear();
     is_blocked_by_sides(body, scratch, vertex, path, first, counts);

@@ -36,7 +36,7 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts);
 /// Sweeps the faces of a vertex that goes a way: puts the first contact in, or into the scratch what they
 /// rest on then.
 /// \pre its edges were swept, and their chains are in the scratch
-void sweep_faces(const Body_state<3>& body, Move_scratch& scratch, std::uint32_t vertex,
+void sweep_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts);
 
 }  // namespace cellwalk::detail

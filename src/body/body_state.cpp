@@ -3,7 +3,17 @@
 
 #include <utility>
 
+#include "chains_in_place.h"
+
 namespace cellwalk::detail {
+
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices) {
+  if (vertices < chosen.least_vertices_of_parts ||
+      topology.edges().size() >= chosen.least_edges_a_vertex * vertices)
+    return chosen;
+  chosen.body_region = chosen.star_regions = false;
+  return chosen;
+}
 
 template <int D>
 Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
@@ -27,16 +37,35 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> 
       topology(std::move(joined)),
       particles(positions.size()),
       chains(topology.edges().size()),
+      corners_of_chains(chains.size()),
+      corners_epoch(of_snapshot.geometry_epoch()),
       supporting_walls(topology.faces().size()),
-      region(positions.size(), topology.edges().size(), of_body),
-      pool(positions.size(), of_body),
+      region(positions.size(), topology.edges().size(), worthwhile(of_body, topology, positions.size())),
+      pool(positions.size(), worthwhile(of_body, topology, positions.size())),
       certificates(of_body),
-      free_moves(positions.size(), of_body) {}
+      free_moves(positions.size(), worthwhile(of_body, topology, positions.size())) {}
 
 template <int D>
 Chain Body_state<D>::seen_from(const Corner& corner) const {
   const Chain& chain = chains[corner.edge];
   return corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain;
+}
+
+template <int D>
+void Body_state<D>::set_chain(std::uint32_t edge, const Chain& chain) {
+  chains[edge] = chain;
+  corners_of_chains[edge].clear();
+}
+
+template <int D>
+void Body_state<D>::read_corners(std::uint32_t edge) {
+  for (const Half_facet f : chains[edge]) append_corners(*snapshot, f, corners_of_chains[edge]);
+}
+
+template <int D>
+void Body_state<D>::forget_corners() {
+  for (auto& corners : corners_of_chains) corners.clear();
+  corners_epoch = snapshot->geometry_epoch();
 }
 
 /// Not to be inlined: the step before is short.
@@ -196,7 +225,14 @@ void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
   refresh_vertex(v, counts);
   if (!region.is_edge_stale(edge)) return;
   region.mark_edge(edge, false);
-  chains[edge] = find_any_chain(*snapshot, particles[u], particles[v], counts.edges.walk).chain;
+  const Particle<D>&p = particles[u], &q = particles[v];
+  // Between points inside of a cell, or of two whose union is convex, there is but one chain.
+  if (p.dimension == D && q.dimension == D) {
+    if (p.cell == q.cell) return set_chain(edge, {});
+    if (const Half_facet f = snapshot->convex_passage(p.cell, q.cell); f != Half_facet::none)
+      return set_chain(edge, {f});
+  }
+  set_chain(edge, find_any_chain(*snapshot, p, q, counts.edges.walk).chain);
 }
 
 template <int D>
@@ -214,8 +250,12 @@ void Body_state<D>::commit(std::uint32_t vertex, const Particle<D>& particle,
     const Corner& corner = corners[i];
     region.mark_edge(corner.edge, moved[i].is_stale);
     if (moved[i].is_stale) continue;
+    if (moved[i].is_in_place) {
+      Edge_words<D>(*this).take_over(corner);
+      continue;
+    }
     const Chain& chain = moved[i].chain;
-    chains[corner.edge] = corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain;
+    set_chain(corner.edge, corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain);
   }
   particles[vertex] = particle;
   place(vertex, particle.position);

@@ -7,6 +7,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/edge/face.h>
 #include <cellwalk/internal/body/certificates.h>
+#include <cellwalk/internal/edge/certain_line.h>
 
 #include <cstdint>
 #include <cstring>
@@ -26,21 +27,33 @@ namespace cellwalk::detail {
 struct Moved_chain {
   Chain chain;
   bool is_free = false;
-  bool is_stale = false;  ///< it is not known, but there is one
+  bool is_stale = false;     ///< it is not known, but there is one
+  bool is_in_place = false;  ///< it is the word of the edge, see Chains_in_place
 };
 
 /// What is found out of a move of one vertex before it is made. Kept for its memory only.
+template <int D>
 struct Move_scratch {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   std::vector<Moved_chain> chains;  ///< of the edges of the vertex
   std::vector<std::pair<std::uint32_t, Supporting_walls>> supporting_walls;
+  std::vector<Half_facet> behind;  ///< the facets crossed, seen from their other sides, as far as needed
+  /// Of the facets crossed, in order, and from the other sides, from the last to the first; or empty.
+  std::vector<Facet_corners<D>> corners_ahead, corners_behind;
 
   void clear_walk() {
     visited.clear();
+    if (crossed.empty()) return;
     crossed.clear();
+    behind.clear();
+    corners_ahead.clear();
+    corners_behind.clear();
   }
 };
+
+/// Those of the chosen certificates that are worth their cost for a body.
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices);
 
 template <int D>
 struct Body_state {
@@ -57,6 +70,20 @@ struct Body_state {
     snapshot->check_epoch(epoch, "this body was registered: call Body::register_again(), or make it anew");
   }
   Chain seen_from(const Corner& corner) const;
+  void set_chain(std::uint32_t edge, const Chain& chain);
+  /// The corners of the facets of a chain, facet after facet.
+  /// \pre forget_corners() was called since points of the environment moved
+  std::span<const Facet_corners<D>> corners_of(std::uint32_t edge) {
+    std::vector<Facet_corners<D>>& corners = corners_of_chains[edge];
+    if (corners.empty() && !chains[edge].empty()) [[unlikely]]
+      read_corners(edge);
+    return corners;
+  }
+  /// Forgets the corners of facets if points were moved, or facets renamed.
+  void refresh_corners() {
+    if (corners_epoch != snapshot->geometry_epoch()) [[unlikely]]
+      forget_corners();
+  }
 
   /// Moves all vertices without a test.
   /// \pre the region holds the body and the targets
@@ -85,6 +112,11 @@ struct Body_state {
   /// Registers what is stale.
   void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
   void refresh_edge(std::uint32_t edge, Body_counts& counts);
+  /// True if an edge is, or its other end.
+  /// \pre that at which it is seen is not
+  bool is_stale(const Corner& corner) const {
+    return region.is_edge_stale(corner.edge) || region.is_vertex_stale(corner.other);
+  }
   void refresh_all(Body_counts& counts);
 
   /// Makes a move: takes the chains of the moved vertex over, and its particle.
@@ -96,7 +128,9 @@ struct Body_state {
   std::vector<Point<D>> positions;
   Body_topology topology;
   std::vector<Particle<D>> particles;
-  std::vector<Chain> chains;                       ///< of the edges, from their first end to their second
+  std::vector<Chain> chains;  ///< of the edges, from their first end to their second
+  std::vector<std::vector<Facet_corners<D>>> corners_of_chains;  ///< empty until they are needed
+  std::uint64_t corners_epoch;                     ///< Snapshot::geometry_epoch() when these were read
   std::vector<Supporting_walls> supporting_walls;  ///< of each face
   bool may_have_supporting_walls = false;          ///< some face has; else none
   bool are_faces_swept = true;
@@ -105,9 +139,11 @@ struct Body_state {
   Region_pool<D> pool;
   Body_certificates certificates;
   Free_moves<D> free_moves;
-  Move_scratch scratch;
+  Move_scratch<D> scratch;
 
  private:
+  void forget_corners();
+  void read_corners(std::uint32_t edge);
   bool move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   bool try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   void move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);

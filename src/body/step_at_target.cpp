@@ -6,6 +6,7 @@
 #include <bit>
 #include <utility>
 
+#include "chains_in_place.h"
 #include "vertex_move.h"
 
 namespace cellwalk::detail {
@@ -15,14 +16,15 @@ template <int D>
 [[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, Reported reported,
                                                  bool parallel, Step_report<D>& report) {
   find_out_if_apart();
-  // Planes prove that nothing is touched where nothing was.
-  const bool may_be_certified = body_.certificates.planes && (sweep_.touch == Touch::pass || body_.is_apart);
+  const bool in_place = may_be_in_place(body_, sweep_, body_.is_apart);
   body_.make_free_moves(targets, parallel, counts_);
   for (std::uint32_t v = body_.free_moves.next_left(0); v < targets.size();
        v = body_.free_moves.next_left(v + 1)) {
-    if (body_.try_move_in_region(v, targets[v], counts_) ||
-        (may_be_certified && try_certified_move(v, targets[v])))
+    if (body_.try_move_in_region(v, targets[v], counts_)) continue;
+    if (in_place && try_move_in_place(body_, v, targets[v], counts_)) {
+      body_.are_faces_swept = false;
       continue;
+    }
     Tried_move<D> tried = try_to_move(v, targets[v]);
     const Rejected_move<D>& answer = tried.answer;
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
@@ -115,99 +117,6 @@ bool Target_step<D>::touches_wall() {
   return false;
 }
 
-/// Moves a vertex that stays strictly inside its cell, if its edges certainly meet nothing: so are most moves
-/// outside of regions.
-template <int D>
-bool Target_step<D>::try_certified_move(std::uint32_t vertex, const Point<D>& target) {
-  body_.refresh_vertex(vertex, counts_);
-  const Particle<D>& from = body_.particles[vertex];
-  if (!certainly_inside(snapshot(), from.cell, target, counts_.edges.walk)) return false;
-  const Particle<D> to{target, from.cell, D, from.aimed};
-  const bool is_inside = body_.region.holds_way(vertex, target);
-  const auto corners = body_.topology.corners_of(vertex);
-  Edge_proofs proofs;       // the edges of a move that is not made here are counted where it is decided
-  std::uint64_t stale = 0;  // edges whose chain is left to be found when it is asked for
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Corner& corner = corners[i];
-    if (!is_inside || body_.region.is_outside(corner.other)) {
-      body_.refresh_vertex(corner.other, counts_);
-      const Particle<D>& q = body_.particles[corner.other];
-      if (sweep_.sweep == Sweep::three_segments) {
-        if (!is_certified_free(to, q, proofs)) return false;
-      } else if (!is_certified_free(from, to, q, proofs)) {
-        if (!refresh_certified_chain(from, to, corner, proofs)) return false;
-        continue;
-      }
-    }
-    stale |= std::uint64_t{1} << i;
-  }
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    if (stale >> i & 1) body_.region.mark_edge(corners[i].edge, true);
-  proofs.add_to(counts_.edges);
-  body_.are_faces_swept = false;
-  body_.particles[vertex] = to;
-  body_.place(vertex, target);
-  return true;
-}
-
-/// True if an edge certainly meets no wall where it is.
-template <int D>
-template <class Counts>
-inline bool Target_step<D>::is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs) {
-  if (sweep_.certificates.same_cell && q.cell == p.cell)
-    ++proofs.same_cell;
-  else if (sweep_.certificates.convex_pair && snapshot().convex_passage(p.cell, q.cell) != Half_facet::none)
-    ++proofs.convex_pair;
-  else if (!body_.certificates.planes || certain_end(snapshot(), p, q.position, counts_.edges.walk) != q.cell)
-    return false;
-  ++proofs.edges;
-  return true;
-}
-
-/// True if the cells of its ends alone prove an edge free, whatever its chain was: one cell, or two with a
-/// convex union, and ends inside of them, so that there is but one chain from one to the other.
-template <int D>
-template <class Counts>
-inline bool Target_step<D>::is_certified_free(const Particle<D>& from, const Particle<D>& to,
-                                              const Particle<D>& q, Counts& proofs) {
-  if (from.cell != to.cell || from.dimension != D || q.dimension != D) return false;
-  if (sweep_.certificates.same_cell && q.cell == to.cell)
-    ++proofs.same_cell;
-  else if (sweep_.certificates.convex_pair && q.cell != to.cell &&
-           snapshot().convex_passage(to.cell, q.cell) != Half_facet::none)
-    ++proofs.convex_pair;
-  else
-    return false;
-  ++proofs.edges;
-  return true;
-}
-
-/// True if an edge certainly has one chain, and the same, at both ends of the way of its vertex. It is kept
-/// then, and not stale.
-template <int D>
-bool Target_step<D>::refresh_certified_chain(const Particle<D>& from, const Particle<D>& to,
-                                             const Corner& corner, Edge_proofs& proofs) {
-  if (!sweep_.certificates.same_chain) return false;
-  const Particle<D>& q = body_.particles[corner.other];
-  const auto finds = [&](const Particle<D>& p, Chain& chain) {
-    const Particle<D>&start = corner.is_reversed ? q : p, &end = corner.is_reversed ? p : q;
-    return certain_end(snapshot(), start, end.position, counts_.edges.walk, &chain) == end.cell;
-  };
-  Chain chain;
-  if (!finds(to, chain)) return false;
-  Chain& kept = body_.chains[corner.edge];
-  if (body_.region.is_edge_stale(corner.edge)) {
-    kept.clear();
-    if (!finds(from, kept)) return false;
-    body_.region.mark_edge(corner.edge, false);
-  }
-  if (chain != kept) return false;
-  ++proofs.edges;
-  ++proofs.same_chain;
-  proofs.chain_facets += chain.size();
-  return true;
-}
-
 /// Moves a vertex, or leaves it where it is.
 template <int D>
 Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
@@ -255,18 +164,13 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   const bool is_inside = body_.region.holds_way(vertex, target);
   const Particle<D> from = body_.particles[vertex];
   to = from;
-  Move_scratch& scratch = body_.scratch;
+  Move_scratch<D>& scratch = body_.scratch;
   scratch.clear_walk();
-  // Chains are carried along where triangles are swept; where only ends count, they are looked for when asked
-  // for.
-  const bool needs_way = sweep_.sweep != Sweep::three_segments;
   const std::uint64_t signs_before = signs();
   Walk_options recorded;
   recorded.locates_contact = false;
-  if (needs_way) {
-    recorded.visited = &scratch.visited;
-    recorded.crossed = &scratch.crossed;
-  }
+  if (sweeps()) recorded.visited = &scratch.visited;
+  recorded.crossed = &scratch.crossed;
   const Walk_result<D> walked = move_on_sides(snapshot(), to, target, counts_.edges.walk, recorded, choices);
   had_choice = walked.had_choice;
   if (walked.contact) {
@@ -284,70 +188,55 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
   const auto corners = body_.topology.corners_of(vertex);
   scratch.chains.resize(corners.size());
+  Float_point<D> mapped{};
+  const bool may_confirm = may_be_in_place(body_, sweep_, is_apart) && snapshot().frame().map(target, mapped);
+  Chains_in_place<D> in_place(body_, to, mapped, false);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     Moved_chain& moved = scratch.chains[i];
-    const bool is_in_region = is_inside && !body_.region.is_outside(corners[i].other);
-    moved.is_stale = !needs_way || is_in_region;
-    if (is_in_region) continue;
-    const bool is_met = needs_way ? sweep_meets_at_end(path, i, corners[i], moved, tried)
-                                  : meets_at_end(path, corners[i], tried);
-    if (is_met) answer.edges |= std::uint64_t{1} << i;
+    moved.is_stale = is_inside && !body_.region.is_outside(corners[i].other);
+    if (moved.is_stale) continue;
+    body_.refresh_edge(corners[i].edge, counts_);
+    moved.is_in_place = may_confirm && in_place.confirms(corners[i]);
+    if (moved.is_in_place) continue;
+    if (may_confirm && in_place.relinks(corners[i], moved.chain)) {
+      if (corners[i].is_reversed) moved.chain = reversed(snapshot(), moved.chain);
+    } else if (meets_at_end(path, i, corners[i], moved, tried)) {
+      answer.edges |= std::uint64_t{1} << i;
+    }
   }
+  in_place.add_to(counts_.edges);
   return tried;
 }
 
-/// True if the edge of a corner meets a wall where its vertex goes.
+/// True if the edge of a corner is free while its vertex goes its way: then its chain is known.
 template <int D>
-bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried) {
-  body_.refresh_vertex(corner.other, counts_);
+bool Target_step<D>::is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain& moved) {
   const Particle<D>& q = body_.particles[corner.other];
-  Edge_counts& edges = counts_.edges;
-  // What proves the edge free without a sign proves that it touches nothing either, if its ends do not and p
-  // is inside of a cell.
-  const bool stops = sweep_.touch == Touch::stop;
-  if (is_certified_free(path.to, q, edges)) {
-    if (!stops || (body_.is_apart && path.to.dimension == D)) return false;
-  } else {
-    ++edges.edges;
-  }
-  const std::uint64_t signs_before = signs();
-  Walk_options plain;
-  plain.locates_contact = false;
-  const Walk_result<D> walked = walk(snapshot(), path.to, q.position, edges.walk, plain);
-  const bool is_plain = body_.is_apart && signs() == signs_before;
-  if (walked.status == Walk_status::arrived && walked.cell == q.cell && (!stops || is_plain)) return false;
-  // Where a wall is passed in its inside, no other way helps.
-  if (walked.contact && walked.contact->kind == Contact_kind::facet) return tried.keep(walked.contact);
-  if (!stops) return tried.keep(find_any_chain(snapshot(), path.to, q, edges.walk).contact);
-  return tried.keep(
-      closed_meeting<D>(snapshot(), path.to.cell, {path.to.position, q.position, path.to.position}, edges));
+  std::optional<Free_chain> free =
+      free_chain(snapshot(), path, q, body_.seen_from(corner), sweep_, counts_.edges);
+  if (!free) return false;
+  if (sweep_.touch == Touch::stop && !free->is_apart &&
+      closed_meeting<D>(snapshot(), path.from.cell, {path.from.position, path.to.position, q.position},
+                        counts_.edges))
+    return false;
+  moved.chain = std::move(free->chain);
+  return true;
 }
 
-/// Sweeps the edge of a corner while its vertex goes its way. True if it is blocked where that ends.
+/// True if the edge of a corner meets a wall where its vertex goes; its way is looked at where triangles are
+/// swept.
 template <int D>
-bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                                        Moved_chain& moved, Tried_move<D>& tried) {
-  body_.refresh_vertex(corner.other, counts_);
-  const Particle<D>& q = body_.particles[corner.other];
-  if (is_certified_free(path.from, path.to, q, counts_.edges)) {
-    moved.is_stale = true;
-    return false;
-  }
-  body_.refresh_edge(corner.edge, counts_);
+bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
+                                  Moved_chain& moved, Tried_move<D>& tried) {
   Edge_counts& edges = counts_.edges;
-  const auto meeting = [&](const Cell start, const Swept_triangle<D>& triangle) {
-    return closed_meeting(snapshot(), start, triangle, edges);
-  };
-  const bool stops = sweep_.touch == Touch::stop;
-  std::optional<Free_chain> free = free_chain(snapshot(), path, q, body_.seen_from(corner), sweep_, edges);
-  if (free && stops && !free->is_apart &&
-      meeting(path.from.cell, {path.from.position, path.to.position, q.position}))
-    free.reset();
-  if (free) {
-    moved.chain = std::move(free->chain);
-    return false;
+  if (!sweeps()) {
+    ++edges.edges;
+  } else {
+    if (is_swept_free(path, corner, moved)) return false;
+    tried.answer.swept_edges |= std::uint64_t{1} << number;
   }
-  tried.answer.swept_edges |= std::uint64_t{1} << number;
+  const Particle<D>& q = body_.particles[corner.other];
+  const bool stops = sweep_.touch == Touch::stop;
   const std::uint64_t signs_before = signs();
   Chain_result<D> anew = find_chain(snapshot(), path.to, q, edges.walk, false);
   // Where a wall is passed in its inside, no other way helps.
@@ -356,7 +245,9 @@ bool Target_step<D>::sweep_meets_at_end(const Vertex_path<D>& path, std::size_t 
   if (stops && !is_crossed) {
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      if (tried.keep(meeting(path.to.cell, {path.to.position, q.position, path.to.position}))) return true;
+      if (tried.keep(closed_meeting<D>(snapshot(), path.to.cell,
+                                       {path.to.position, q.position, path.to.position}, edges)))
+        return true;
       anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }
   } else if (anew.contact && !is_crossed) {

@@ -35,19 +35,6 @@ struct Tried_move {
   }
 };
 
-/// How edges were proved free: the counts of an attempt, which are added once it succeeds.
-struct Edge_proofs {
-  std::uint64_t edges = 0, same_cell = 0, convex_pair = 0, same_chain = 0, chain_facets = 0;
-
-  void add_to(Edge_counts& counts) const {
-    counts.edges += edges;
-    counts.same_cell += same_cell;
-    counts.convex_pair += convex_pair;
-    counts.same_chain += same_chain;
-    counts.chain_facets += chain_facets;
-  }
-};
-
 template <int D>
 class Target_step {
  public:
@@ -59,25 +46,17 @@ class Target_step {
  private:
   const Snapshot<D>& snapshot() const { return *body_.snapshot; }
   std::uint64_t signs() const { return counts_.edges.walk.predicates.orientations; }
+  bool sweeps() const { return sweep_.sweep != Sweep::three_segments; }
 
   void find_out_if_apart();
   bool touches_wall();
-  bool try_certified_move(std::uint32_t vertex, const Point<D>& target);
   Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
   Tried_move<D> try_on_all_sides(std::uint32_t vertex, const Point<D>& target, Particle<D>& to);
   Tried_move<D> try_on_sides(std::uint32_t vertex, const Point<D>& target, Sides_taken* choices,
                              Particle<D>& to, bool& had_choice);
-  // They count in Edge_counts, or in the Edge_proofs of an attempt; walks always count in the former.
-  template <class Counts>
-  bool is_certified_free(const Particle<D>& p, const Particle<D>& q, Counts& proofs);
-  template <class Counts>
-  bool is_certified_free(const Particle<D>& from, const Particle<D>& to, const Particle<D>& q,
-                         Counts& proofs);
-  bool refresh_certified_chain(const Particle<D>& from, const Particle<D>& to, const Corner& corner,
-                               Edge_proofs& proofs);
-  bool meets_at_end(const Vertex_path<D>& path, const Corner& corner, Tried_move<D>& tried);
-  bool sweep_meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                          Moved_chain& moved, Tried_move<D>& tried);
+  bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, Moved_chain& moved,
+                    Tried_move<D>& tried);
+  bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain& moved);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
   void locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
                    const Point<D>& target) const;

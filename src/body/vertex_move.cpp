@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "body_faces.h"
+#include "chains_in_place.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -21,10 +22,10 @@ bool meets_before(const Contact<D>& a, const Contact<D>& b) {
 /// As find_contact(), while the vertex takes the given sides of walls or, without, those that it prefers.
 /// \pre its edges are not stale
 template <int D>
-std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
-                                           const Point<D>& target, const Sweep_options& options,
-                                           Body_counts& counts, bool any, Particle<D>& to,
-                                           Sides_taken* choices, Walk_result<D>& walked) {
+std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>& scratch,
+                                           std::uint32_t vertex, const Point<D>& target,
+                                           const Sweep_options& options, Body_counts& counts, bool any,
+                                           Particle<D>& to, Sides_taken* choices, Walk_result<D>& walked) {
   const Snapshot<D>& snapshot = *body.snapshot;
   const auto corners = body.topology.corners_of(vertex);
   const Particle<D> from = body.particles[vertex];
@@ -49,14 +50,31 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch& sc
   if (any && first) return first;
 
   scratch.chains.resize(corners.size());
+  Float_point<D> mapped{};
+  const bool may_confirm = may_be_in_place(body, options, false) && snapshot.frame().map(target, mapped);
+  Chains_in_place<D> in_place(body, to, mapped, path.blocked);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
     Moved_chain& moved = scratch.chains[i];
     moved.is_stale = false;
+    moved.is_in_place = may_confirm && in_place.confirms(corner);
+    const bool is_relinked =
+        !moved.is_in_place && may_confirm && !path.blocked && in_place.relinks(corner, moved.chain);
+    // Faces look into the chains of their sides.
+    if (moved.is_in_place && options.sweep == Sweep::faces) moved.chain = Edge_words<D>(body).chain(corner);
+    moved.is_free = moved.is_in_place || is_relinked;
+    if (moved.is_free) {
+      if ((is_relinked || options.sweep == Sweep::faces) && corner.is_reversed)
+        moved.chain = reversed(snapshot, moved.chain);
+      continue;
+    }
     if (any && options.touch == Touch::pass) {
       auto free = free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner), options,
                              counts.edges);
-      if (!free) return Contact<D>{};
+      if (!free) {
+        in_place.add_to(counts.edges);
+        return Contact<D>{};
+      }
       moved.chain = std::move(free->chain);
       moved.is_free = true;
       continue;
@@ -65,11 +83,13 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch& sc
                                              body.seen_from(corner), options, counts.edges);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
       keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
-      if (any) return first;
+      if (any) break;
     }
     moved.chain = swept.chain;
     moved.is_free = !swept.contact;
   }
+  in_place.add_to(counts.edges);
+  if (any && first) return first;
   scratch.supporting_walls.clear();
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, path, first, counts.faces);
@@ -79,12 +99,18 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch& sc
 }  // namespace
 
 template <int D>
-std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                    const Point<D>& target, const Sweep_options& options, Body_counts& counts,
                                    bool any) {
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) take_up_faces(body, counts);
   if (target == body.positions[vertex]) return {};
+  if (options.sweep != Sweep::faces && may_be_in_place(body, options, false) &&
+      try_move_in_place(body, vertex, target, counts)) {
+    body.are_faces_swept = false;
+    body.is_apart = false;
+    return {};
+  }
   Particle<D> to;
   if (auto first = find_contact(body, scratch, vertex, target, options, counts, any, to)) return first;
   body.are_faces_swept &= options.sweep == Sweep::faces;
@@ -97,7 +123,7 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, s
 }
 
 template <int D>
-std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                        const Point<D>& target, const Sweep_options& options,
                                        Body_counts& counts, bool any, Particle<D>& to) {
   body.refresh_vertex(vertex, counts);
@@ -122,9 +148,9 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratc
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                              \
-  template std::optional<Contact<D>> try_move(Body_state<D>&, Move_scratch&, std::uint32_t, const Point<D>&, \
-                                              const Sweep_options&, Body_counts&, bool);                     \
-  template std::optional<Contact<D>> find_contact(Body_state<D>&, Move_scratch&, std::uint32_t,              \
+  template std::optional<Contact<D>> try_move(Body_state<D>&, Move_scratch<D>&, std::uint32_t,               \
+                                              const Point<D>&, const Sweep_options&, Body_counts&, bool);    \
+  template std::optional<Contact<D>> find_contact(Body_state<D>&, Move_scratch<D>&, std::uint32_t,           \
                                                   const Point<D>&, const Sweep_options&, Body_counts&, bool, \
                                                   Particle<D>&);
 

@@ -15,14 +15,14 @@ namespace cellwalk::detail {
 /// Moves a vertex to a target, or leaves everything as it is and returns the first contact; with `any` set
 /// some contact, which need not have a place.
 template <int D>
-std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                    const Point<D>& target, const Sweep_options& options, Body_counts& counts,
                                    bool any = false);
 
 /// Only looks for it. If there is none, the scratch holds what the move takes to be made, and `to` the vertex
 /// at its target.
 template <int D>
-std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch& scratch, std::uint32_t vertex,
+std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                        const Point<D>& target, const Sweep_options& options,
                                        Body_counts& counts, bool any, Particle<D>& to);
 

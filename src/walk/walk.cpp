@@ -9,7 +9,7 @@ namespace cellwalk {
 
 template <int D>
 Cell detail::certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
-                         Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed) {
+                         Walk_counts& counts, std::vector<Half_facet>* crossed) {
   Float_point<D> a, b;
   if (!snapshot.frame().map(from.position, a) || !snapshot.frame().map(target, b)) return Cell::none;
   const Frame_line<D> line(a, b);
@@ -75,9 +75,9 @@ template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>
                                                           Walk_counts&, const Walk_options&);
 
 template Cell detail::certain_end<2>(const Snapshot<2>&, const Particle<2>&, const Point<2>&, Walk_counts&,
-                                     boost::container::small_vector_base<Half_facet>*);
+                                     std::vector<Half_facet>*);
 template Cell detail::certain_end<3>(const Snapshot<3>&, const Particle<3>&, const Point<3>&, Walk_counts&,
-                                     boost::container::small_vector_base<Half_facet>*);
+                                     std::vector<Half_facet>*);
 
 CELLWALK_INSTANTIATE(Exact, 2)
 CELLWALK_INSTANTIATE(Exact, 3)

@@ -14,6 +14,7 @@
 #include "body/random_bodies.h"
 #include "body/random_edits.h"
 #include "walk/oracle_trial.h"
+#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {
@@ -52,6 +53,7 @@ class Interleaving {
       } catch (const Error&) {  // no room there
         continue;
       }
+      have_regions(*body);
       ++seen_.bodies;
       seen_.most_vertices = std::max(seen_.most_vertices, soup.points.size());
       follow(*body, calls);
@@ -178,7 +180,9 @@ class Interleaving {
     soup.edges.assign(body.edges().begin(), body.edges().end());
     for (const Point<D>& x : soup.points)
       if (locator_.locate(x).dimension != D) return {};  // it stopped at a wall
-    return Body<D>(snapshot_, locator_, soup);
+    Body<D> anew(snapshot_, locator_, soup);
+    have_regions(anew);
+    return anew;
   }
 
   const oracle::World<D> world_;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "body/rooms.h"
+#include "body/with_regions.h"
 
 namespace cellwalk::test {
 namespace {
@@ -54,6 +55,7 @@ Flight fly(const Snapshot<3>& snapshot, const Locator<3>& locator, std::uint64_t
     if (v > 0) rod.edges.push_back({v - 1, v});
   }
   Body<3> body(snapshot, locator, rod);
+  have_regions(body);
   Flight flight;
   Body_counts counts;
   for (int k = 0; k < steps; ++k) {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "body/rooms.h"
+#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {
@@ -226,6 +227,7 @@ class Chains_about_corners {
         }
       }
     start_.emplace(snapshot_, locator, soup_);
+    have_regions(*start_);
   }
 
   const Snapshot<D>& snapshot_;

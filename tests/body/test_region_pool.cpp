@@ -19,6 +19,7 @@
 
 #include "body/clear_region.h"
 #include "body/rooms.h"
+#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {
@@ -270,6 +271,7 @@ TEST(RegionPool, IsForgottenWhereAWallIsPutUp) {
   const Snapshot<3>& snapshot = environment.snapshot();
   const Locator<3> locator(snapshot);
   Body<3> body(snapshot, locator, rod(0.5, 0.5));
+  have_regions(body);
   Body_counts counts;
   EXPECT_EQ(wave(body, 60, 0.5, counts), 0u) << "there is no wall between the storeys";
   EXPECT_GT(counts.in_region, 2000u);
@@ -302,6 +304,7 @@ TEST(RegionPool, HoldsWhatRestsOnAnObliqueFloor) {
   Body_soup<3> lying = rod(0.5, 0.3);
   for (Point<3>& x : lying.points) x[2] = 0.25 * x[0] + 0.05;
   Body<3> body(snapshot, locator, lying);
+  have_regions(body);
   Body_counts counts;
   Step_report<3> report;
   const auto move_by = [&](const Vector<3>& d, int steps) {
@@ -331,6 +334,7 @@ TEST(RegionPool, RegionsLeftWithTheBodyDoNotHold) {
     soup.points.push_back({0.5, 2.5});  // behind the solid cell
     for (int v = 1; v < 40; ++v) soup.points.push_back({0.5 + 0x1p-8 * v, 0.5});
     Body<2> body(snapshot, locator, soup);
+    have_regions(body);
     Body_counts counts;
     Step_report<2> report;
     std::vector<Point<2>> targets = soup.points;
@@ -369,6 +373,7 @@ TEST(RegionPool, RegionsInUseAreKept) {
   Body_soup<2> soup;
   for (std::uint32_t v = 0; v < vertices; ++v) soup.points.push_back({0.5, 2 * v + 0.5});
   Body<2> body(snapshot, locator, soup);
+  have_regions(body);
   Body_counts counts;
   Step_report<2> report;
   std::vector<Point<2>> targets = soup.points;

@@ -21,6 +21,7 @@
 #include "body/random_bodies.h"
 #include "body/rooms.h"
 #include "walk/oracle_trial.h"
+#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {
@@ -62,6 +63,8 @@ class Twins {
       } catch (const Error&) {  // no room there
         continue;
       }
+      // All kinds of bodies have regions, so that these are saved.
+      have_regions(*body);
       ++seen_.bodies;
       seen_.with_faces += !body->faces().empty();
       follow(*body, calls);

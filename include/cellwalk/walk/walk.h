@@ -136,18 +136,23 @@ inline Cell_view<D> view_of_particle(const Snapshot<D>& snapshot, Cell cell) {
   return snapshot.view(cell);
 }
 
-/// True if x is certainly strictly inside a cell of at most eight facets.
+/// True if a point of the frame is certainly strictly inside a cell of at most eight facets.
 template <int D>
-inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point<D>& x, Walk_counts& counts) {
+inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Float_point<D>& y,
+                             Walk_counts& counts) {
   const std::size_t blocks = snapshot.block_count(cell);
-  Float_point<D> y;
-  if (blocks > 2 || !snapshot.frame().map(x, y)) return false;
+  if (blocks > 2) return false;
   counts.plane_blocks += blocks;
   const Plane_block<D>* planes = snapshot.blocks(cell);
   if (blocks == 1) return lane_mask(evaluate(planes[0], y) < -plane_error) == 0xf;
   const Spread_point<D> lanes = spread<D>(y);
   return lane_mask((evaluate(planes[0], lanes) < -plane_error) &
                    (evaluate(planes[1], lanes) < -plane_error)) == 0xf;
+}
+template <int D>
+inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point<D>& x, Walk_counts& counts) {
+  Float_point<D> y;
+  return snapshot.frame().map(x, y) && certainly_inside<D>(snapshot, cell, y, counts);
 }
 
 /// The end of a free walk that planes alone decide: the cell whose interior contains the target. Cell::none,
@@ -156,7 +161,7 @@ inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point
 /// Cost: that of walk() without its report.
 template <int D>
 Cell certain_end(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& target,
-                 Walk_counts& counts, boost::container::small_vector_base<Half_facet>* crossed = nullptr);
+                 Walk_counts& counts, std::vector<Half_facet>* crossed = nullptr);
 
 template <class Kernel, int D>
 Walk_result<D> move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,

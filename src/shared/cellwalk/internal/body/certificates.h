@@ -13,14 +13,17 @@ namespace cellwalk::detail {
 /// Each is sound by itself; without one, only the cost is different. Those of an edge are chosen with the
 /// sweep, see Edge_certificates; without Body_options::clearance there are no regions at all.
 struct Body_certificates {
-  bool body_region = true;   ///< one region for the whole body
-  bool star_regions = true;  ///< a pool of regions, each about a star
-  bool clusters = true;      ///< walls near a region are found by clusters of cells, not cell by cell
-  bool planes = true;        ///< moves that planes alone prove free, by Edge_rule::at_target
+  bool body_region = true;      ///< one region for the whole body
+  bool star_regions = true;     ///< a pool of regions, each about a star
+  bool clusters = true;         ///< walls near a region are found by clusters of cells, not cell by cell
+  bool chains_in_place = true;  ///< chains of edges are confirmed where they stand
   /// Bodies of so many vertices have regions about stars, and clusters.
   std::size_t least_vertices_of_parts = 33;
   /// Of these, bodies of so many vertices make the moves that known regions prove free at once.
   std::size_t least_vertices_at_once = 2048;
+  /// Of the first, those with fewer edges a vertex, as rods, have no regions at all: in place, their edges
+  /// cost less than the searches.
+  std::size_t least_edges_a_vertex = 2;
 };
 
 // use_certificates(body, chosen, counts), declared with Body, chooses the certificates of one body, which

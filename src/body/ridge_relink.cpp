@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "ridge_relink.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace cellwalk::detail {
+namespace {
+
+/// A ridge by its points: two in 3D, one in 2D, which stands twice.
+using Ridge = std::array<std::uint32_t, 2>;
+
+template <int D>
+bool has_ridge(const Cell_view<D>& cell, std::size_t facet, const Ridge& ridge) {
+  int found = 0;
+  for (const std::uint16_t v : cell.loop(facet)) {
+    const std::uint32_t point = cell.point_index(v);
+    found += (point == ridge[0]) + (point == ridge[1]);
+  }
+  return found == 2;
+}
+
+/// The other facet of a cell at a ridge of a facet; Half_facet::none if there is not one alone.
+template <int D>
+Half_facet across(const Snapshot<D>& snapshot, Half_facet facet, const Ridge& ridge) {
+  const Cell cell = snapshot.cell_of(facet);
+  const Cell_view<D> view = snapshot.view(cell);
+  Half_facet other = Half_facet::none;
+  for (std::size_t i = 0; i < view.facet_count(); ++i) {
+    const Half_facet f = Snapshot<D>::half_facet(cell, i);
+    if (f == facet || !has_ridge(view, i, ridge)) continue;
+    if (other != Half_facet::none) return Half_facet::none;
+    other = f;
+  }
+  return other;
+}
+
+template <int D>
+class Ridge_relink {
+ public:
+  Ridge_relink(const Snapshot<D>& snapshot, const Certain_line<D>& line,
+               const std::array<Spread_point<D>, 2>& ends)
+      : snapshot_(snapshot), line_(line), ends_(ends) {}
+
+  /// True if the line certainly passes a facet, or all but one ridge of it on their inner sides: that is set
+  /// then.
+  bool passes_but_one(Half_facet facet, std::optional<Ridge>& beyond) {
+    corners_.clear();
+    append_corners(snapshot_, facet, corners_);
+    beyond.reset();
+    constexpr std::size_t ridges_a_part = 3;
+    for (std::size_t part = 0; part < corners_.size(); ++part) {
+      const unsigned not_passed = ~line_.ridges_passed(corners_[part]) & Certain_line<D>::all_lanes;
+      if (not_passed == 0) continue;
+      if (beyond || !std::has_single_bit(not_passed)) return false;
+      beyond = ridge(facet, part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
+    }
+    return true;
+  }
+  bool passes(Half_facet facet) {
+    std::optional<Ridge> beyond;
+    return passes_but_one(facet, beyond) && !beyond;
+  }
+  /// True if a facet has one ridge beyond the line, which is set then, and the ends of the edge certainly lie
+  /// on both sides of its plane.
+  bool is_passed_but_for_one(Half_facet facet, std::optional<Ridge>& beyond) {
+    return passes_but_one(facet, beyond) && beyond &&
+           distance_from_plane(snapshot_, facet, ends_[0]) < -plane_error &&
+           distance_from_plane(snapshot_, facet, ends_[1]) > plane_error;
+  }
+  /// Appends the facets on the other way round a ridge, from the cell before a run of facets to that after
+  /// it.
+  bool go_round(Half_facet first, Half_facet last, const Ridge& ridge, Chain& word) {
+    const Cell end = snapshot_.neighbour(last);
+    Half_facet f = across(snapshot_, first, ridge);
+    for (std::size_t facets = 0; facets < most_facets_round; ++facets) {
+      if (f == Half_facet::none || snapshot_.is_impassable(f) || !passes(f)) return false;
+      word.push_back(f);
+      if (snapshot_.neighbour(f) == end) return true;
+      const Half_facet behind = snapshot_.opposite(f);
+      if (behind == Half_facet::none) return false;
+      f = across(snapshot_, behind, ridge);
+    }
+    return false;
+  }
+
+ private:
+  /// More are seldom, and walked round as fast.
+  static constexpr std::size_t most_facets_round = 16;
+
+  Ridge ridge(Half_facet facet, std::size_t number) const {
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(facet));
+    const auto loop = cell.loop(snapshot_.facet_of(facet));
+    const std::uint32_t u = cell.point_index(loop[number]);
+    return {u, D == 2 ? u : cell.point_index(loop[(number + 1) % loop.size()])};
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Certain_line<D>& line_;
+  const std::array<Spread_point<D>, 2>& ends_;
+  std::vector<Facet_corners<D>> corners_;
+};
+
+}  // namespace
+
+template <int D>
+bool relink_at_ridges(const Snapshot<D>& snapshot, const Certain_line<D>& line,
+                      const std::array<Spread_point<D>, 2>& ends, Chain& word) {
+  Ridge_relink<D> relink(snapshot, line, ends);
+  Chain result;
+  std::optional<Ridge> beyond, next;
+  for (std::size_t i = 0; i < word.size();) {
+    if (relink.passes(word[i])) {
+      result.push_back(word[i++]);
+      continue;
+    }
+    if (!relink.is_passed_but_for_one(word[i], beyond)) return false;
+    const Half_facet first = word[i];
+    Half_facet last = first;
+    while (++i < word.size() && relink.is_passed_but_for_one(word[i], next) && next == beyond) last = word[i];
+    if (!relink.go_round(first, last, *beyond, result)) return false;
+  }
+  word = result;
+  return true;
+}
+
+template bool relink_at_ridges(const Snapshot<2>&, const Certain_line<2>&,
+                               const std::array<Spread_point<2>, 2>&, Chain&);
+template bool relink_at_ridges(const Snapshot<3>&, const Certain_line<3>&,
+                               const std::array<Spread_point<3>, 2>&, Chain&);
+
+}  // namespace cellwalk::detail
