@@ -59,7 +59,13 @@ void Body_state<D>::set_chain(std::uint32_t edge, const Chain& chain) {
 
 template <int D>
 void Body_state<D>::read_corners(std::uint32_t edge) {
-  for (const Half_facet f : chains[edge]) append_corners(*snapshot, f, corners_of_chains[edge]);
+  std::vector<Facet_corners<D>>& corners = corners_of_chains[edge];
+  try {
+    for (const Half_facet f : chains[edge]) append_corners(*snapshot, f, corners);
+  } catch (...) {  // memory ran out: a part must not be taken for all
+    corners.clear();
+    throw;
+  }
 }
 
 template <int D>

@@ -104,6 +104,11 @@ void Edge_words<D>::take_over(const Corner& corner) {
   std::vector<Facet_corners<D>>& corners = body_.corners_of_chains[corner.edge];
   const auto kept = static_cast<std::ptrdiff_t>(corners_kept(corner, undone).size());
   const auto added = corners_added(corner, undone);
+  const std::vector<Half_facet>& seen = behind();
+  // Nothing fails after this, so that the chain and its corners go together.
+  chain.reserve(size(corner, undone));
+  if (const std::size_t needed = static_cast<std::size_t>(kept) + added.size(); corners.capacity() < needed)
+    corners.reserve(2 * needed);
   if (corner.is_reversed) {
     chain.resize(chain.size() - undone);
     for (std::size_t i = undone; i < crossed_.size(); ++i) chain.push_back(crossed_[i]);
@@ -111,7 +116,7 @@ void Edge_words<D>::take_over(const Corner& corner) {
     corners.insert(corners.end(), added.begin(), added.end());
   } else {
     chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(undone));
-    for (std::size_t i = undone; i < crossed_.size(); ++i) chain.insert(chain.begin(), behind()[i]);
+    for (std::size_t i = undone; i < crossed_.size(); ++i) chain.insert(chain.begin(), seen[i]);
     corners.erase(corners.begin(), corners.end() - kept);
     corners.insert(corners.begin(), added.begin(), added.end());
   }
