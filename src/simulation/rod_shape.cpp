@@ -137,48 +137,87 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
   }
 }
 
+namespace {
+
+/// What does not change in the passes of a relaxation, of a vertex between two links.
+struct Joint {
+  double t, one_less_t;        ///< the share of the second end in the place of the vertex on a line
+  double first, second, step;  ///< shares of the ends in a correction, and its size
+  double angle, cosine, sine;  ///< of half the natural bend
+  double inwards;              ///< the distance from the line where it is bent by nature
+  bool is_free;                ///< some of the three vertices may move
+};
+
+/// The same, of a link.
+struct Link {
+  double rest, first, second;  ///< its length, and whether its ends move, 0 or 1
+  double share;                ///< of each end that moves
+};
+
+}  // namespace
+
 template <int D>
 void relax(const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Point<D>> vertices) {
   const std::size_t count = state.count(vertices.size());
   if (count == 0) return;
   const std::vector<Vector<D>> across = curve_directions<D>(state, bend.twist, vertices);
-  Point<D> entry = state.entry, guide = state.entry - state.spacing * state.direction;  // never moved
-  const auto vertex = [&](std::size_t i) -> Point<D>& {
-    return i < count ? vertices[i] : i == count ? entry : guide;
-  };
+  // The entry and a point of the guide follow, which never move.
+  std::vector<Point<D>> points(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(count));
+  points.push_back(state.entry);
+  points.push_back(state.entry - state.spacing * state.direction);
   const auto weight = [&](std::size_t i) { return i >= count || (i == 0 && bend.holds_tip) ? 0.0 : 1.0; };
-  const auto rest = [&](std::size_t i) {  // of the link from i to i + 1
-    return i < count ? state.rest(i) - state.rest_before(vertices.size(), i) : state.spacing;
-  };
+  std::vector<Link> links(count + 1);
+  for (std::size_t i = 0; i <= count; ++i) {
+    const double rest = i < count ? state.rest(i) - state.rest_before(vertices.size(), i) : state.spacing;
+    const double sum = weight(i) + weight(i + 1);
+    links[i] = {rest, weight(i), weight(i + 1), sum > 0 ? 1 / sum : 0};
+  }
+  std::vector<Joint> joints(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double la = links[i].rest, lb = links[i + 1].rest, t = la / (la + lb);
+    const double sum = weight(i) * (1 - t) * (1 - t) + weight(i + 2) * t * t + weight(i + 1);
+    const double angle = i + 1 < count ? bend.angle(i + 1, state.spacing) : 0;
+    joints[i] = {t,
+                 1 - t,
+                 weight(i) * (1 - t),
+                 weight(i + 2) * t,
+                 bend.stiffness / sum,
+                 angle,
+                 std::cos(angle / 2),
+                 std::sin(angle / 2),
+                 2 * la * lb / (la + lb) * std::sin(angle / 2),
+                 sum > 0};
+  }
   const auto straighten = [&](std::size_t i) {
     // The middle one of three vertices should lie on the line through the others, but for its natural bend.
-    Point<D>&a = vertex(i), &m = vertex(i + 1), &b = vertex(i + 2);
-    const double la = rest(i), lb = rest(i + 1), t = la / (la + lb);
-    Vector<D> off = (1 - t) * a + t * b - m;
-    if (const double angle = i + 1 < count ? bend.angle(i + 1, state.spacing) : 0; angle > 0) {
-      const Vector<D> inwards = bent(across[i + 1], -1.0 * normalized(m - b, state.direction), angle / 2);
-      off = off - (2 * la * lb / (la + lb) * std::sin(angle / 2)) * inwards;
+    const Joint& joint = joints[i];
+    Point<D>&a = points[i], &m = points[i + 1], &b = points[i + 2];
+    Vector<D> off = joint.one_less_t * a + joint.t * b - m;
+    if (joint.angle > 0) {
+      const Vector<D> back = -1.0 * normalized(m - b, state.direction);
+      off = off - joint.inwards * (joint.cosine * across[i + 1] + joint.sine * back);
     }
-    const double sum = weight(i) * (1 - t) * (1 - t) + weight(i + 2) * t * t + weight(i + 1);
-    if (!(sum > 0)) return;
-    const Vector<D> change = (bend.stiffness / sum) * off;
-    a = a - (weight(i) * (1 - t)) * change;
-    b = b - (weight(i + 2) * t) * change;
-    m = m + weight(i + 1) * change;
+    if (!joint.is_free) return;
+    const Vector<D> change = joint.step * off;
+    a = a - joint.first * change;
+    b = b - joint.second * change;
+    m = m + links[i].second * change;
   };
   const auto stretch = [&](std::size_t i) {
-    Point<D>&a = vertex(i), &b = vertex(i + 1);
-    const Vector<D> link = a - b;
-    const double now = length(link), sum = weight(i) + weight(i + 1);
-    if (!(now > 0) || !(sum > 0)) return;
-    const Vector<D> change = ((now - rest(i)) / now / sum) * link;
-    a = a - weight(i) * change;
-    b = b + weight(i + 1) * change;
+    const Link& link = links[i];
+    Point<D>&a = points[i], &b = points[i + 1];
+    const Vector<D> way = a - b;
+    const double now = length(way);
+    if (!(now > 0) || !(link.share > 0)) return;
+    const Vector<D> change = ((now - link.rest) / now * link.share) * way;
+    a = a - link.first * change;
+    b = b + link.second * change;
   };
   for (int pass = 0; pass < relaxation_passes; ++pass) {
     for (std::size_t i = count; i-- > 0;) straighten(i);
     for (std::size_t i = count; i-- > 0;) stretch(i);
   }
+  std::copy_n(points.begin(), count, vertices.begin());
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                             \
