@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/certain_line.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace cellwalk::detail {
@@ -27,22 +29,23 @@ void append_corners(const Plane_frame<D>& frame, const Cell_view<D>& cell, std::
   // Of more than four corners, each but the first repeats the last one before it.
   const std::size_t step = loop.size() <= lanes ? lanes : lanes - 1;
   for (std::size_t first = 0; first < loop.size(); first += step) {
+    std::array<const Point<D>*, lanes> points;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      points[lane] = &cell.point(loop[first + lane < loop.size() ? first + lane : 0]);
     Facet_corners<D>& some = corners.emplace_back();
     some.continues = first + step < loop.size();
-    some.ignored = 0;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      std::size_t number = first + lane;
-      if (number >= loop.size() || lane >= step) some.ignored |= 1u << lane;
-      if (number >= loop.size()) number = 0;
-      const Point<D>& corner = cell.point(loop[number]);
-      for (std::size_t k = 0; k < D; ++k)
-        some.lanes[k][lane] = static_cast<float>((corner[k] - frame.centre[k]) * frame.scale);
+    some.ignored = all_lanes << std::min(step, loop.size() - first) & all_lanes;
+    Int4 is_inside{-1, -1, -1, -1};
+    for (std::size_t k = 0; k < D; ++k) {
+      const auto mapped = [&](std::size_t lane) {
+        return static_cast<float>(((*points[lane])[k] - frame.centre[k]) * frame.scale);
+      };
+      some.lanes[k] = Float4{mapped(0), mapped(1), mapped(2), mapped(3)};
+      is_inside &= std::bit_cast<Float4>(std::bit_cast<Int4>(some.lanes[k]) & 0x7fffffff) <= 1;
     }
     // Outside of the frame the bound does not hold; nothing compares with NaN.
-    for (Float4& ends : some.lanes) {
-      const Float4 size = std::bit_cast<Float4>(std::bit_cast<Int4>(ends) & 0x7fffffff);
-      if (lane_mask(size <= 1) != all_lanes) ends += std::numeric_limits<float>::quiet_NaN();
-    }
+    if (lane_mask(is_inside) != all_lanes) [[unlikely]]
+      for (Float4& ends : some.lanes) ends += std::numeric_limits<float>::quiet_NaN();
   }
 }
 

@@ -79,6 +79,9 @@ class Certain_line {
     error_ = Float4{error, error, error, error};
   }
 
+  /// False: nothing is certain of the line.
+  bool is_certain() const { return error_[0] < most_length; }
+
   /// True proves that the line leads through the interior of a facet, out of the cell from which its corners
   /// are seen. False is inconclusive.
   /// \param corners some of its corners: the facet is passed if this is true of all
@@ -87,6 +90,24 @@ class Certain_line {
   bool passes(const Facet_corners<D>& corners) const { return ridges_passed(corners) == all_lanes; }
   /// The ridges on whose inner side the line certainly passes, as a bit mask, with the lanes ignored.
   unsigned ridges_passed(const Facet_corners<D>& corners) const {
+    const Turn turn = turn_round_ridges(corners);
+    return lane_mask(turn.sign > turn.bound) | corners.ignored;
+  }
+  /// The ridges round which the line certainly turns in one direction, and in the other, as bit masks.
+  struct Sides {
+    unsigned inner, outer;
+  };
+  Sides sides(const Facet_corners<D>& corners) const {
+    const Turn turn = turn_round_ridges(corners);
+    return {lane_mask(turn.sign > turn.bound) & ~corners.ignored,
+            lane_mask(-turn.sign > turn.bound) & ~corners.ignored};
+  }
+
+ private:
+  struct Turn {
+    Float4 sign, bound;
+  };
+  Turn turn_round_ridges(const Facet_corners<D>& corners) const {
     std::array<Float4, D> w;
     for (std::size_t k = 0; k < D; ++k) w[k] = corners.lanes[k] - start_[k];
     Float4 sign, bound;
@@ -102,10 +123,9 @@ class Certain_line {
       sign = (first - second) * Float4{-1, 1, 1, 1};
       bound = 1.03F * error_ + (4.1F * part) * (magnitude(first) + magnitude(second));
     }
-    return lane_mask(sign > bound) | corners.ignored;
+    return {sign, bound};
   }
 
- private:
   static constexpr float unit = 0x1p-24F, part = unit * Part::num / Part::den;
   /// In the frame. What underflows in shorter lines may exceed the bound.
   static constexpr float least_length = 0x1p-60F, most_length = 0x1p60F;
