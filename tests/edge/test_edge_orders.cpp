@@ -13,6 +13,7 @@
 #include "edge/edge_worlds.h"
 #include "edge/sweep_judge.h"
 #include "edge/thin_worlds.h"
+#include "oracle/squares_and_cubes.h"
 #include "walk/oracle_trial.h"
 #include "walk/reordered.h"
 
@@ -248,6 +249,32 @@ void test_sliding_orders() {
 
 TEST(EdgeOrders, DoNotShowWhereEdgesSlide2) { test_sliding_orders<2>(); }
 TEST(EdgeOrders, DoNotShowWhereEdgesSlide3) { test_sliding_orders<3>(); }
+
+/// An edge at the rim of a membrane turns into its plane, its moving end along another rim, and may pass the
+/// membrane on both sides. The certificate of the same cell takes the lower one, the events the upper one.
+TEST(EdgeOrders, CertificatesTakeTheSameSideOfAMembrane3) {
+  Cell_soup<3> cubes = oracle::make_cubes(3, 3, 2);
+  const std::uint32_t below = 4, above = 13;
+  oracle::set_wall(cubes, below, above);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(cubes, glue(cubes));
+  const oracle::Chain_oracle<3> oracle(cubes);
+  const Point<3> target{1.5, 2, 1};
+  const Particle<3> p{{1, 2, 1}, snapshot.cell(below), 0}, q{{1, 1.25, 1}, snapshot.cell(below), 1};
+  Walk_counts walks;
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  Particle<3> to = p;
+  ASSERT_FALSE(move(snapshot, to, target, walks, {Walk_strategy::certified, &visited, &crossed}).contact);
+  std::vector<oracle::Placed_chain> chains;
+  for (const Edge_certificates& certificates :
+       {Edge_certificates{}, Edge_certificates{false, false, false, false}}) {
+    Edge_counts counts;
+    const auto swept = sweep_triangle<3>(snapshot, {p, to, visited, crossed}, q, {}, counts, certificates);
+    ASSERT_FALSE(swept.contact);
+    chains.push_back({snapshot.index(to.cell), below, soup_chain(cubes, snapshot, swept.chain)});
+  }
+  EXPECT_TRUE(oracle.are_equal(target, q.position, chains[0], chains[1]));
+}
 
 }  // namespace
 }  // namespace cellwalk::test

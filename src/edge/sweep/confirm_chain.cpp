@@ -3,32 +3,28 @@
 
 #include <cellwalk/internal/walk/signs.h>
 
+#include <algorithm>
+
 #include "edge/chain/chain_of_walk.h"
 
 namespace cellwalk {
 namespace {
 
 /// False proves that an edge that passes a chain throughout its sweep has no choice of sides: no wall of the
-/// cells of the chain lies in the plane of the triangle, or in each of these cells only walls do, so that no
-/// wall begins.
+/// cells of the chain lies in the plane of the triangle.
 bool may_have_choice(const Snapshot<3>& snapshot, const Swept_triangle<3>& t, Cell start, const Chain& chain,
                      Walk_counts& counts) {
-  bool has_wall = false, has_opening = false;
-  const auto look_at = [&](Cell c) {
+  const auto has_wall = [&](Cell c) {
     const Cell_view<3> cell = snapshot.view(c);
-    bool has_facet = false;
-    for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-      if (detail::side<Exact>(cell, i, t.q, counts) != 0 || detail::side<Exact>(cell, i, t.b, counts) != 0 ||
-          detail::side<Exact>(cell, i, t.a, counts) != 0)
-        continue;
-      has_facet = true;
-      (snapshot.is_impassable(Snapshot<3>::half_facet(c, i)) ? has_wall : has_opening) = true;
-    }
-    has_opening |= !has_facet;
+    for (std::size_t i = 0; i < cell.facet_count(); ++i)
+      if (snapshot.is_impassable(Snapshot<3>::half_facet(c, i)) &&
+          detail::side<Exact>(cell, i, t.q, counts) == 0 && detail::side<Exact>(cell, i, t.b, counts) == 0 &&
+          detail::side<Exact>(cell, i, t.a, counts) == 0)
+        return true;
+    return false;
   };
-  look_at(start);
-  for (const Half_facet f : chain) look_at(snapshot.neighbour(f));
-  return has_wall && has_opening;
+  if (has_wall(start)) return true;
+  return std::ranges::any_of(chain, [&](Half_facet f) { return has_wall(snapshot.neighbour(f)); });
 }
 
 /// In 2D, walls lie in the line of an edge only while its end moves in that line; then the end has the
