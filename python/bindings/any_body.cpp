@@ -7,7 +7,6 @@
 
 #include <fmt/core.h>
 #include <pybind11/stl.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -122,9 +121,7 @@ std::size_t Any_body::vertex_count() const {
   return std::visit([](const auto& body) { return body.vertex_count(); }, body_);
 }
 
-py::array Any_body::step(const py::object& targets, Body_options options, int threads) {
-  check_threads(threads);
-  options.parallel = threads != 1;
+py::array Any_body::step(const py::object& targets, const Body_options& options) {
   return std::visit(
       [&]<int D>(Body<D>& body) -> py::array {
         const auto to = targets_of(body, targets);
@@ -134,8 +131,7 @@ py::array Any_body::step(const py::object& targets, Body_options options, int th
         std::vector<Rejected_row<D>> blocked;
         {
           const typename World<D>::Reading world(std::get<World<D>>(*environment_->world), *moving_);
-          const auto step = [&] { body.step(to, options, report, counts_); };
-          threads > 1 ? tbb::task_arena(threads).execute(step) : step();
+          body.step(to, options, report, counts_);
           for (const Contact<D>& met : report.contacts) contacts.push_back(to_row(world.snapshot(), met));
           for (const Rejected_move<D>& move : report.blocked)
             blocked.push_back(to_row(world.snapshot(), move));

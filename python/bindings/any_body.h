@@ -30,7 +30,7 @@ class Any_body {
   py::array_t<std::uint32_t> edges() const;
   py::array_t<std::uint32_t> faces() const;
   std::size_t vertex_count() const;
-  py::array step(const py::object& targets, Body_options options, int threads);
+  py::array step(const py::object& targets, const Body_options& options);
   py::array_t<std::uint32_t> neighbours(std::uint32_t vertex) const;
   py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options);
   void validate();

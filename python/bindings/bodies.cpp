@@ -68,16 +68,14 @@ void bind_bodies(py::module_& module) {
           "step",
           [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
              const std::string& search, double tolerance, const std::string& policy, const std::string& edges,
-             const std::string& report, bool clearance, int most_contacts, int threads) {
-            return self.step(targets,
-                             to_options({sweep, touch, search, "flooded", tolerance}, {policy, edges, report},
-                                        clearance, most_contacts),
-                             threads);
+             const std::string& report, bool clearance, int most_contacts) {
+            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance},
+                                                 {policy, edges, report}, clearance, most_contacts));
           },
           py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
           py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("policy") = "slide",
           py::arg("edges") = "swept", py::arg("report") = "contacts", py::arg("clearance") = true,
-          py::arg("most_contacts") = 4, py::arg("threads") = 1,
+          py::arg("most_contacts") = 4,
           "Moves the vertices one after the other to their targets, as far as walls allow. Returns the "
           "contacts as a structured array: vertex (that moved), feature (number of the vertex, edge or face "
           "that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
@@ -97,8 +95,7 @@ void bind_bodies(py::module_& module) {
           "time and point along the edge. swept_edges, unless sweep is \"three_segments\": a wall is in "
           "their "
           "way while they sweep their triangles, which does not hold the vertex back: where nothing else "
-          "does, stays is False, time is nan and cell is -1.\n\n"
-          "threads: of a body of some thousand vertices; 0: all cores. The results do not depend on it.")
+          "does, stays is False, time is nan and cell is -1.")
       .def("neighbours", &Any_body::neighbours, py::arg("vertex"),
            "uint32 (K,): the other ends of the edges of a vertex, ascending.")
       .def(

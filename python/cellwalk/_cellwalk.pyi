@@ -332,7 +332,6 @@ class Body:
         report: Literal["contacts", "blocked"] = "contacts",
         clearance: bool = True,
         most_contacts: int = 4,
-        threads: int = 1,
     ) -> numpy.typing.NDArray[numpy.void]: ...
     def neighbours(self, vertex: int) -> numpy.typing.NDArray[numpy.uint32]: ...
     def move_vertex(

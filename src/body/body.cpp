@@ -71,8 +71,7 @@ template <int D>
   counts.moves += targets.size();
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
   if (options.edges == Edge_rule::at_target)
-    detail::Target_step<D>(body, options.sweep, counts)
-        .move_each(targets, options.reported, options.parallel, report);
+    detail::Target_step<D>(body, options.sweep, counts).move_each(targets, options.reported, report);
   else
     detail::move_each(body, targets, options, report.contacts, counts);
 }

@@ -27,7 +27,7 @@ std::size_t place_of(std::span<const Corner> edges, std::uint32_t edge) {
 /// The chain of an edge of the vertex after its move, from the vertex; null if the edge is blocked.
 const Chain* moved_chain(const Body_state<3>& body, const Move_scratch<3>& scratch, std::uint32_t vertex,
                          std::uint32_t edge) {
-  const Moved_chain& moved = scratch.chains[place_of(body.topology.corners_of(vertex), edge)];
+  const Moved_chain<3>& moved = scratch.chains[place_of(body.topology.corners_of(vertex), edge)];
   return moved.is_free ? &moved.chain : nullptr;
 }
 

@@ -7,11 +7,13 @@
 
 namespace cellwalk::detail {
 
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices) {
-  if (vertices < chosen.least_vertices_of_parts ||
-      topology.edges().size() >= chosen.least_edges_a_vertex * vertices)
-    return chosen;
-  chosen.body_region = chosen.star_regions = false;
+bool is_rod(const Body_topology& topology, std::size_t vertices, const Body_certificates& chosen) {
+  return vertices >= chosen.least_vertices_of_parts &&
+         topology.edges().size() < chosen.least_edges_a_vertex * vertices;
+}
+
+Body_certificates worthwhile(Body_certificates chosen, bool is_rod) {
+  chosen.body_region &= !is_rod;
   return chosen;
 }
 
@@ -26,6 +28,9 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
   pool.prepare(of_snapshot, particles);
+  // Their first steps test all edges.
+  if (is_rod(topology, positions.size(), of_body))
+    for (std::uint32_t e = 0; e < chains.size(); ++e) read_corners(e);
 }
 
 template <int D>
@@ -40,10 +45,10 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> 
       corners_of_chains(chains.size()),
       corners_epoch(of_snapshot.geometry_epoch()),
       supporting_walls(topology.faces().size()),
-      region(positions.size(), topology.edges().size(), worthwhile(of_body, topology, positions.size())),
-      pool(positions.size(), worthwhile(of_body, topology, positions.size())),
-      certificates(of_body),
-      free_moves(positions.size(), worthwhile(of_body, topology, positions.size())) {}
+      region(positions.size(), topology.edges().size(),
+             worthwhile(of_body, is_rod(topology, positions.size(), of_body))),
+      pool(positions.size(), of_body, is_rod(topology, positions.size(), of_body)),
+      certificates(of_body) {}
 
 template <int D>
 Chain Body_state<D>::seen_from(const Corner& corner) const {
@@ -61,6 +66,7 @@ template <int D>
 void Body_state<D>::read_corners(std::uint32_t edge) {
   std::vector<Facet_corners<D>>& corners = corners_of_chains[edge];
   try {
+    corners.reserve(2 * chains[edge].size());
     for (const Half_facet f : chains[edge]) append_corners(*snapshot, f, corners);
   } catch (...) {  // memory ran out: a part must not be taken for all
     corners.clear();
@@ -105,7 +111,7 @@ bool Body_state<D>::move_in_region(std::uint32_t vertex, const Point<D>& target,
 template <int D>
 bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
   if (!pool.try_move_in_known(vertex, target, topology)) {
-    take_back_after(vertex, counts);
+    pool.account().pay_move();
     if (!pool.try_move_in_other(vertex, target, positions, topology)) {
       if (!pool.should_search(vertex)) return false;
       refresh_vertex(vertex, counts);
@@ -114,6 +120,7 @@ bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& targe
         return false;
     }
   }
+  pool.account().earn(topology.corners_of(vertex).size());
   move_untested(vertex, target, counts);
   if (region.has_region()) region.set_outside(vertex, !region.holds(target), topology);
   return true;
@@ -165,35 +172,6 @@ void Body_state<D>::spread_marks() {
 }
 
 template <int D>
-void Body_state<D>::make_free_moves(std::span<const Point<D>> targets, bool parallel, Body_counts& counts) {
-  if (!pool.is_used() || !free_moves.is_used()) {
-    free_moves.make_none();
-    return;
-  }
-  counts.in_region += free_moves.make({positions, topology, region, pool}, targets, supported(), parallel);
-}
-
-template <int D>
-void Body_state<D>::take_back_after(std::uint32_t vertex, Body_counts& counts) {
-  counts.in_region -= free_moves.take_back_after({positions, topology, region, pool}, vertex);
-}
-
-/// Bit by bit, the vertices of faces that have supporting walls; empty if there are none.
-template <int D>
-std::vector<std::uint64_t> Body_state<D>::supported() {
-  if (!may_have_supporting_walls) return {};
-  constexpr std::size_t bits = 64;
-  std::vector<std::uint64_t> result((positions.size() + bits - 1) / bits);
-  may_have_supporting_walls = false;
-  for (std::size_t f = 0; f < supporting_walls.size(); ++f) {
-    if (supporting_walls[f].empty()) continue;
-    may_have_supporting_walls = true;
-    for (const std::uint32_t v : topology.faces()[f]) result[v / bits] |= std::uint64_t{1} << v % bits;
-  }
-  return may_have_supporting_walls ? result : std::vector<std::uint64_t>();
-}
-
-template <int D>
 inline void Body_state<D>::follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const {
   const Point<D>& position = positions[vertex];
   // What the pool knows is out of date once all vertices were moved at once.
@@ -238,6 +216,7 @@ void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
     if (const Half_facet f = snapshot->convex_passage(p.cell, q.cell); f != Half_facet::none)
       return set_chain(edge, {f});
   }
+  pool.account().pay_chain();
   set_chain(edge, find_any_chain(*snapshot, p, q, counts.edges.walk).chain);
 }
 
@@ -250,7 +229,7 @@ void Body_state<D>::refresh_all(Body_counts& counts) {
 
 template <int D>
 void Body_state<D>::commit(std::uint32_t vertex, const Particle<D>& particle,
-                           const std::vector<Moved_chain>& moved) {
+                           std::vector<Moved_chain<D>>& moved) {
   const auto corners = topology.corners_of(vertex);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
@@ -261,6 +240,11 @@ void Body_state<D>::commit(std::uint32_t vertex, const Particle<D>& particle,
       continue;
     }
     const Chain& chain = moved[i].chain;
+    if (moved[i].is_relinked) {
+      chains[corner.edge] = chain;
+      corners_of_chains[corner.edge].swap(moved[i].corners);
+      continue;
+    }
     set_chain(corner.edge, corner.is_reversed && !chain.empty() ? reversed(*snapshot, chain) : chain);
   }
   particles[vertex] = particle;

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "body_topology.h"
-#include "free_moves.h"
 #include "region_cache.h"
 #include "region_pool.h"
 #include "registration.h"
@@ -24,11 +23,14 @@
 namespace cellwalk::detail {
 
 /// The chain of an edge after the move of a vertex.
+template <int D>
 struct Moved_chain {
-  Chain chain;
+  Chain chain;  ///< seen from the vertex
   bool is_free = false;
   bool is_stale = false;     ///< it is not known, but there is one
   bool is_in_place = false;  ///< it is the word of the edge, see Chains_in_place
+  bool is_relinked = false;  ///< the chain is seen from the first end of the edge, and its corners are known
+  std::vector<Facet_corners<D>> corners;
 };
 
 /// What is found out of a move of one vertex before it is made. Kept for its memory only.
@@ -36,12 +38,23 @@ template <int D>
 struct Move_scratch {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
-  std::vector<Moved_chain> chains;  ///< of the edges of the vertex
+  std::vector<Moved_chain<D>> chains;  ///< of the edges of the vertex, the first ones
   std::vector<std::pair<std::uint32_t, Supporting_walls>> supporting_walls;
   std::vector<Half_facet> behind;  ///< the facets crossed, seen from their other sides, as far as needed
+  std::vector<Half_facet> word;    ///< that of an edge, see Edge_words
   /// Of the facets crossed, in order, and from the other sides, from the last to the first; or empty.
   std::vector<Facet_corners<D>> corners_ahead, corners_behind;
+  std::vector<Facet_corners<D>> corners;  ///< of a facet
 
+  /// Room for the chains of so many edges.
+  void take_up_chains(std::size_t edges) {
+    if (chains.size() < edges) chains.resize(edges);
+  }
+  /// The cells visited, if all facets were crossed in their interiors.
+  void visit_crossed(const Snapshot<D>& snapshot, Cell first) {
+    visited.assign(1, first);
+    for (const Half_facet f : crossed) visited.push_back(snapshot.neighbour(f));
+  }
   void clear_walk() {
     visited.clear();
     if (crossed.empty()) return;
@@ -52,8 +65,10 @@ struct Move_scratch {
   }
 };
 
-/// Those of the chosen certificates that are worth their cost for a body.
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices);
+/// True of large bodies with few edges a vertex.
+bool is_rod(const Body_topology& topology, std::size_t vertices, const Body_certificates& chosen);
+/// Those of the chosen certificates that are worth their cost: seldom a region holds the whole of a rod.
+Body_certificates worthwhile(Body_certificates chosen, bool is_rod);
 
 template <int D>
 struct Body_state {
@@ -101,8 +116,6 @@ struct Body_state {
     return region.holds_star(vertex, target) ? move_in_region(vertex, target, counts)
                                              : pool.is_used() && try_move_in_pool(vertex, target, counts);
   }
-  /// Makes the moves of a step that are free whatever becomes of the others, and leaves the rest.
-  void make_free_moves(std::span<const Point<D>> targets, bool parallel, Body_counts& counts);
   /// Gives the region up.
   /// \pre nothing is stale
   void give_region_up();
@@ -119,8 +132,8 @@ struct Body_state {
   }
   void refresh_all(Body_counts& counts);
 
-  /// Makes a move: takes the chains of the moved vertex over, and its particle.
-  void commit(std::uint32_t vertex, const Particle<D>& particle, const std::vector<Moved_chain>& moved);
+  /// Makes a move: takes the chains of the moved vertex over, whose contents are lost, and its particle.
+  void commit(std::uint32_t vertex, const Particle<D>& particle, std::vector<Moved_chain<D>>& moved);
   void place(std::uint32_t vertex, const Point<D>& position);
 
   const Snapshot<D>* snapshot;
@@ -138,7 +151,6 @@ struct Body_state {
   Region_cache<D> region;
   Region_pool<D> pool;
   Body_certificates certificates;
-  Free_moves<D> free_moves;
   Move_scratch<D> scratch;
 
  private:
@@ -147,9 +159,7 @@ struct Body_state {
   bool move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   bool try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
   void move_untested(std::uint32_t vertex, const Point<D>& target, Body_counts& counts);
-  void take_back_after(std::uint32_t vertex, Body_counts& counts);
   void spread_marks();
-  std::vector<std::uint64_t> supported();
   bool renew_region(std::span<const Point<D>> targets, Body_counts& counts);
 };
 

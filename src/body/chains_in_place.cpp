@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "chains_in_place.h"
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
+#include "other_side.h"
 #include "ridge_relink.h"
 
 namespace cellwalk::detail {
@@ -22,6 +22,15 @@ std::size_t end_of(std::span<const Facet_corners<D>> corners, std::size_t facets
   return end;
 }
 
+/// How many facets end before some of their corners.
+template <int D>
+std::size_t facets_before(std::span<const Facet_corners<D>> facets, const Facet_corners<D>* corners) {
+  std::size_t count = 0;
+  for (const Facet_corners<D>* before = facets.data(); before != corners; ++before)
+    count += !before->continues;
+  return count;
+}
+
 }  // namespace
 
 /// The facets crossed, from their other sides.
@@ -29,7 +38,7 @@ template <int D>
 const std::vector<Half_facet>& Edge_words<D>::behind() {
   std::vector<Half_facet>& behind = body_.scratch.behind;
   for (std::size_t i = behind.size(); i < crossed_.size(); ++i)
-    behind.push_back(snapshot_.opposite(crossed_[i]));
+    behind.push_back(other_side(snapshot_, crossed_[i]));
   return behind;
 }
 
@@ -82,18 +91,19 @@ Half_facet Edge_words<D>::first_facet(const Corner& corner, std::size_t undone) 
 }
 
 template <int D>
-Chain Edge_words<D>::chain(const Corner& corner) {
-  const std::size_t undone = this->undone(corner);
+std::span<const Half_facet> Edge_words<D>::facets(const Corner& corner, std::size_t undone) {
   const Chain& old = body_.chains[corner.edge];
-  Chain chain;
+  std::vector<Half_facet>& word = body_.scratch.word;
   if (corner.is_reversed) {
-    for (std::size_t i = 0; i < old.size() - undone; ++i) chain.push_back(old[i]);
-    for (std::size_t i = undone; i < crossed_.size(); ++i) chain.push_back(crossed_[i]);
+    word.assign(old.begin(), old.end() - static_cast<std::ptrdiff_t>(undone));
+    word.insert(word.end(), crossed_.begin() + static_cast<std::ptrdiff_t>(undone), crossed_.end());
   } else {
-    for (std::size_t i = crossed_.size(); i > undone; --i) chain.push_back(behind()[i - 1]);
-    for (std::size_t i = undone; i < old.size(); ++i) chain.push_back(old[i]);
+    word.clear();
+    if (undone < crossed_.size())
+      word.assign(behind().rbegin(), behind().rend() - static_cast<std::ptrdiff_t>(undone));
+    word.insert(word.end(), old.begin() + static_cast<std::ptrdiff_t>(undone), old.end());
   }
-  return chain;
+  return word;
 }
 
 template <int D>
@@ -129,30 +139,76 @@ template <int D>
 bool Chains_in_place<D>::confirms(const Corner& corner) {
   const Particle<D>& q = body_.particles[corner.other];
   const std::size_t undone = words_.undone(corner), size = words_.size(corner, undone);
+  not_passed_ = Half_facet::none;
   if (size == 0) {
     // With a corner inside of a cell the triangle lies in no plane of a facet, along which walls may begin.
     if (!has_inner_end_ && q.dimension != D) return false;
     ++same_cell_;
   } else {
     line_.lead_to(q.position, corner.is_reversed);
-    if (!passes(words_.corners_kept(corner, undone)) || !passes(words_.corners_added(corner, undone)) ||
-        (is_blocked_ && !is_before_wall(corner, undone)))
+    const auto kept = words_.corners_kept(corner, undone);
+    if (const Facet_corners<D>* failed = not_passed(kept)) {
+      not_passed_ = words_.kept_facet(corner, undone, facets_before(kept, failed));
       return false;
+    }
+    const auto added = words_.corners_added(corner, undone);
+    if (const Facet_corners<D>* failed = not_passed(added)) {
+      not_passed_ = words_.added_facet(corner, undone, facets_before(added, failed));
+      return false;
+    }
+    if (is_blocked_ && !is_before_wall(corner, undone)) return false;
     chain_facets_ += size;
   }
   ++edges_;
   return true;
 }
 
+/// Maps the ends of the edge after the move, the first and the second.
 template <int D>
-bool Chains_in_place<D>::relinks(const Corner& corner, Chain& chain) {
-  const Snapshot<D>& snapshot = *body_.snapshot;
+bool Chains_in_place<D>::map_ends(const Corner& corner, std::array<Spread_point<D>, 2>& ends) const {
   Float_point<D> mapped;
-  chain = words_.chain(corner);
-  if (chain.empty() || !snapshot.frame().map(body_.particles[corner.other].position, mapped)) return false;
-  std::array<Spread_point<D>, 2> ends{line_.start(), spread<D>(mapped)};
+  if (!body_.snapshot->frame().map(body_.particles[corner.other].position, mapped)) return false;
+  ends = {line_.start(), spread<D>(mapped)};
   if (corner.is_reversed) std::swap(ends[0], ends[1]);
-  if (!relink_at_ridges(snapshot, line_, ends, chain)) return false;
+  return true;
+}
+
+template <int D>
+bool Chains_in_place<D>::is_blocked(const Corner& corner) {
+  const Snapshot<D>& snapshot = *body_.snapshot;
+  std::array<Spread_point<D>, 2> ends;
+  if (not_passed_ == Half_facet::none || !map_ends(corner, ends)) return false;
+  std::vector<Facet_corners<D>>& corners = body_.scratch.corners;
+  const Cell cell = snapshot.cell_of(not_passed_);
+  for (std::size_t b = 0; b < snapshot.block_count(cell); ++b) {
+    const Plane_block<D>& planes = snapshot.blocks(cell)[b];
+    unsigned walls = snapshot.impassable_facets(cell, b);
+    if (walls == 0) continue;
+    walls &= lane_mask((evaluate<D>(planes, ends[0]) < -plane_error) &
+                       (evaluate<D>(planes, ends[1]) > plane_error));
+    for (; walls != 0; walls &= walls - 1) {
+      corners.clear();
+      append_corners(snapshot,
+                     Snapshot<D>::half_facet(cell, 4 * b + static_cast<std::size_t>(std::countr_zero(walls))),
+                     corners);
+      if (!not_passed(corners)) return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+bool Chains_in_place<D>::relinks(const Corner& corner, Moved_chain<D>& moved) {
+  const Snapshot<D>& snapshot = *body_.snapshot;
+  const std::size_t undone = words_.undone(corner);
+  std::array<Spread_point<D>, 2> ends;
+  if (not_passed_ == Half_facet::none || !map_ends(corner, ends)) return false;
+  Word_corners<D> corners{words_.corners_added(corner, undone), words_.corners_kept(corner, undone)};
+  if (corner.is_reversed) std::swap(corners.first, corners.second);
+  if (!relink_at_ridges(snapshot, line_, ends, words_.facets(corner, undone), corners, moved.chain,
+                        moved.corners))
+    return false;
+  moved.is_relinked = true;
   ++edges_;
   ++changed_;
   return true;
@@ -172,52 +228,57 @@ template class Chains_in_place<3>;
 
 template <int D>
 bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
-                       Body_counts& counts) {
-  if (target == body.positions[vertex]) return true;
+                       Settled_move<D>& settled, Body_counts& counts) {
   const Snapshot<D>& snapshot = *body.snapshot;
   body.refresh_vertex(vertex, counts);
   const Particle<D>& from = body.particles[vertex];
   Float_point<D> mapped;
   if (!snapshot.frame().map(target, mapped)) return false;
   Particle<D> to{target, from.cell, D, from.aimed};
-  body.scratch.clear_walk();
+  Move_scratch<D>& scratch = body.scratch;
+  scratch.clear_walk();
   if (!certainly_inside<D>(snapshot, from.cell, mapped, counts.edges.walk)) {
-    to.cell = certain_end(snapshot, from, target, counts.edges.walk, &body.scratch.crossed);
+    to.cell = certain_end(snapshot, from, target, counts.edges.walk, &scratch.crossed);
     to.aimed = 0;
     if (to.cell == Cell::none) return false;
   }
+  settled.to = to;
   const bool is_inside = body.region.holds_way(vertex, target);
   const auto corners = body.topology.corners_of(vertex);
-  // In the region, only edges that leave it can meet anything.
-  const auto is_tested = [&](const Corner& corner) {
-    return !is_inside || body.region.is_outside(corner.other);
-  };
-  boost::container::small_vector<std::pair<std::uint32_t, Chain>, 2> relinked;
-  const auto is_relinked = [&](std::uint32_t edge) {
-    return std::ranges::any_of(relinked, [edge](const auto& other) { return other.first == edge; });
-  };
+  scratch.take_up_chains(corners.size());
+  bool is_changed = !scratch.crossed.empty();
   Chains_in_place<D> in_place(body, to, mapped, false);
-  for (const Corner& corner : corners) {
-    if (!is_tested(corner)) continue;
-    if (body.is_stale(corner)) body.refresh_edge(corner.edge, counts);
-    if (in_place.confirms(corner)) continue;
-    Chain chain;
-    if (!in_place.relinks(corner, chain)) return false;
-    relinked.emplace_back(corner.edge, chain);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Moved_chain<D>& moved = scratch.chains[i];
+    moved.is_relinked = false;
+    // In the region, only edges that leave it can meet anything.
+    moved.is_stale = is_inside && !body.region.is_outside(corners[i].other);
+    is_changed |= moved.is_stale;
+    if (moved.is_stale) continue;
+    if (body.is_stale(corners[i])) body.refresh_edge(corners[i].edge, counts);
+    moved.is_in_place = in_place.confirms(corners[i]);
+    if (moved.is_in_place) continue;
+    is_changed = true;
+    const bool passes_wall = in_place.is_blocked(corners[i]);
+    if (!passes_wall && in_place.relinks(corners[i], moved)) continue;
+    settled.free_edges = i;
+    settled.next_edge = passes_wall ? Settled_move<D>::passes_wall : Settled_move<D>::changes;
+    in_place.add_to(counts.edges);
+    return false;
   }
-  for (const Corner& corner : corners)
-    if (!is_tested(corner))
-      body.region.mark_edge(corner.edge, true);
-    else if (!body.scratch.crossed.empty() && !is_relinked(corner.edge))
-      Edge_words<D>(body).take_over(corner);
-  for (const auto& [edge, chain] : relinked) body.set_chain(edge, chain);
   in_place.add_to(counts.edges);
-  body.particles[vertex] = to;
-  body.place(vertex, target);
+  if (is_changed) {
+    body.commit(vertex, to, scratch.chains);
+  } else {
+    body.particles[vertex] = to;
+    body.place(vertex, target);
+  }
   return true;
 }
 
-template bool try_move_in_place(Body_state<2>&, std::uint32_t, const Point<2>&, Body_counts&);
-template bool try_move_in_place(Body_state<3>&, std::uint32_t, const Point<3>&, Body_counts&);
+template bool try_move_in_place(Body_state<2>&, std::uint32_t, const Point<2>&, Settled_move<2>&,
+                                Body_counts&);
+template bool try_move_in_place(Body_state<3>&, std::uint32_t, const Point<3>&, Settled_move<3>&,
+                                Body_counts&);
 
 }  // namespace cellwalk::detail

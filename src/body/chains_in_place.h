@@ -6,8 +6,10 @@
 
 #include <cellwalk/internal/edge/certain_line.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,11 +41,23 @@ class Edge_words {
   std::span<const Facet_corners<D>> corners_added(const Corner& corner, std::size_t undone) {
     return undone == crossed_.size() ? std::span<const Facet_corners<D>>() : read_added(corner, undone);
   }
+  /// The facets of the word in the order of the chain, in the scratch of the body.
+  std::span<const Half_facet> facets(const Corner& corner, std::size_t undone);
+  /// One of those facets kept, or added, by its number among them.
+  Half_facet kept_facet(const Corner& corner, std::size_t undone, std::size_t number) const {
+    return body_.chains[corner.edge][(corner.is_reversed ? 0 : undone) + number];
+  }
+  Half_facet added_facet(const Corner& corner, std::size_t undone, std::size_t number) {
+    return corner.is_reversed ? crossed_[undone + number] : behind()[crossed_.size() - 1 - number];
+  }
   /// The first facet seen from the vertex: as it is seen from there or, of reversed edges, from behind.
   /// \pre the word is not empty
   Half_facet first_facet(const Corner& corner, std::size_t undone);
   /// The word as a chain, from the first end of the edge to the second.
-  Chain chain(const Corner& corner);
+  Chain chain(const Corner& corner) {
+    const std::span<const Half_facet> word = facets(corner, undone(corner));
+    return Chain(word.begin(), word.end());
+  }
   /// The word becomes the chain of the edge.
   void take_over(const Corner& corner);
 
@@ -78,10 +92,14 @@ class Chains_in_place {
   /// \pre it is not stale
   /// Cost: some 40 operations on lanes a facet.
   bool confirms(const Corner& corner);
+  /// True proves that the edge passes the interior of a wall when the vertex is at its target.
+  /// \pre !confirms(corner), called just before, and the vertex is not blocked
+  /// Cost: looking at one cell.
+  bool is_blocked(const Corner& corner);
   /// True proves the edge free with another chain, where the line passes ridges of its word on the way.
-  /// \param chain set to it, from the first end of the edge to the second
-  /// \pre !confirms(corner), and the vertex is not blocked
-  bool relinks(const Corner& corner, Chain& chain);
+  /// \param moved that chain; it is left undefined where this is false
+  /// \pre !confirms(corner), called just before, and the vertex is not blocked
+  bool relinks(const Corner& corner, Moved_chain<D>& moved);
   /// Counts what was proved; that of a move that is decided otherwise is counted there.
   void add_to(Edge_counts& counts) const {
     counts.edges += edges_;
@@ -92,17 +110,20 @@ class Chains_in_place {
   }
 
  private:
-  bool passes(std::span<const Facet_corners<D>> facets) const {
+  /// The first of some corners that is not certainly passed; null if all are.
+  const Facet_corners<D>* not_passed(std::span<const Facet_corners<D>> facets) const {
     for (const Facet_corners<D>& corners : facets)
-      if (!line_.passes(corners)) return false;
-    return true;
+      if (!line_.passes(corners)) return &corners;
+    return nullptr;
   }
+  bool map_ends(const Corner& corner, std::array<Spread_point<D>, 2>& ends) const;
   bool is_before_wall(const Corner& corner, std::size_t undone);
 
   Body_state<D>& body_;
   Edge_words<D> words_;
   bool has_inner_end_, is_blocked_;
   Certain_line<D> line_;
+  Half_facet not_passed_ = Half_facet::none;  ///< a facet that was not, of the edge last looked at
   std::uint64_t edges_ = 0, same_cell_ = 0, chain_facets_ = 0, changed_ = 0;
 };
 
@@ -119,12 +140,23 @@ bool may_be_in_place(const Body_state<D>& body, const Sweep_options& sweep, bool
          (sweep.touch == Touch::pass || is_apart);
 }
 
+/// What was found out of a move that is not free by planes and edges in place alone.
+template <int D>
+struct Settled_move {
+  /// The vertex at its target, if planes alone prove its way free: the facets crossed are in the scratch.
+  std::optional<Particle<D>> to;
+  std::size_t free_edges = 0;  ///< so many, the first ones, are free, and their chains are in the scratch
+  /// The next one passes a wall at the target, or it is neither in place nor relinked, or nothing is known.
+  enum { passes_wall, changes, unknown } next_edge = unknown;
+};
+
 /// Moves a vertex if planes alone prove it free, and all its edges in place: so are most moves. Faces are
 /// left alone.
-/// \pre may_be_in_place()
+/// \param settled set to what was found out, unless the vertex moved
+/// \pre may_be_in_place(), and the vertex does not stand still
 template <int D>
 bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
-                       Body_counts& counts);
+                       Settled_move<D>& settled, Body_counts& counts);
 
 }  // namespace cellwalk::detail
 

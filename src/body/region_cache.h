@@ -46,13 +46,6 @@ class Region_cache {
     return region_ && !is_outside_[vertex] && outside_neighbours_[vertex] == 0 && region_->holds(x);
   }
   bool holds_neighbours(std::uint32_t vertex) const { return outside_neighbours_[vertex] == 0; }
-  /// True if vertices that follow one another lie in the region, and their neighbours do.
-  bool holds_stars(std::size_t first, std::size_t count) const {
-    std::uint32_t outside = 0;
-    for (std::size_t v = first; v < first + count; ++v)
-      outside |= outside_neighbours_[v] | static_cast<unsigned char>(is_outside_[v]);
-    return outside == 0;
-  }
   bool is_outside(std::uint32_t vertex) const { return is_outside_[vertex]; }
   void set_outside(std::uint32_t vertex, bool is_outside, const Body_topology& topology) {
     if (is_outside != static_cast<bool>(is_outside_[vertex])) change_outside(vertex, is_outside, topology);

@@ -26,8 +26,10 @@ constexpr double least_margin = 0.05, most_margin = 16;
 }  // namespace
 
 template <int D>
-Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates)
-    : by_clusters_(certificates.clusters) {
+Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates, bool rests_first)
+    : by_clusters_(certificates.clusters),
+      must_pay_(certificates.regions_must_pay),
+      account_(vertices, rests_first) {
   if (!certificates.star_regions || vertices < certificates.least_vertices_of_parts) return;
   known_.resize(vertices);
   for (Known& known : known_) known = Known{none, none, none, none};
@@ -53,7 +55,7 @@ void Region_pool<D>::prepare(const Snapshot<D>& snapshot, std::span<const Partic
 
 template <int D>
 void Region_pool<D>::begin_step(bool is_used) {
-  is_used_ = is_used && !known_.empty();
+  is_used_ = is_used && !known_.empty() && (!must_pay_ || account_.begin_step());
   walls_left_ = least_walls_a_step + walls_a_vertex * known_.size();
 }
 
@@ -70,25 +72,6 @@ void Region_pool<D>::add(std::uint32_t vertex, int region) {
   if (known[3] != none) --users(known[3]);
   known = Known{region, known[0], known[1], known[2]};
   ++users(region);
-}
-
-template <int D>
-int Region_pool<D>::known_with_star(std::uint32_t vertex, const Point<D>& target,
-                                    const Body_topology& topology) const {
-  const Known known = known_[vertex];
-  for (int k = 0; k < places_known && known[k] != none; ++k)
-    if (!at(known[k]).holds(target)) return none;
-  for (int k = 0; k < places_known && known[k] != none; ++k)
-    if (know_star(vertex, known[k], topology)) return k;
-  return none;
-}
-
-template <int D>
-void Region_pool<D>::put_first(std::uint32_t vertex, int number) {
-  Known& known = known_[vertex];
-  const int region = known[number];
-  for (int k = number; k > 0; --k) known[k] = known[k - 1];
-  known[0] = region;
 }
 
 template <int D>
@@ -189,6 +172,7 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   auto found = find_clear_region(snapshot, particle, request, effort);
   counts.region_cells += effort.cells;
   counts.region_walls += effort.walls;
+  account_.pay_search(effort);
   walls_left_ -= std::min<std::size_t>(walls_left_, effort.walls + 1);
   if (effort.is_exhausted)
     margin_ = std::max(least_margin, 0.7 * margin_);

@@ -14,6 +14,7 @@
 
 #include "body_topology.h"
 #include "clear_region.h"
+#include "region_account.h"
 
 namespace cellwalk::detail {
 
@@ -21,18 +22,13 @@ namespace cellwalk::detail {
 template <int D>
 class Region_pool {
  public:
-  Region_pool(std::size_t vertices, const Body_certificates& certificates);
+  /// \param rests_first see Region_account
+  Region_pool(std::size_t vertices, const Body_certificates& certificates, bool rests_first);
 
-  /// True if regions of parts of the body are used: it is large enough, and it is asked for.
+  /// True if regions of parts of the body are used: it is large enough, it is asked for, and they pay.
   bool is_used() const { return is_used_; }
   /// True if some region is known to hold the vertex.
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
-  /// True if that is so of none of some vertices that follow one another.
-  bool holds_none(std::size_t first, std::size_t count) const {
-    Known of_all{none, none, none, none};
-    for (std::size_t v = first; v < first + count; ++v) of_all &= known_[v];
-    return of_all[0] == none;
-  }
   /// One of those.
   /// \pre holds(vertex)
   const Clear_region<D>& region_of(std::uint32_t vertex) const {
@@ -44,14 +40,9 @@ class Region_pool {
 
   /// Makes the clusters about the vertices of a body, so that its first steps need not.
   void prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const;
+  Region_account& account() { return account_; }
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
-  /// The number of the first region known to hold a vertex that is known to hold its neighbours as well; -1
-  /// if there is none, or if one that is known to hold the vertex does not hold the target.
-  int known_with_star(std::uint32_t vertex, const Point<D>& target, const Body_topology& topology) const;
-  /// The region with that number comes first from now on.
-  void put_first(std::uint32_t vertex, int number);
-
   /// True if a region known to hold a vertex is known to hold its neighbours, and holds the target; then the
   /// vertex is taken to lie at the target.
   bool try_move_in_known(std::uint32_t vertex, const Point<D>& target, const Body_topology& topology);
@@ -81,7 +72,7 @@ class Region_pool {
     std::vector<std::array<int, places_known>> known(known_.size());
     for (std::size_t v = 0; v < known.size(); ++v)
       for (int k = 0; k < places_known; ++k) known[v][static_cast<std::size_t>(k)] = known_[v][k];
-    a(is_used_, known, wait_, waits_, regions_, users_, hand_, margin_, walls_left_);
+    a(is_used_, known, wait_, waits_, regions_, users_, hand_, margin_, walls_left_, account_);
     if constexpr (Archive::is_reading) {
       known_.resize(known.size());
       for (std::size_t v = 0; v < known.size(); ++v)
@@ -109,7 +100,8 @@ class Region_pool {
   int free_place();
 
   bool is_used_ = false;
-  bool by_clusters_;
+  bool by_clusters_, must_pay_;
+  Region_account account_;
   std::vector<Known> known_;         ///< of each vertex
   std::vector<std::uint8_t> wait_;   ///< of each vertex, moves until it may search again
   std::vector<std::uint8_t> waits_;  ///< such moves after its next search in vain

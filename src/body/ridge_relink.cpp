@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
+
+#include "other_side.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -43,47 +46,46 @@ template <int D>
 class Ridge_relink {
  public:
   Ridge_relink(const Snapshot<D>& snapshot, const Certain_line<D>& line,
-               const std::array<Spread_point<D>, 2>& ends)
-      : snapshot_(snapshot), line_(line), ends_(ends) {}
-
-  /// True if the line certainly passes a facet, or all but one ridge of it on their inner sides: that is set
-  /// then.
-  bool passes_but_one(Half_facet facet, std::optional<Ridge>& beyond) {
+               const std::array<Spread_point<D>, 2>& ends, Chain& chain,
+               std::vector<Facet_corners<D>>& corners)
+      : snapshot_(snapshot), line_(line), ends_(ends), chain_(chain), corners_(corners) {
+    chain_.clear();
     corners_.clear();
-    append_corners(snapshot_, facet, corners_);
-    beyond.reset();
-    constexpr std::size_t ridges_a_part = 3;
-    for (std::size_t part = 0; part < corners_.size(); ++part) {
-      const unsigned not_passed = ~line_.ridges_passed(corners_[part]) & Certain_line<D>::all_lanes;
-      if (not_passed == 0) continue;
-      if (beyond || !std::has_single_bit(not_passed)) return false;
-      beyond = ridge(facet, part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
-    }
+  }
+
+  bool passes(std::span<const Facet_corners<D>> corners) const {
+    for (const Facet_corners<D>& some : corners)
+      if (!line_.passes(some)) return false;
     return true;
   }
-  bool passes(Half_facet facet) {
-    std::optional<Ridge> beyond;
-    return passes_but_one(facet, beyond) && !beyond;
+  void append(Half_facet facet, std::span<const Facet_corners<D>> corners) {
+    chain_.push_back(facet);
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
   }
-  /// True if a facet has one ridge beyond the line, which is set then, and the ends of the edge certainly lie
-  /// on both sides of its plane.
+  /// True if the line certainly passes a facet on the inner sides of all ridges but one, which is set, and
+  /// the ends of the edge certainly lie on both sides of its plane.
   bool is_passed_but_for_one(Half_facet facet, std::optional<Ridge>& beyond) {
-    return passes_but_one(facet, beyond) && beyond &&
-           distance_from_plane(snapshot_, facet, ends_[0]) < -plane_error &&
+    // Corners beside a chain may begin with another one.
+    const std::size_t before = corners_.size();
+    append_corners(snapshot_, facet, corners_);
+    const bool is_one = find_ridge_beyond(facet, std::span(corners_).subspan(before), beyond);
+    corners_.resize(before);
+    return is_one && distance_from_plane(snapshot_, facet, ends_[0]) < -plane_error &&
            distance_from_plane(snapshot_, facet, ends_[1]) > plane_error;
   }
   /// Appends the facets on the other way round a ridge, from the cell before a run of facets to that after
-  /// it.
-  bool go_round(Half_facet first, Half_facet last, const Ridge& ridge, Chain& word) {
+  /// it. False if one is not certainly passed.
+  bool go_round(Half_facet first, Half_facet last, const Ridge& ridge) {
     const Cell end = snapshot_.neighbour(last);
     Half_facet f = across(snapshot_, first, ridge);
     for (std::size_t facets = 0; facets < most_facets_round; ++facets) {
-      if (f == Half_facet::none || snapshot_.is_impassable(f) || !passes(f)) return false;
-      word.push_back(f);
+      if (f == Half_facet::none || snapshot_.is_impassable(f)) return false;
+      const std::size_t before = corners_.size();
+      append_corners(snapshot_, f, corners_);
+      chain_.push_back(f);
+      if (!passes(std::span(corners_).subspan(before))) return false;
       if (snapshot_.neighbour(f) == end) return true;
-      const Half_facet behind = snapshot_.opposite(f);
-      if (behind == Half_facet::none) return false;
-      f = across(snapshot_, behind, ridge);
+      f = across(snapshot_, other_side(snapshot_, f), ridge);
     }
     return false;
   }
@@ -91,6 +93,19 @@ class Ridge_relink {
  private:
   /// More are seldom, and walked round as fast.
   static constexpr std::size_t most_facets_round = 16;
+
+  bool find_ridge_beyond(Half_facet facet, std::span<const Facet_corners<D>> corners,
+                         std::optional<Ridge>& beyond) const {
+    beyond.reset();
+    constexpr std::size_t ridges_a_part = 3;
+    for (std::size_t part = 0; part < corners.size(); ++part) {
+      const unsigned not_passed = ~line_.ridges_passed(corners[part]) & Certain_line<D>::all_lanes;
+      if (not_passed == 0) continue;
+      if (beyond || !std::has_single_bit(not_passed)) return false;
+      beyond = ridge(facet, part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
+    }
+    return beyond.has_value();
+  }
 
   Ridge ridge(Half_facet facet, std::size_t number) const {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(facet));
@@ -102,35 +117,45 @@ class Ridge_relink {
   const Snapshot<D>& snapshot_;
   const Certain_line<D>& line_;
   const std::array<Spread_point<D>, 2>& ends_;
-  std::vector<Facet_corners<D>> corners_;
+  Chain& chain_;
+  std::vector<Facet_corners<D>>& corners_;
 };
 
 }  // namespace
 
 template <int D>
 bool relink_at_ridges(const Snapshot<D>& snapshot, const Certain_line<D>& line,
-                      const std::array<Spread_point<D>, 2>& ends, Chain& word) {
-  Ridge_relink<D> relink(snapshot, line, ends);
-  Chain result;
+                      const std::array<Spread_point<D>, 2>& ends, std::span<const Half_facet> word,
+                      Word_corners<D> corners, Chain& chain, std::vector<Facet_corners<D>>& its_corners) {
+  Ridge_relink<D> relink(snapshot, line, ends, chain, its_corners);
   std::optional<Ridge> beyond, next;
   for (std::size_t i = 0; i < word.size();) {
-    if (relink.passes(word[i])) {
-      result.push_back(word[i++]);
+    if (relink.passes(corners.front())) {
+      relink.append(word[i++], corners.front());
+      corners.drop_front();
       continue;
     }
-    if (!relink.is_passed_but_for_one(word[i], beyond)) return false;
     const Half_facet first = word[i];
+    if (!relink.is_passed_but_for_one(first, beyond)) return false;
     Half_facet last = first;
-    while (++i < word.size() && relink.is_passed_but_for_one(word[i], next) && next == beyond) last = word[i];
-    if (!relink.go_round(first, last, *beyond, result)) return false;
+    corners.drop_front();
+    while (++i < word.size() && relink.is_passed_but_for_one(word[i], next) && next == beyond) {
+      last = word[i];
+      corners.drop_front();
+    }
+    if (!relink.go_round(first, last, *beyond)) return false;
   }
-  word = result;
   return true;
 }
 
-template bool relink_at_ridges(const Snapshot<2>&, const Certain_line<2>&,
-                               const std::array<Spread_point<2>, 2>&, Chain&);
-template bool relink_at_ridges(const Snapshot<3>&, const Certain_line<3>&,
-                               const std::array<Spread_point<3>, 2>&, Chain&);
+#define CELLWALK_INSTANTIATE(D)                                                                      \
+  template bool relink_at_ridges(const Snapshot<D>&, const Certain_line<D>&,                         \
+                                 const std::array<Spread_point<D>, 2>&, std::span<const Half_facet>, \
+                                 Word_corners<D>, Chain&, std::vector<Facet_corners<D>>&);
+
+CELLWALK_INSTANTIATE(2)
+CELLWALK_INSTANTIATE(3)
+
+#undef CELLWALK_INSTANTIATE
 
 }  // namespace cellwalk::detail

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 8> magic{'C', 'W', 'B', 'O', 'D', 'Y', '\r', '\n'};
 /// To be raised whenever bodies get other parts, or these another meaning.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr std::uint32_t byte_order = 0x01020304;
 
 /// What comes before the state.
@@ -84,7 +84,7 @@ class Saved_body {
   template <class Archive>
   static void visit_certificates(Archive& a, Body_certificates& chosen) {
     a(chosen.body_region, chosen.star_regions, chosen.clusters, chosen.chains_in_place,
-      chosen.least_vertices_of_parts, chosen.least_vertices_at_once, chosen.least_edges_a_vertex);
+      chosen.least_vertices_of_parts, chosen.least_edges_a_vertex, chosen.regions_must_pay);
   }
   template <class Archive>
   static void visit_state(Archive& a, Body_state<D>& state) {

@@ -34,9 +34,7 @@ void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Bod
   // It may throw: not after some vertices have moved.
   if constexpr (D == 3)
     if (options.sweep.sweep == Sweep::faces) take_up_faces(body, counts);
-  body.make_free_moves(targets, options.parallel, counts);
-  for (std::uint32_t v = body.free_moves.next_left(0); v < targets.size();
-       v = body.free_moves.next_left(v + 1))
+  for (std::uint32_t v = 0; v < targets.size(); ++v)
     if (!body.try_move_in_region(v, targets[v], counts))
       move_along_walls(body, v, targets[v], options, contacts, counts);
 }

@@ -14,18 +14,19 @@ namespace cellwalk::detail {
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
 [[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, Reported reported,
-                                                 bool parallel, Step_report<D>& report) {
+                                                 Step_report<D>& report) {
   find_out_if_apart();
   const bool in_place = may_be_in_place(body_, sweep_, body_.is_apart);
-  body_.make_free_moves(targets, parallel, counts_);
-  for (std::uint32_t v = body_.free_moves.next_left(0); v < targets.size();
-       v = body_.free_moves.next_left(v + 1)) {
+  for (std::uint32_t v = 0; v < targets.size(); ++v) {
     if (body_.try_move_in_region(v, targets[v], counts_)) continue;
-    if (in_place && try_move_in_place(body_, v, targets[v], counts_)) {
+    // Its edges were tested when their other ends moved.
+    if ((in_place || sweep_.touch == Touch::pass) && targets[v] == body_.positions[v]) continue;
+    Settled_move<D> settled;
+    if (in_place && try_move_in_place(body_, v, targets[v], settled, counts_)) {
       body_.are_faces_swept = false;
       continue;
     }
-    Tried_move<D> tried = try_to_move(v, targets[v]);
+    Tried_move<D> tried = try_to_move(v, targets[v], settled);
     const Rejected_move<D>& answer = tried.answer;
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
@@ -119,11 +120,12 @@ bool Target_step<D>::touches_wall() {
 
 /// Moves a vertex, or leaves it where it is.
 template <int D>
-Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target) {
+Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& target,
+                                          const Settled_move<D>& settled) {
   body_.refresh_vertex(vertex, counts_);
   Particle<D> to;
   bool had_choice = false;
-  Tried_move<D> tried = try_on_sides(vertex, target, nullptr, to, had_choice);
+  Tried_move<D> tried = try_on_sides(vertex, target, settled, nullptr, to, had_choice);
   if (tried.hindrance() != 0 && had_choice && !tried.answer.is_vertex_blocked && sweep_.touch == Touch::pass)
       [[unlikely]]
     tried = try_on_all_sides(vertex, target, to);
@@ -141,7 +143,7 @@ Tried_move<D> Target_step<D>::try_on_all_sides(std::uint32_t vertex, const Point
   std::optional<Tried_move<D>> best;
   bool had_choice = false;
   for (int tries = 0; tries < most_side_tries; ++tries) {
-    Tried_move<D> tried = try_on_sides(vertex, target, &choices, to, had_choice);
+    Tried_move<D> tried = try_on_sides(vertex, target, {}, &choices, to, had_choice);
     if (tried.hindrance() == 0) return tried;
     if (!tried.answer.is_vertex_blocked && (!best || tried.hindrance() < best->hindrance())) {
       best = std::move(tried);
@@ -149,13 +151,15 @@ Tried_move<D> Target_step<D>::try_on_all_sides(std::uint32_t vertex, const Point
     }
     if (!take_next_sides(choices)) break;
   }
-  return try_on_sides(vertex, target, &best_choices, to, had_choice);
+  return try_on_sides(vertex, target, {}, &best_choices, to, had_choice);
 }
 
 /// What comes of a move while the vertex takes the given sides of walls or, without, those that it prefers.
 /// If nothing hinders it, the scratch has its chains.
+/// \param settled what is known of it already
 template <int D>
-Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>& target, Sides_taken* choices,
+Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>& target,
+                                           const Settled_move<D>& settled, Sides_taken* choices,
                                            Particle<D>& to, bool& had_choice) {
   Tried_move<D> tried;
   Rejected_move<D>& answer = tried.answer;
@@ -163,19 +167,26 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   // In the region, only edges that leave it can meet anything.
   const bool is_inside = body_.region.holds_way(vertex, target);
   const Particle<D> from = body_.particles[vertex];
-  to = from;
   Move_scratch<D>& scratch = body_.scratch;
-  scratch.clear_walk();
   const std::uint64_t signs_before = signs();
-  Walk_options recorded;
-  recorded.locates_contact = false;
-  if (sweeps()) recorded.visited = &scratch.visited;
-  recorded.crossed = &scratch.crossed;
-  const Walk_result<D> walked = move_on_sides(snapshot(), to, target, counts_.edges.walk, recorded, choices);
-  had_choice = walked.had_choice;
-  if (walked.contact) {
-    answer.is_vertex_blocked = tried.keep(walked.contact);
-    return tried;
+  if (settled.to) {
+    to = *settled.to;
+    had_choice = false;
+    if (sweeps()) scratch.visit_crossed(snapshot(), from.cell);
+  } else {
+    to = from;
+    scratch.clear_walk();
+    Walk_options recorded;
+    recorded.locates_contact = false;
+    if (sweeps()) recorded.visited = &scratch.visited;
+    recorded.crossed = &scratch.crossed;
+    const Walk_result<D> walked =
+        move_on_sides(snapshot(), to, target, counts_.edges.walk, recorded, choices);
+    had_choice = walked.had_choice;
+    if (walked.contact) {
+      answer.is_vertex_blocked = tried.keep(walked.contact);
+      return tried;
+    }
   }
   // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
   const bool is_apart = body_.is_apart && signs() == signs_before;
@@ -187,22 +198,25 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
     }
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
   const auto corners = body_.topology.corners_of(vertex);
-  scratch.chains.resize(corners.size());
+  scratch.take_up_chains(corners.size());
   Float_point<D> mapped{};
   const bool may_confirm = may_be_in_place(body_, sweep_, is_apart) && snapshot().frame().map(target, mapped);
   Chains_in_place<D> in_place(body_, to, mapped, false);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    Moved_chain& moved = scratch.chains[i];
+  for (std::size_t i = settled.free_edges; i < corners.size(); ++i) {
+    Moved_chain<D>& moved = scratch.chains[i];
+    moved.is_in_place = moved.is_relinked = false;
     moved.is_stale = is_inside && !body_.region.is_outside(corners[i].other);
     if (moved.is_stale) continue;
     body_.refresh_edge(corners[i].edge, counts_);
-    moved.is_in_place = may_confirm && in_place.confirms(corners[i]);
-    if (moved.is_in_place) continue;
-    if (may_confirm && in_place.relinks(corners[i], moved.chain)) {
-      if (corners[i].is_reversed) moved.chain = reversed(snapshot(), moved.chain);
-    } else if (meets_at_end(path, i, corners[i], moved, tried)) {
-      answer.edges |= std::uint64_t{1} << i;
+    const auto known = i == settled.free_edges ? settled.next_edge : Settled_move<D>::unknown;
+    bool passes_wall = known == Settled_move<D>::passes_wall;
+    if (known == Settled_move<D>::unknown && may_confirm) {
+      moved.is_in_place = in_place.confirms(corners[i]);
+      if (moved.is_in_place) continue;
+      passes_wall = in_place.is_blocked(corners[i]);
+      if (!passes_wall && in_place.relinks(corners[i], moved)) continue;
     }
+    if (meets_at_end(path, i, corners[i], passes_wall, moved, tried)) answer.edges |= std::uint64_t{1} << i;
   }
   in_place.add_to(counts_.edges);
   return tried;
@@ -210,7 +224,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
 
 /// True if the edge of a corner is free while its vertex goes its way: then its chain is known.
 template <int D>
-bool Target_step<D>::is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain& moved) {
+bool Target_step<D>::is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain<D>& moved) {
   const Particle<D>& q = body_.particles[corner.other];
   std::optional<Free_chain> free =
       free_chain(snapshot(), path, q, body_.seen_from(corner), sweep_, counts_.edges);
@@ -225,16 +239,18 @@ bool Target_step<D>::is_swept_free(const Vertex_path<D>& path, const Corner& cor
 
 /// True if the edge of a corner meets a wall where its vertex goes; its way is looked at where triangles are
 /// swept.
+/// \param passes_wall it is known that it passes the interior of one
 template <int D>
 bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                                  Moved_chain& moved, Tried_move<D>& tried) {
+                                  bool passes_wall, Moved_chain<D>& moved, Tried_move<D>& tried) {
   Edge_counts& edges = counts_.edges;
-  if (!sweeps()) {
+  if (passes_wall || !sweeps()) {
     ++edges.edges;
-  } else {
-    if (is_swept_free(path, corner, moved)) return false;
-    tried.answer.swept_edges |= std::uint64_t{1} << number;
+    edges.changed += sweeps();
+  } else if (is_swept_free(path, corner, moved)) {
+    return false;
   }
+  if (sweeps()) tried.answer.swept_edges |= std::uint64_t{1} << number;
   const Particle<D>& q = body_.particles[corner.other];
   const bool stops = sweep_.touch == Touch::stop;
   const std::uint64_t signs_before = signs();

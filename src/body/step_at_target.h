@@ -12,6 +12,7 @@
 #include <span>
 
 #include "body_state.h"
+#include "chains_in_place.h"
 
 namespace cellwalk::detail {
 
@@ -41,7 +42,7 @@ class Target_step {
   Target_step(Body_state<D>& body, const Sweep_options& sweep, Body_counts& counts)
       : body_(body), sweep_(sweep), counts_(counts) {}
 
-  void move_each(std::span<const Point<D>> targets, Reported reported, bool parallel, Step_report<D>& report);
+  void move_each(std::span<const Point<D>> targets, Reported reported, Step_report<D>& report);
 
  private:
   const Snapshot<D>& snapshot() const { return *body_.snapshot; }
@@ -50,13 +51,13 @@ class Target_step {
 
   void find_out_if_apart();
   bool touches_wall();
-  Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target);
+  Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target, const Settled_move<D>& settled);
   Tried_move<D> try_on_all_sides(std::uint32_t vertex, const Point<D>& target, Particle<D>& to);
-  Tried_move<D> try_on_sides(std::uint32_t vertex, const Point<D>& target, Sides_taken* choices,
-                             Particle<D>& to, bool& had_choice);
-  bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, Moved_chain& moved,
-                    Tried_move<D>& tried);
-  bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain& moved);
+  Tried_move<D> try_on_sides(std::uint32_t vertex, const Point<D>& target, const Settled_move<D>& settled,
+                             Sides_taken* choices, Particle<D>& to, bool& had_choice);
+  bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, bool passes_wall,
+                    Moved_chain<D>& moved, Tried_move<D>& tried);
+  bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain<D>& moved);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
   void locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
                    const Point<D>& target) const;

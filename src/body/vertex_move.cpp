@@ -19,6 +19,14 @@ bool meets_before(const Contact<D>& a, const Contact<D>& b) {
   return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
 }
 
+/// Writes the chain of an edge that is in place or relinked as it is seen from the vertex.
+template <int D>
+void show_chain(Body_state<D>& body, const Corner& corner, Moved_chain<D>& moved) {
+  if (moved.is_in_place) moved.chain = Edge_words<D>(body).chain(corner);
+  if (corner.is_reversed) moved.chain = reversed(*body.snapshot, moved.chain);
+  moved.is_relinked = false;
+}
+
 /// As find_contact(), while the vertex takes the given sides of walls or, without, those that it prefers.
 /// \pre its edges are not stale
 template <int D>
@@ -49,23 +57,19 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       if (!first || meets_before(*touch, *first)) keep(*touch, vertex);
   if (any && first) return first;
 
-  scratch.chains.resize(corners.size());
+  scratch.take_up_chains(corners.size());
   Float_point<D> mapped{};
   const bool may_confirm = may_be_in_place(body, options, false) && snapshot.frame().map(target, mapped);
   Chains_in_place<D> in_place(body, to, mapped, path.blocked);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
-    Moved_chain& moved = scratch.chains[i];
-    moved.is_stale = false;
+    Moved_chain<D>& moved = scratch.chains[i];
+    moved.is_stale = moved.is_relinked = false;
     moved.is_in_place = may_confirm && in_place.confirms(corner);
-    const bool is_relinked =
-        !moved.is_in_place && may_confirm && !path.blocked && in_place.relinks(corner, moved.chain);
-    // Faces look into the chains of their sides.
-    if (moved.is_in_place && options.sweep == Sweep::faces) moved.chain = Edge_words<D>(body).chain(corner);
-    moved.is_free = moved.is_in_place || is_relinked;
+    moved.is_free = moved.is_in_place || (may_confirm && !path.blocked && in_place.relinks(corner, moved));
     if (moved.is_free) {
-      if ((is_relinked || options.sweep == Sweep::faces) && corner.is_reversed)
-        moved.chain = reversed(snapshot, moved.chain);
+      // Faces look into the chains of their sides.
+      if (options.sweep == Sweep::faces) show_chain(body, corner, moved);
       continue;
     }
     if (any && options.touch == Touch::pass) {
@@ -105,8 +109,9 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch<D>& scratch
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) take_up_faces(body, counts);
   if (target == body.positions[vertex]) return {};
+  Settled_move<D> settled;
   if (options.sweep != Sweep::faces && may_be_in_place(body, options, false) &&
-      try_move_in_place(body, vertex, target, counts)) {
+      try_move_in_place(body, vertex, target, settled, counts)) {
     body.are_faces_swept = false;
     body.is_apart = false;
     return {};

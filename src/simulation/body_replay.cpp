@@ -15,7 +15,6 @@ Body_options body_trace_options(Sweep sweep) {
   options.policy = Contact_policy::reject;
   options.edges = Edge_rule::at_target;
   options.reported = Reported::blocked;
-  options.parallel = false;
   return options;
 }
 

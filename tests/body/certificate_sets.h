@@ -28,7 +28,7 @@ struct Certificate_set {
 };
 
 /// The first set is the empty one. Where regions for parts of a body are asked for, bodies of any size have
-/// them; in some of these sets they also make moves at once.
+/// them.
 inline std::vector<Certificate_set> certificate_sets() {
   constexpr std::size_t any = 1, never = ~std::size_t{0};
   constexpr detail::Body_certificates no_others{false, false, false, false, never};
@@ -41,17 +41,11 @@ inline std::vector<Certificate_set> certificate_sets() {
   return {
       {"none", false, no_others, none, in_region},
       {"all", true, {}, all, in_region},
-      {"all, in bodies of any size", true, {true, true, true, true, any, never, 0}, all, in_region},
-      {"all, moves at once", true, {true, true, true, true, any, any, 0}, all, in_region},
+      {"all, in bodies of any size", true, {true, true, true, true, any, 0, false}, all, in_region},
       {"region of the body", true, {true, false, false, false, never}, none, in_region},
-      {"region of the body by clusters", true, {true, false, true, false, any, never, 0}, none, in_region},
-      {"regions of stars", true, {false, true, false, false, any, never, 0}, none, in_region},
-      {"regions of stars by clusters", true, {false, true, true, false, any, never, 0}, none, in_region},
-      {"regions of stars by clusters, moves at once",
-       true,
-       {false, true, true, false, any, any, 0},
-       none,
-       in_region},
+      {"region of the body by clusters", true, {true, false, true, false, any, 0, false}, none, in_region},
+      {"regions of stars", true, {false, true, false, false, any, 0, false}, none, in_region},
+      {"regions of stars by clusters", true, {false, true, true, false, any, 0, false}, none, in_region},
       {"chains in place", false, {false, false, false, true, never}, {false, false, true, false}, same_chain},
       {"same cell", false, no_others, {true, false, false, false}, same_cell},
       {"convex pair", false, no_others, {false, true, false, false}, convex_pair},

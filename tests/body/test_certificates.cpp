@@ -12,6 +12,8 @@
 
 #include "body/certificate_sets.h"
 #include "body/random_bodies.h"
+#include "edge/thin_worlds.h"
+#include "oracle/squares_and_cubes.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk::test {
@@ -155,6 +157,80 @@ void test_certificates() {
 
 TEST(BodyCertificates, DecideAlikeEachAlone2) { test_certificates<2>(); }
 TEST(BodyCertificates, DecideAlikeEachAlone3) { test_certificates<3>(); }
+
+/// An edge lies along a membrane, which ends between its ends, on one side of it. A step by the paper's three
+/// segments to where it stands must not put it on the other side, from which it could not leave as it came.
+TEST(BodyCertificates, LeaveAnEdgeThatStandsOnItsSide2) {
+  Cell_soup<2> squares = oracle::make_squares(2, 3);
+  oracle::set_wall(squares, 2, 3);
+  const Snapshot<2> snapshot = Snapshot<2>::compile(squares, glue(squares));
+  const Locator<2> locator(snapshot);
+  for (const Certificate_set& set : certificate_sets())
+    for (const double beside : {0.75, 1.25}) {
+      const std::vector<Point<2>> there{{1, 0.5}, {1, 2.5}}, back{{beside, 0.5}, {beside, 2.5}};
+      Body<2> body(snapshot, locator, {back, {{0, 1}}, {}});
+      Body_counts counts;
+      detail::use_certificates(body, set.of_body, counts);
+      Body_options swept = set.chosen({}), standing = swept;
+      standing.policy = Contact_policy::reject;
+      standing.edges = Edge_rule::at_target;
+      standing.sweep.sweep = Sweep::three_segments;
+      Step_report<2> report;
+      body.step(there, swept, report, counts);
+      body.step(there, standing, report, counts);
+      body.step(back, swept, report, counts);
+      EXPECT_TRUE(report.contacts.empty()) << set.name << ", beside " << beside;
+    }
+}
+
+/// A wall among windows is the ceiling of a wide cell. An edge comes to windows from below. One end slides on
+/// from window to window, so that the edge comes to lie on the wall: on the side that it prefers, while its
+/// ends never leave their cell.
+TEST(BodyCertificates, NoEdgeIsInPlaceWhereItSlidesOntoAWall3) {
+  Cell_soup<3> soup = oracle::make_cubes(3, 2, 2);
+  oracle::set_wall(soup, 1, 7);
+  soup = merged<3>(soup, {0, 0, 0, 0, 0, 0, 6, 7, 8, 9, 10, 11});
+  const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
+  const Locator<3> locator(snapshot);
+  std::vector<Chain> chains;
+  for (const Certificate_set& set : certificate_sets()) {
+    Body<3> body(snapshot, locator, {{{2.5, 1.5, 0.5}, {0.5, 1.5, 0.5}}, {{0, 1}}, {}});
+    Body_counts counts;
+    detail::use_certificates(body, set.of_body, counts);
+    Step_report<3> report;
+    for (const double y : {1.5, 0.25})
+      body.step(std::vector<Point<3>>{{2.5, y, 1}, {0.5, 1.5, 1}}, set.chosen({}), report, counts);
+    body.refresh(counts);
+    EXPECT_TRUE(report.contacts.empty()) << set.name;
+    chains.push_back(body.chain(0));
+    EXPECT_EQ(chains.back(), chains.front()) << set.name;
+  }
+  EXPECT_FALSE(chains.front().empty());
+}
+
+/// An edge comes to the rims of a membrane from below, and slides into its plane with both ends on rims. All
+/// the while its ends lie in one cell. By events it goes to the upper side, which it prefers; certificates
+/// of edges, the same cell and the same chain, leave it on the lower one.
+TEST(BodyCertificates, TakeTheSideThatIsPreferred3) {
+  Cell_soup<3> cubes = oracle::make_cubes(3, 3, 2);
+  oracle::set_wall(cubes, 4, 13);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(cubes, glue(cubes));
+  const Locator<3> locator(snapshot);
+  std::vector<Chain> chains;
+  for (const Certificate_set& set : certificate_sets()) {
+    Body<3> body(snapshot, locator, {{{1.25, 1.75, 0.5}, {1.25, 1.25, 0.5}}, {{0, 1}}, {}});
+    Body_counts counts;
+    detail::use_certificates(body, set.of_body, counts);
+    Step_report<3> report;
+    for (const double x : {1.0, 1.5})
+      body.step(std::vector<Point<3>>{{x, 2, 1}, {1, 1.25, 1}}, set.chosen({}), report, counts);
+    ASSERT_TRUE(report.contacts.empty());
+    ASSERT_EQ(snapshot.index(body.cell_of(0)), 4u);
+    chains.push_back(body.chain(0));
+    EXPECT_EQ(chains.back(), chains.front()) << set.name;
+  }
+  EXPECT_FALSE(chains.front().empty());
+}
 
 }  // namespace
 }  // namespace cellwalk::test

@@ -163,7 +163,6 @@ TYPED_TEST(RefusedCallsOf, AnyOfManyTargetsThatAreNotFinite) {
         auto targets = shifted_targets<D>(body, this->along(0.015625));
         targets[v][v % D] = bad;
         Body_options options;
-        options.parallel = true;
         this->expect_refused(
             body, Error_code::input, "the target of vertex " + std::to_string(v),
             [&](auto& b, auto& report, auto& counts) { b.step(targets, options, report, counts); });

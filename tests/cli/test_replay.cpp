@@ -71,7 +71,6 @@ TEST_F(Replay, GivesTheRecordedAnswers) {
     EXPECT_EQ(manifest["trace"]["body_side"], 0.6);
     EXPECT_EQ(manifest["trace"]["speed"], 0.1);
   }
-  expect_failure(2, {"replay", "t.bin", "--threads", "2"}, {"--threads", "t.bin"});
   const json leaning = replay({"t.bin", "--shear"});
   EXPECT_EQ(leaning["mismatches"], 0);
   EXPECT_EQ(leaning["manifest"]["sheared"], true);

@@ -68,11 +68,6 @@ struct Body_options {
   /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at
   /// the first.
   int most_contacts = 4;
-  /// Test the moves of a body of some thousand vertices on several threads: as many as oneTBB gives to the
-  /// caller, see tbb::global_control and tbb::task_arena. Positions, contacts and counts are the same for any
-  /// number. move_vertex() does not use any. Two threads gained nothing where it was measured
-  /// (docs/performance.md).
-  bool parallel = false;
 };
 
 /// What walls did in a step, as far as it is asked for.

@@ -6,7 +6,6 @@
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -58,15 +57,13 @@ Rounds<Body_counts> replay_rounds_of_bodies(const Body_trace& trace, std::size_t
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());
   const int rounds = options.warmup + options.rounds;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
   Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
   Rounds<Body_counts> result;
   result.step_us.assign(trace.steps, std::numeric_limits<double>::infinity());
   for (int round = 0; round < rounds; ++round) {
     Body_replay replay = naming(options.trace, [&] {
-      Body_options rule = body_trace_options(options.sweep);
-      rule.parallel = options.threads > 1;
-      return Body_replay(environment.snapshot(), locator, trace, rule, first_body);
+      return Body_replay(environment.snapshot(), locator, trace, body_trace_options(options.sweep),
+                         first_body);
     });
     double ns = 0;
     for (std::uint32_t s = 0; s < trace.steps; ++s) {
@@ -116,7 +113,6 @@ ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& e
   result["sweep"] = sweep_names[static_cast<std::size_t>(options.sweep)];
   result["rounds"] = options.rounds;
   result["warmup"] = options.warmup;
-  result["threads"] = options.threads;
   result["ranks"] = ranks.size();
   return result;
 }

@@ -91,7 +91,6 @@ ordered_json manifest(const Trace& trace, const Replay_options& options, const R
   result["sheared"] = options.sheared;
   result["rounds"] = options.rounds;
   result["warmup"] = options.warmup;
-  result["threads"] = 1;
   result["ranks"] = ranks.size();
   return result;
 }
@@ -128,11 +127,6 @@ std::optional<Replay_report> replay_grid(Trace trace, const Replay_options& opti
   if (!options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment: {} holds its grid: leave the option out", options.trace));
-  if (options.threads != 1)
-    throw Error(Error_code::usage,
-                fmt::format("--threads: the bodies of {} have 8 vertices, which one thread moves: leave the "
-                            "option out",
-                            options.trace));
   if (options.sheared) trace = mapped(std::move(trace), sheared<3>());
   const Environment<3> environment = build(trace, options);
   const Block bodies = ranks.block(trace.bodies);

@@ -68,13 +68,6 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(whole_number(0, most_rounds))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--threads", options->threads,
-          "Threads that a step of a body of some thousand vertices may use; the answers are the same")
-      ->type_name("N")
-      ->check(whole_number(1, 1024))
-      ->capture_default_str();
   command->add_flag(
       "--shear", options->sheared,
       "Shear the grid of unit cubes and all motion: cells are no cubes then, and cost the same");

@@ -20,7 +20,6 @@ struct Replay_options {
   std::string trace, environment, json;
   Sweep sweep = Sweep::triangle;
   int rounds = 7, warmup = 1;
-  std::size_t threads = 1;
   bool sheared = false;
 };
 
