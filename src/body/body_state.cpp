@@ -7,13 +7,11 @@
 
 namespace cellwalk::detail {
 
-bool is_rod(const Body_topology& topology, std::size_t vertices, const Body_certificates& chosen) {
-  return vertices >= chosen.least_vertices_of_parts &&
-         topology.edges().size() < chosen.least_edges_a_vertex * vertices;
-}
-
-Body_certificates worthwhile(Body_certificates chosen, bool is_rod) {
-  chosen.body_region &= !is_rod;
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices) {
+  if (vertices < chosen.least_vertices_of_parts ||
+      topology.edges().size() >= chosen.least_edges_a_vertex * vertices)
+    return chosen;
+  chosen.body_region = chosen.star_regions = false;
   return chosen;
 }
 
@@ -28,8 +26,9 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
   pool.prepare(of_snapshot, particles);
-  // Their first steps test all edges.
-  if (is_rod(topology, positions.size(), of_body))
+  // Without regions the first step tests all edges.
+  const Body_certificates used = worthwhile(of_body, topology, positions.size());
+  if (!used.body_region && !used.star_regions)
     for (std::uint32_t e = 0; e < chains.size(); ++e) read_corners(e);
 }
 
@@ -45,9 +44,8 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> 
       corners_of_chains(chains.size()),
       corners_epoch(of_snapshot.geometry_epoch()),
       supporting_walls(topology.faces().size()),
-      region(positions.size(), topology.edges().size(),
-             worthwhile(of_body, is_rod(topology, positions.size(), of_body))),
-      pool(positions.size(), of_body, is_rod(topology, positions.size(), of_body)),
+      region(positions.size(), topology.edges().size(), worthwhile(of_body, topology, positions.size())),
+      pool(positions.size(), worthwhile(of_body, topology, positions.size())),
       certificates(of_body) {}
 
 template <int D>
@@ -111,7 +109,6 @@ bool Body_state<D>::move_in_region(std::uint32_t vertex, const Point<D>& target,
 template <int D>
 bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
   if (!pool.try_move_in_known(vertex, target, topology)) {
-    pool.account().pay_move();
     if (!pool.try_move_in_other(vertex, target, positions, topology)) {
       if (!pool.should_search(vertex)) return false;
       refresh_vertex(vertex, counts);
@@ -120,7 +117,6 @@ bool Body_state<D>::try_move_in_pool(std::uint32_t vertex, const Point<D>& targe
         return false;
     }
   }
-  pool.account().earn(topology.corners_of(vertex).size());
   move_untested(vertex, target, counts);
   if (region.has_region()) region.set_outside(vertex, !region.holds(target), topology);
   return true;
@@ -216,7 +212,6 @@ void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
     if (const Half_facet f = snapshot->convex_passage(p.cell, q.cell); f != Half_facet::none)
       return set_chain(edge, {f});
   }
-  pool.account().pay_chain();
   set_chain(edge, find_any_chain(*snapshot, p, q, counts.edges.walk).chain);
 }
 

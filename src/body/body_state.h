@@ -65,10 +65,8 @@ struct Move_scratch {
   }
 };
 
-/// True of large bodies with few edges a vertex.
-bool is_rod(const Body_topology& topology, std::size_t vertices, const Body_certificates& chosen);
-/// Those of the chosen certificates that are worth their cost: seldom a region holds the whole of a rod.
-Body_certificates worthwhile(Body_certificates chosen, bool is_rod);
+/// Those of the chosen certificates that are worth their cost for a body.
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices);
 
 template <int D>
 struct Body_state {

@@ -10,10 +10,9 @@ void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_count
   body.leave_region(counts);
   Body_state<D>& state = *body.state_;
   state.certificates = chosen;
-  const bool rests_first = is_rod(state.topology, state.positions.size(), chosen);
-  state.region =
-      Region_cache<D>(state.positions.size(), state.chains.size(), worthwhile(chosen, rests_first));
-  state.pool = Region_pool<D>(state.positions.size(), chosen, rests_first);
+  const Body_certificates used = worthwhile(chosen, state.topology, state.positions.size());
+  state.region = Region_cache<D>(state.positions.size(), state.chains.size(), used);
+  state.pool = Region_pool<D>(state.positions.size(), used);
   state.pool.prepare(*state.snapshot, state.particles);
 }
 

@@ -45,7 +45,6 @@ class Region_cache {
   bool holds_star(std::uint32_t vertex, const Point<D>& x) const {
     return region_ && !is_outside_[vertex] && outside_neighbours_[vertex] == 0 && region_->holds(x);
   }
-  bool holds_neighbours(std::uint32_t vertex) const { return outside_neighbours_[vertex] == 0; }
   bool is_outside(std::uint32_t vertex) const { return is_outside_[vertex]; }
   void set_outside(std::uint32_t vertex, bool is_outside, const Body_topology& topology) {
     if (is_outside != static_cast<bool>(is_outside_[vertex])) change_outside(vertex, is_outside, topology);

@@ -26,10 +26,8 @@ constexpr double least_margin = 0.05, most_margin = 16;
 }  // namespace
 
 template <int D>
-Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates, bool rests_first)
-    : by_clusters_(certificates.clusters),
-      must_pay_(certificates.regions_must_pay),
-      account_(vertices, rests_first) {
+Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates)
+    : by_clusters_(certificates.clusters) {
   if (!certificates.star_regions || vertices < certificates.least_vertices_of_parts) return;
   known_.resize(vertices);
   for (Known& known : known_) known = Known{none, none, none, none};
@@ -55,7 +53,7 @@ void Region_pool<D>::prepare(const Snapshot<D>& snapshot, std::span<const Partic
 
 template <int D>
 void Region_pool<D>::begin_step(bool is_used) {
-  is_used_ = is_used && !known_.empty() && (!must_pay_ || account_.begin_step());
+  is_used_ = is_used && !known_.empty();
   walls_left_ = least_walls_a_step + walls_a_vertex * known_.size();
 }
 
@@ -172,7 +170,6 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   auto found = find_clear_region(snapshot, particle, request, effort);
   counts.region_cells += effort.cells;
   counts.region_walls += effort.walls;
-  account_.pay_search(effort);
   walls_left_ -= std::min<std::size_t>(walls_left_, effort.walls + 1);
   if (effort.is_exhausted)
     margin_ = std::max(least_margin, 0.7 * margin_);

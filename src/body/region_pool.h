@@ -14,7 +14,6 @@
 
 #include "body_topology.h"
 #include "clear_region.h"
-#include "region_account.h"
 
 namespace cellwalk::detail {
 
@@ -22,10 +21,9 @@ namespace cellwalk::detail {
 template <int D>
 class Region_pool {
  public:
-  /// \param rests_first see Region_account
-  Region_pool(std::size_t vertices, const Body_certificates& certificates, bool rests_first);
+  Region_pool(std::size_t vertices, const Body_certificates& certificates);
 
-  /// True if regions of parts of the body are used: it is large enough, it is asked for, and they pay.
+  /// True if regions of parts of the body are used: it is large enough, and it is asked for.
   bool is_used() const { return is_used_; }
   /// True if some region is known to hold the vertex.
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
@@ -40,7 +38,6 @@ class Region_pool {
 
   /// Makes the clusters about the vertices of a body, so that its first steps need not.
   void prepare(const Snapshot<D>& snapshot, std::span<const Particle<D>> particles) const;
-  Region_account& account() { return account_; }
   /// Begins a step, with or without regions.
   void begin_step(bool is_used);
   /// True if a region known to hold a vertex is known to hold its neighbours, and holds the target; then the
@@ -72,7 +69,7 @@ class Region_pool {
     std::vector<std::array<int, places_known>> known(known_.size());
     for (std::size_t v = 0; v < known.size(); ++v)
       for (int k = 0; k < places_known; ++k) known[v][static_cast<std::size_t>(k)] = known_[v][k];
-    a(is_used_, known, wait_, waits_, regions_, users_, hand_, margin_, walls_left_, account_);
+    a(is_used_, known, wait_, waits_, regions_, users_, hand_, margin_, walls_left_);
     if constexpr (Archive::is_reading) {
       known_.resize(known.size());
       for (std::size_t v = 0; v < known.size(); ++v)
@@ -100,8 +97,7 @@ class Region_pool {
   int free_place();
 
   bool is_used_ = false;
-  bool by_clusters_, must_pay_;
-  Region_account account_;
+  bool by_clusters_;
   std::vector<Known> known_;         ///< of each vertex
   std::vector<std::uint8_t> wait_;   ///< of each vertex, moves until it may search again
   std::vector<std::uint8_t> waits_;  ///< such moves after its next search in vain

@@ -84,7 +84,7 @@ class Saved_body {
   template <class Archive>
   static void visit_certificates(Archive& a, Body_certificates& chosen) {
     a(chosen.body_region, chosen.star_regions, chosen.clusters, chosen.chains_in_place,
-      chosen.least_vertices_of_parts, chosen.least_edges_a_vertex, chosen.regions_must_pay);
+      chosen.least_vertices_of_parts, chosen.least_edges_a_vertex);
   }
   template <class Archive>
   static void visit_state(Archive& a, Body_state<D>& state) {

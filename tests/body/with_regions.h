@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies of all kinds with regions free of walls, whether they pay or not.
+// Bodies of all kinds with regions free of walls. Rods have none by themselves.
 #ifndef CELLWALK_TESTS_BODY_WITH_REGIONS_H
 #define CELLWALK_TESTS_BODY_WITH_REGIONS_H
 
@@ -11,7 +11,6 @@ template <int D>
 void have_regions(Body<D>& body) {
   detail::Body_certificates all;
   all.least_edges_a_vertex = 0;
-  all.regions_must_pay = false;
   Body_counts uncounted;
   detail::use_certificates(body, all, uncounted);
 }

@@ -83,7 +83,7 @@ void expect_recorded_answers(const Any_trace& trace, const Snapshot<3>& snapshot
       EXPECT_LT(set.counted(counts), set.counted(of_none));
     else if (set.of_body.least_edges_a_vertex == 0 || !set.of_body.clusters || counts.regions > 0)
       EXPECT_GT(set.counted(counts), set.counted(of_none));
-    else  // by the rules for all bodies, rods try regions later
+    else  // by the rules for all bodies, rods have no regions
       EXPECT_EQ(counts.in_region, 0u);
   }
 }

@@ -16,6 +16,8 @@
 #include <ratio>
 #include <vector>
 
+#include "edge/facet_shape.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -25,16 +27,6 @@ struct Line_trial {
   std::vector<Point<D>> loop;
   Point<D> t{}, q{};
 };
-
-template <int D>
-Cell_shape shape_of(std::size_t corners) {
-  Cell_shape shape;
-  shape.vertex_count = static_cast<std::uint16_t>(corners);
-  shape.loops.resize(corners);
-  std::iota(shape.loops.begin(), shape.loops.end(), std::uint16_t{0});
-  shape.loop_begin.push_back(shape.vertex_count);
-  return shape;
-}
 
 /// The least sign of the ridges: positive if the line passes the interior, outwards (1) or inwards (-1).
 int least_sign(const Line_trial<3>& x, int outwards) {
@@ -63,7 +55,7 @@ template <class Part, int D>
 void judge_line(const Line_trial<D>& x, const Plane_frame<D>& frame, Lines_seen& seen) {
   Float_point<D> mapped;
   if (!frame.map(x.t, mapped)) return;
-  const Cell_shape shape = shape_of<D>(x.loop.size());
+  const Cell_shape shape = test::facet_shape(x.loop.size());
   std::vector<std::uint32_t> vertices(x.loop.size());
   std::iota(vertices.begin(), vertices.end(), 0u);
   std::vector<Facet_corners<D>> ahead, behind;

@@ -15,6 +15,7 @@
 #include <numeric>
 #include <vector>
 
+#include "edge/facet_shape.h"
 #include "edge/flood/triangle_trials.h"
 
 namespace cellwalk::test {
@@ -34,7 +35,7 @@ struct Meetings_seen {
 template <int D>
 Certain_meeting meeting_of(const Triangle_trial<D>& x, const Plane_frame<D>& frame,
                            const Certain_triangle<D>& triangle) {
-  const Cell_shape shape = shape_of<D>(x.loop.size());
+  const Cell_shape shape = facet_shape(x.loop.size());
   std::vector<std::uint32_t> vertices(x.loop.size());
   std::iota(vertices.begin(), vertices.end(), 0u);
   std::vector<Facet_corners<D>> corners;

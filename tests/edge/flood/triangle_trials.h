@@ -4,14 +4,11 @@
 #define CELLWALK_TESTS_EDGE_FLOOD_TRIANGLE_TRIALS_H
 
 #include <cellwalk/edge/swept_triangle.h>
-#include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/kernel/random.h>
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "edge/rational_touch.h"
@@ -61,16 +58,6 @@ Plane_block<D> block_of(const std::vector<Point<D>>& loop, const Plane_frame<D>&
   for (std::size_t k = 0; k < D; ++k) block.normal[k][lane] = static_cast<float>(n[k]);
   block.offset[lane] = static_cast<float>(-dot(n, mapped[0]));
   return block;
-}
-
-template <int D>
-Cell_shape shape_of(std::size_t corners) {
-  Cell_shape shape;
-  shape.vertex_count = static_cast<std::uint16_t>(corners);
-  shape.loops.resize(corners);
-  std::iota(shape.loops.begin(), shape.loops.end(), std::uint16_t{0});
-  shape.loop_begin.push_back(shape.vertex_count);
-  return shape;
 }
 
 template <int D>

@@ -19,10 +19,9 @@ struct Body_certificates {
   bool chains_in_place = true;  ///< chains of edges are confirmed where they stand
   /// Bodies of so many vertices have regions about stars, and clusters.
   std::size_t least_vertices_of_parts = 33;
-  /// Of these, those with fewer edges a vertex, as rods, have no region of the whole body, and try others
-  /// later: in place, their edges cost little.
+  /// Of these, those with fewer edges a vertex, as rods, have no regions at all: in place, their edges cost
+  /// less than the searches.
   std::size_t least_edges_a_vertex = 2;
-  bool regions_must_pay = true;  ///< those of parts are given up where they cost more than they save
 };
 
 // use_certificates(body, chosen, counts), declared with Body, chooses the certificates of one body, which
