@@ -6,9 +6,8 @@ from collect_numbers import count, decimal, escaped, has, percent, read, span
 SCENES = {"catheter": "catheter", "fine_catheter": "fine catheter", "hexahedra": "hexahedra"}
 CATHETERS = ("catheter", "fine_catheter")
 CHOICES = {"all": "all certificates", "no_region_of_the_body": "no region of the body", "no_regions_of_stars": "no regions of stars",
-           "no_clusters": "no clusters", "no_planes": "no planes", "no_same_cell": "no same cell", "no_convex_pair": "no convex pair",
-           "no_same_chain": "no same chain", "no_flood": "no flood", "no_certificate_of_edges": "none of edges",
-           "no_planes_nor_certificate_of_edges": "none of edges, no planes"}
+           "no_clusters": "no clusters", "no_planes": "no planes", "no_same_chain": "no same chain", "no_flood": "no flood",
+           "no_certificate_of_edges": "none of edges", "no_planes_nor_certificate_of_edges": "none of edges, no planes"}
 WAYS = {"planes": "planes, then signs", "planes_no_own_cell_first": "no test of the own cell first", "planes_no_forecast": "no forecast",
         "signs": "signs, exit rule", "signs_no_forecast": "no forecast", "simplex": "signs, predictive simplex",
         "simplex_no_forecast": "no forecast", "lazy_signs": "lazy signs, exit rule", "rational_signs": "rational signs, exit rule"}
@@ -63,9 +62,8 @@ def certificates(report, folder):
         def ratio(choice, regions="0"):
             values = [times[s, regions, choice] / times[s, regions, "all"] for s in SCENES]
             return f"{min(values):.1f} to {max(values):.1f}"
-        sentence = (f"Without regions, moves take {ratio('no_same_chain')} times as long if same chain is missing, "
-                    f"{ratio('no_certificate_of_edges')} times if each edge is swept by its events, and {ratio('no_same_cell')} and "
-                    f"{ratio('no_convex_pair')} times without same cell and without convex pair.")
+        sentence = (f"Without regions, moves take {ratio('no_same_chain')} times as long if same chain is missing, and "
+                    f"{ratio('no_certificate_of_edges')} times if each edge is swept by its events.")
     report.define("AblationTimes", sentence)
 
 

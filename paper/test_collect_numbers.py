@@ -107,7 +107,7 @@ def scaling(folder, ghosts=10):
 
 def ablation(folder, swept=9):
     scenes, worlds = ("catheter", "fine_catheter", "hexahedra"), (("boxes", 0.0625), ("boxes", 0.25), ("cubes", 1))
-    choices = ("all", "no_same_cell", "no_convex_pair", "no_same_chain", "no_flood", "no_certificate_of_edges")
+    choices = ("all", "no_same_chain", "no_flood", "no_certificate_of_edges")
     signs = {"all": 10, "no_same_chain": 50, "no_flood": 30, "no_certificate_of_edges": 200}
     keys = [{"scene": s, "regions": g, "certificates": c} for s in scenes for g in (1, 0) for c in choices]
     write(folder, "certificates.csv", [{**k, "moves": 1000, "held": 20, "different": 0, "edges": 300 if k["regions"] else 2400, "event_sweeps": 2, "clear": 6,

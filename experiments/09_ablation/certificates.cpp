@@ -98,7 +98,7 @@ std::vector<Chosen> choices() {
   no_stars.star_regions = false;
   no_clusters.clusters = false;
   no_planes.chains_in_place = false;
-  constexpr Edge_certificates edges, none{false, false, false, false};
+  constexpr Edge_certificates edges, none{false, false};
   std::vector<Chosen> result{{"all", true, all, edges},
                              {"no_region_of_the_body", true, no_body_region, edges},
                              {"no_regions_of_stars", true, no_stars, edges},
@@ -106,10 +106,8 @@ std::vector<Chosen> choices() {
   for (const bool regions : {true, false}) {
     if (!regions) result.push_back({"all", false, all, edges});
     result.insert(result.end(), {{"no_planes", regions, no_planes, edges},
-                                 {"no_same_cell", regions, all, {false, true, true, true}},
-                                 {"no_convex_pair", regions, all, {true, false, true, true}},
-                                 {"no_same_chain", regions, all, {true, true, false, true}},
-                                 {"no_flood", regions, all, {true, true, true, false}},
+                                 {"no_same_chain", regions, all, {false, true}},
+                                 {"no_flood", regions, all, {true, false}},
                                  {"no_certificate_of_edges", regions, all, none},
                                  {"no_planes_nor_certificate_of_edges", regions, no_planes, none}});
   }

@@ -74,7 +74,6 @@ void fly(benchmark::State& state, const Body_options& options) {
   state.counters["in_region"] = share(counts.in_region, n);
   state.counters["edges"] = edges / n;
   state.counters["same_cell"] = share(counts.edges.same_cell, edges);
-  state.counters["convex_pair"] = share(counts.edges.convex_pair, edges);
   state.counters["same_chain"] = share(counts.edges.same_chain, edges);
   state.counters["clear"] = share(counts.edges.clear, edges);
   state.counters["events"] = share(counts.edges.event_sweeps, edges);
@@ -94,14 +93,12 @@ void no_clearance(benchmark::State& s) {
   options.clearance = false;
   fly(s, options);
 }
-void nor_same_cell(benchmark::State& s) { fly(s, without(&Edge_certificates::same_cell)); }
-void nor_convex_pair(benchmark::State& s) { fly(s, without(&Edge_certificates::convex_pair)); }
 void nor_same_chain(benchmark::State& s) { fly(s, without(&Edge_certificates::same_chain)); }
 void nor_flood(benchmark::State& s) { fly(s, without(&Edge_certificates::flood)); }
 void no_certificate(benchmark::State& s) {
   Body_options options;
   options.clearance = false;
-  options.sweep.certificates = {false, false, false, false};
+  options.sweep.certificates = {false, false};
   fly(s, options);
 }
 void three_segments(benchmark::State& s) {
@@ -113,8 +110,6 @@ void three_segments(benchmark::State& s) {
 
 BENCHMARK(all)->Unit(benchmark::kMicrosecond);
 BENCHMARK(no_clearance)->Unit(benchmark::kMicrosecond);
-BENCHMARK(nor_same_cell)->Unit(benchmark::kMicrosecond);
-BENCHMARK(nor_convex_pair)->Unit(benchmark::kMicrosecond);
 BENCHMARK(nor_same_chain)->Unit(benchmark::kMicrosecond);
 BENCHMARK(nor_flood)->Unit(benchmark::kMicrosecond);
 BENCHMARK(no_certificate)->Unit(benchmark::kMicrosecond);

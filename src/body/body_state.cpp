@@ -206,12 +206,8 @@ void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
   if (!region.is_edge_stale(edge)) return;
   region.mark_edge(edge, false);
   const Particle<D>&p = particles[u], &q = particles[v];
-  // Between points inside of a cell, or of two whose union is convex, there is but one chain.
-  if (p.dimension == D && q.dimension == D) {
-    if (p.cell == q.cell) return set_chain(edge, {});
-    if (const Half_facet f = snapshot->convex_passage(p.cell, q.cell); f != Half_facet::none)
-      return set_chain(edge, {f});
-  }
+  // Between points inside of a cell there is but one chain.
+  if (p.dimension == D && q.dimension == D && p.cell == q.cell) return set_chain(edge, {});
   set_chain(edge, find_any_chain(*snapshot, p, q, counts.edges.walk).chain);
 }
 

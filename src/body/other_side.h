@@ -6,7 +6,6 @@
 #include <cellwalk/environment/snapshot.h>
 
 #include <bit>
-#include <cstring>
 
 namespace cellwalk::detail {
 
@@ -14,13 +13,10 @@ namespace cellwalk::detail {
 /// the links of that cell tell without a look at points.
 template <int D>
 Half_facet other_side(const Snapshot<D>& snapshot, Half_facet f) {
-  constexpr int cell_bits = (1 << 30) - 1;
   const Cell own = snapshot.cell_of(f), other = snapshot.neighbour(f);
   Half_facet only = Half_facet::none;
   for (std::size_t b = 0; b < snapshot.block_count(other); ++b) {
-    Int4 block;
-    std::memcpy(&block, snapshot.links(other) + 4 * b, sizeof(block));
-    const unsigned there = lane_mask((block & cell_bits) == static_cast<int>(to_index(own)));
+    const unsigned there = snapshot.facets_to(own, other, b);
     if (there == 0) continue;
     if (only != Half_facet::none || !std::has_single_bit(there)) return snapshot.opposite(f);
     only = Snapshot<D>::half_facet(other, 4 * b + static_cast<std::size_t>(std::countr_zero(there)));

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <functional>
 #include <span>
 #include <vector>
@@ -47,15 +46,6 @@ inline std::uint32_t differ(const std::uint32_t* own, const std::array<std::uint
   const std::uint32_t first = (a ^ z) | (b ^ y) | (c ^ x), second = (a ^ y) | (b ^ x) | (c ^ z),
                       third = (a ^ x) | (b ^ z) | (c ^ y);
   return std::min({first, second, third});
-}
-
-/// The lane of a block that leads to a cell; any if there is none.
-inline std::size_t lane_that_leads(const std::uint32_t* links, std::uint32_t cell) {
-  constexpr int mask = (1 << 30) - 1;
-  Int4 block;
-  std::memcpy(&block, links, sizeof block);
-  return static_cast<std::size_t>(
-      std::countr_zero(lane_mask((block & mask) == static_cast<int>(cell)) | 1u << 3));
 }
 
 /// True if a facet of a cell is one of another, seen from its other side.
@@ -188,8 +178,7 @@ void Environment_image<D>::check_facet(const Snapshot<D>& s, Cell own, std::size
   if (other == own || !s.is_cell(other)) refuse_image("a neighbour is not there");
   const std::uint32_t back = s.links(other)[other_side(s, own, i, other)];
   if ((word ^ back) & ~mask) refuse_image("a facet has two sides that differ");
-  const bool is_wall = word & wall, is_pair = word & Snapshot<D>::convex_pair_bit;
-  if (is_wall ? is_pair : s.is_solid(own) != s.is_solid(other))
+  if (!(word & wall) && s.is_solid(own) != s.is_solid(other))
     refuse_image("a facet is passable that cannot be");
 }
 
@@ -199,15 +188,17 @@ template <int D>
 bool Environment_image<D>::is_sound_facet(const Snapshot<D>& s, std::uint32_t facet,
                                           std::uint32_t tetrahedron) {
   constexpr std::uint32_t mask = Snapshot<D>::link_mask, wall = Snapshot<D>::wall_bit,
-                          pair = Snapshot<D>::convex_pair_bit, solid = Snapshot<D>::solid_bit;
+                          solid = Snapshot<D>::solid_bit;
   const std::uint32_t block = facet / 4, i = facet % 4, word = s.links_[facet], link = word & mask;
   const std::uint32_t own_word = s.shape_[block], other_word = s.shape_[link];
   if ((other_word & ~solid) != tetrahedron) return false;
   const std::uint32_t* const back = s.links_.data() + 4 * std::size_t{link};
-  const std::size_t j = lane_that_leads(back, block);
-  const std::uint32_t passable = ~word & wall, paired = word & pair;
+  // Any lane, if none leads here.
+  const auto j =
+      static_cast<std::size_t>(std::countr_zero(s.facets_to(Cell{block}, Cell{link}, 0) | 1u << 3));
+  const std::uint32_t passable = ~word & wall;
   const std::uint32_t fault = ((back[j] & mask) ^ block) | ((word ^ back[j]) & ~mask) |
-                              (passable ? 0 : paired) | ((own_word ^ other_word) & solid & passable) |
+                              ((own_word ^ other_word) & solid & passable) |
                               differ(s.vertices_.data() + s.vertex_begin_[block], tetrahedron_loops[i],
                                      s.vertices_.data() + s.vertex_begin_[link], tetrahedron_loops[j]);
   return fault == 0;

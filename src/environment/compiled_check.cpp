@@ -25,7 +25,7 @@ void Environment_image<D>::check_sizes(const Snapshot<D>& s) {
   if (s.links_.size() != 4 * blocks || s.vertex_begin_.size() != blocks || s.shape_.size() != blocks ||
       s.index_.size() != blocks)
     refuse_image("its arrays differ in length");
-  if (blocks >= Snapshot<D>::link_mask || s.vertices_.size() > to_index(Cell::none) ||
+  if (blocks > Snapshot<D>::most_blocks || s.vertices_.size() > to_index(Cell::none) ||
       s.points_.size() > to_index(Cell::none) || s.cell_of_index_.size() > to_index(Cell::none))
     refuse_image("its arrays are too long");
 }
@@ -132,18 +132,16 @@ Snapshot<D> Environment_image<D>::certified_again(const Snapshot<D>& snapshot) {
 }
 
 template <int D>
-bool Environment_image<D>::has_same_certificates(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell) {
-  const std::size_t blocks = a.block_count(cell);
-  return std::memcmp(a.blocks(cell), b.blocks(cell), blocks * sizeof(Plane_block<D>)) == 0 &&
-         std::memcmp(a.links(cell), b.links(cell), 4 * blocks * sizeof(std::uint32_t)) == 0;
+bool Environment_image<D>::has_same_planes(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell) {
+  return std::memcmp(a.blocks(cell), b.blocks(cell), a.block_count(cell) * sizeof(Plane_block<D>)) == 0;
 }
 
 template void Environment_image<2>::check(const Snapshot<2>&);
 template void Environment_image<3>::check(const Snapshot<3>&);
 template Snapshot<2> Environment_image<2>::certified_again(const Snapshot<2>&);
 template Snapshot<3> Environment_image<3>::certified_again(const Snapshot<3>&);
-template bool Environment_image<2>::has_same_certificates(const Snapshot<2>&, const Snapshot<2>&, Cell);
-template bool Environment_image<3>::has_same_certificates(const Snapshot<3>&, const Snapshot<3>&, Cell);
+template bool Environment_image<2>::has_same_planes(const Snapshot<2>&, const Snapshot<2>&, Cell);
+template bool Environment_image<3>::has_same_planes(const Snapshot<3>&, const Snapshot<3>&, Cell);
 
 }  // namespace detail
 
@@ -154,7 +152,7 @@ void check_compiled(const Environment<D>& environment) {
   const Snapshot<D> again = Image::certified_again(snapshot);
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
-    if (cell != Cell::none && !Image::has_same_certificates(snapshot, again, cell))
+    if (cell != Cell::none && !Image::has_same_planes(snapshot, again, cell))
       throw Error(
           Error_code::not_certified,
           "cell " + std::to_string(i) +

@@ -73,10 +73,10 @@ class Environment_image {
 
   /// \throw Error(input) naming what is wrong
   static void check(const Snapshot<D>& snapshot);
-  /// A copy whose certificates are made anew.
+  /// A copy whose planes are made anew.
   static Snapshot<D> certified_again(const Snapshot<D>& snapshot);
-  /// True if both have the same planes and the same pairs of convex union at a cell.
-  static bool has_same_certificates(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell);
+  /// True if both have the same planes at a cell.
+  static bool has_same_planes(const Snapshot<D>& a, const Snapshot<D>& b, Cell cell);
 
  private:
   static void check_frame(const Snapshot<D>& snapshot);

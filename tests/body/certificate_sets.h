@@ -32,10 +32,8 @@ struct Certificate_set {
 inline std::vector<Certificate_set> certificate_sets() {
   constexpr std::size_t any = 1, never = ~std::size_t{0};
   constexpr detail::Body_certificates no_others{false, false, false, false, never};
-  constexpr Edge_certificates none{false, false, false, false}, all{};
+  constexpr Edge_certificates none{false, false}, all{};
   const auto in_region = [](const Body_counts& c) { return c.in_region; };
-  const auto same_cell = [](const Body_counts& c) { return c.edges.same_cell; };
-  const auto convex_pair = [](const Body_counts& c) { return c.edges.convex_pair; };
   const auto same_chain = [](const Body_counts& c) { return c.edges.same_chain; };
   const auto event_sweeps = [](const Body_counts& c) { return c.edges.event_sweeps; };
   return {
@@ -46,11 +44,9 @@ inline std::vector<Certificate_set> certificate_sets() {
       {"region of the body by clusters", true, {true, false, true, false, any, 0}, none, in_region},
       {"regions of stars", true, {false, true, false, false, any, 0}, none, in_region},
       {"regions of stars by clusters", true, {false, true, true, false, any, 0}, none, in_region},
-      {"chains in place", false, {false, false, false, true, never}, {false, false, true, false}, same_chain},
-      {"same cell", false, no_others, {true, false, false, false}, same_cell},
-      {"convex pair", false, no_others, {false, true, false, false}, convex_pair},
-      {"same chain", false, no_others, {false, false, true, false}, same_chain},
-      {"flood", false, no_others, {false, false, false, true}, event_sweeps, true},
+      {"chains in place", false, {false, false, false, true, never}, {true, false}, same_chain},
+      {"same chain", false, no_others, {true, false}, same_chain},
+      {"flood", false, no_others, {false, true}, event_sweeps, true},
   };
 }
 

@@ -42,8 +42,7 @@ struct Rejected_seen {
         add("in a region", counts.in_region);
     add("blocked vertices", by_vertex), add("by edges", by_edges), add("edges gone round", gone_round);
     add("by touch alone", only_touch), add("starts on walls", along_walls);
-    add("in one cell", e.same_cell), add("in two convex ones", e.convex_pair),
-        add("of the same chain", e.same_chain);
+    add("in one cell", e.same_cell), add("of the same chain", e.same_chain);
     add("floods", e.floods), add("clear", e.clear), add("pierced", e.pierced),
         add("by events", e.event_sweeps);
     return text;

@@ -173,7 +173,7 @@ class Relink_trial {
       seen_.note(seen_.wrong, name + fault_names[static_cast<std::size_t>(fault)]);
     Edge_counts counts;
     const Sweep_result<D> swept = sweep_triangle<D>(w_.snapshot, path, q, before, counts,
-                                                    Edge_certificates{false, false, false, false});
+                                                    Edge_certificates{false, false});
     if (swept.contact) return seen_.note(seen_.not_free, name + "the exact sweep meets a wall");
     if (swept.chain == chain) return;
     ++seen_.other_chains;

@@ -169,7 +169,7 @@ TEST_F(Compiled_file, DamagedFilesAreRefused) {
   write("longer.cellwalk", whole + "x");
   refused("longer.cellwalk", "more follows its end");
   damage("older.cellwalk", 8, std::string("\x00\x00\x00\x00", 4));
-  refused("older.cellwalk", "was compiled in version 0 of the format, and this program reads version 1");
+  refused("older.cellwalk", "was compiled in version 0 of the format, and this program reads version 2");
   damage("foreign.cellwalk", 12, "\x01\x02\x03\x04");
   refused("foreign.cellwalk", "compiled on a machine of another byte order");
   damage("flipped.cellwalk", whole.size() - 8, "\x7f");

@@ -55,7 +55,7 @@ TEST_F(Replay, GivesTheRecordedAnswers) {
     EXPECT_GT(counts["crossings"], 100);
     EXPECT_TRUE(counts["exact_fallbacks"].is_number());
     double shares = 0;
-    for (const char* certificate : {"same_cell", "convex_pair", "same_chain"})
+    for (const char* certificate : {"same_cell", "same_chain"})
       shares += counts["body"]["shares"][certificate].get<double>();
     EXPECT_GT(shares, 0.6);
     EXPECT_LE(shares, 1);

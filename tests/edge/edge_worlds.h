@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,15 +25,9 @@ class Edge_world {
  public:
   Edge_world(std::uint64_t number, bool generic)
       : Edge_world(oracle::make_world<D>(number), number, generic) {}
-  /// `tamper`, if given, changes the snapshot that is swept.
-  Edge_world(oracle::World<D> w, std::uint64_t seed, bool generic,
-             const std::function<void(Snapshot<D>&)>& tamper = {})
+  Edge_world(oracle::World<D> w, std::uint64_t seed, bool generic)
       : world(std::move(w)),
-        snapshot([&] {
-          auto compiled = Snapshot<D>::compile(world.soup, glue(world.soup));
-          if (tamper) tamper(compiled);
-          return compiled;
-        }()),
+        snapshot(Snapshot<D>::compile(world.soup, glue(world.soup))),
         locator(snapshot),
         walls(snapshot),
         generic_(generic),

@@ -20,7 +20,7 @@ namespace cellwalk::test {
 struct Facet_facts {
   std::vector<std::uint32_t> loop;  ///< rotated to start at the lowest point
   std::uint32_t neighbour;          ///< input index, or no_facet
-  bool impassable, convex_pair;
+  bool impassable;
 
   auto operator<=>(const Facet_facts&) const = default;
 };
@@ -61,8 +61,8 @@ Snapshot_facts<D> facts(const Snapshot<D>& snapshot) {
       if (neighbour != Cell::none) {
         EXPECT_EQ(snapshot.opposite(snapshot.opposite(f)), f);
       }
-      cell.facets.push_back({loop, neighbour == Cell::none ? no_facet : snapshot.index(neighbour),
-                             snapshot.is_impassable(f), snapshot.is_convex_pair(f)});
+      cell.facets.push_back(
+          {loop, neighbour == Cell::none ? no_facet : snapshot.index(neighbour), snapshot.is_impassable(f)});
     }
     std::sort(cell.facets.begin(), cell.facets.end());
     result.cells.push_back(cell);

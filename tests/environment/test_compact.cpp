@@ -46,7 +46,6 @@ void expect_same(const Snapshot<D>& before, const Snapshot<D>& after, const Comp
       const Half_facet f = Snapshot<D>::half_facet(old, k), g = names.half_facets[to_index(f)];
       ASSERT_EQ(after.cell_of(g), now);
       EXPECT_EQ(after.is_impassable(g), before.is_impassable(f));
-      EXPECT_EQ(after.is_convex_pair(g), before.is_convex_pair(f));
       const Cell other = before.neighbour(f);
       EXPECT_EQ(after.neighbour(g), other == Cell::none ? Cell::none : names.cells[to_index(other)]);
       auto old_loop = before.loop(f), loop = after.loop(g);

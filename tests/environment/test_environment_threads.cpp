@@ -131,7 +131,7 @@ struct Damage {
 
 /// Damages a cell in one of the ways that are found when cells are tested, or when links are.
 Damage damage(Bytes& image, bool is_of_links, std::uint32_t cell, bool first_way) {
-  constexpr std::uint32_t of_wall = 1u << 31, of_pair = 1u << 30, of_cell = of_pair - 1;  // bits of links
+  constexpr std::uint32_t of_wall = 1u << 31, of_cell = of_wall - 1;  // bits of links
   const auto entry = [&](const char* section, std::size_t i) -> std::uint32_t& {
     return reinterpret_cast<std::uint32_t*>(test::section_of(image, section).data())[i];
   };
@@ -145,7 +145,7 @@ Damage damage(Bytes& image, bool is_of_links, std::uint32_t cell, bool first_way
     const bool is_boundary = word == (of_cell | of_wall);
     if (first_way != is_boundary) continue;
     const std::uint32_t link = word & of_cell;
-    word ^= first_way ? of_pair : of_wall;
+    word ^= of_wall;
     return {std::min(cell, link),
             first_way ? "a facet of the boundary is no wall" : "a facet has two sides that differ"};
   }

@@ -22,15 +22,13 @@ namespace {
 using detail::Star_defect;
 using detail::Vertex_mover;
 
-/// True if nothing is certified of a cell, nor of a facet of others that it shares.
+/// True if nothing is certified of a cell.
 template <int D>
 bool is_withdrawn(const Snapshot<D>& snapshot, Cell c) {
   for (std::size_t i = 0; i < snapshot.facet_count(c); ++i) {
     for (int k = 0; k < D; ++k)
       if (snapshot.blocks(c)[i / 4].normal[k][i % 4] != 0) return false;
     if (snapshot.blocks(c)[i / 4].offset[i % 4] != 0) return false;
-    const Half_facet f = Snapshot<D>::half_facet(c, i), g = snapshot.opposite(f);
-    if (snapshot.is_convex_pair(f) || (g != Half_facet::none && snapshot.is_convex_pair(g))) return false;
   }
   return true;
 }

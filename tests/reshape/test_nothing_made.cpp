@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Moves that are asked about, or not made, change nothing for what is not listed: planes and convex pairs are
-// withdrawn and made anew, the same as before.
+// Moves that are asked about, or not made, change nothing for what is not listed: planes are withdrawn and
+// made anew, the same as before.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/reshape/reshaping.h>
 

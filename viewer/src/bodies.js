@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What moves: bodies with edges and faces, catheters, free particles.
 import * as THREE from 'three';
-import { decisions, ofNumber, tableOf } from './colours.js';
+import { decisionOf, ofNumber, tableOf } from './colours.js';
 import { fatLines } from './lines.js';
 
 const edgeWidth = 1.9, surfaceEdgeWidth = 0.9, catheterWidth = 5;  // pixels
@@ -74,7 +74,7 @@ export function makeBodies(motion) {
   if (motion.particles > 0) group.add(free.object);
 
   const byBody = tableOf(Math.max(1, motion.bodyCount), ofNumber);
-  const byDecision = tableOf(decisions.length, i => new THREE.Color(decisions[i].colour));
+  const byDecision = tableOf(motion.decisions.length, i => new THREE.Color(decisionOf(motion.decisions[i]).colour));
   const byCell = tableOf(Math.min(motion.cells, 1 << 16), ofNumber), cellColours = byCell.length / 3;
   const particleColour = new THREE.Color('#7488a6');
 

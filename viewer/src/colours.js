@@ -2,17 +2,19 @@
 // What colours mean. Components are linear, as shaders take them.
 import { Color } from 'three';
 
-/** How a body's moves were decided, as in docs/formats.md; costlier ones are warmer. */
-export const decisions = [
-  { name: 'at rest', colour: '#8a94a6' },
-  { name: 'region free of walls', colour: '#2a9d63' },
-  { name: 'same cell', colour: '#4ab3c9' },
-  { name: 'convex pair', colour: '#2f6fd0' },
-  { name: 'same chain', colour: '#7a55c7' },
-  { name: 'clear of walls', colour: '#d9a400' },
-  { name: 'events', colour: '#e8731a' },
-  { name: 'contact', colour: '#d02746' },
-];
+/** How a body's moves were decided, by the names that recordings have for it (docs/formats.md); costlier ones are warmer. */
+export const decisions = {
+  none: { title: 'at rest', colour: '#8a94a6' },
+  region: { title: 'region free of walls', colour: '#2a9d63' },
+  same_cell: { title: 'same cell', colour: '#4ab3c9' },
+  same_chain: { title: 'same chain', colour: '#7a55c7' },
+  clear: { title: 'clear of walls', colour: '#d9a400' },
+  events: { title: 'events', colour: '#e8731a' },
+  contact: { title: 'contact', colour: '#d02746' },
+};
+
+/** Other versions of the program may have other ways to decide. */
+export const decisionOf = name => decisions[name] ?? { title: name.replaceAll('_', ' '), colour: '#2f6fd0' };
 
 /** Features of the environment that were met, by kind. */
 export const kinds = [

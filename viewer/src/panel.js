@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The panel: what the run was, what is seen of it, and its counts.
-import { decisions, kinds } from './colours.js';
+import { decisionOf, decisions, kinds } from './colours.js';
 
 const number = value => Number(value).toLocaleString('en-US');
 const percent = value => `${(100 * value).toFixed(1)} %`;
@@ -41,9 +41,9 @@ export class Panel {
     if (motion.bodyCount === 0) document.querySelector('[value=certificate]').disabled = true;
 
     this.legend = find('legend');
-    this.cells = decisions.map(({ name, colour }) => {
-      const count = element('td');
-      const row = element('tr', {}, element('td', {}, swatch(colour), name), count);
+    this.cells = motion.decisions.map(name => {
+      const { title, colour } = decisionOf(name), count = element('td');
+      const row = element('tr', {}, element('td', {}, swatch(colour), title), count);
       this.legend.append(row);
       return count;
     });
@@ -71,11 +71,10 @@ export class Panel {
     const counts = report.body_counts;
     if (counts) {
       const shares = counts.shares;
-      table('run', [['Moves of vertices', number(counts.moves)], ['in regions free of walls', percent(shares.in_region), decisions[1].colour],
+      table('run', [['Moves of vertices', number(counts.moves)], ['in regions free of walls', percent(shares.in_region), decisions.region.colour],
         ['Edges checked', number(counts.edges.checked)],
-        ['same cell', percent(shares.same_cell), decisions[2].colour], ['convex pair', percent(shares.convex_pair), decisions[3].colour],
-        ['same chain', percent(shares.same_chain), decisions[4].colour], ['clear of walls', percent(shares.clear), decisions[5].colour],
-        ['events', percent(shares.event_sweeps), decisions[6].colour]]);
+        ...[['same_cell'], ['same_chain'], ['clear'], ['events', 'event_sweeps']].map(([name, share = name]) =>
+          [decisions[name].title, percent(shares[share]), decisions[name].colour])]);
     }
     if (report.catheter)
       table('run', [['Catheter', report.catheter.arrived ? 'arrived' : `at waypoint ${report.catheter.waypoint}`]]);
@@ -91,7 +90,7 @@ export class Panel {
     this.find('shown').textContent = number(shown);
     this.legend.hidden = this.mode !== 'certificate';
     if (this.legend.hidden) return;
-    const count = new Uint32Array(decisions.length);
+    const count = new Uint32Array(this.motion.decisions.length);
     for (const decision of this.motion.decisionsOf(record)) ++count[decision];
     this.cells.forEach((cell, i) => { cell.textContent = number(count[i]); });
   }

@@ -20,10 +20,8 @@ using Chain = boost::container::small_vector<Half_facet, 4>;
 
 /// The counts of the checks of edges. They are machine-independent.
 struct Edge_counts {
-  std::uint64_t edges = 0;      ///< edges checked
-  std::uint64_t same_cell = 0;  ///< proved by both ends being in one cell, without a sign
-  /// Proved by neighbouring cells with a convex union, without a sign.
-  std::uint64_t convex_pair = 0;
+  std::uint64_t edges = 0;          ///< edges checked
+  std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, without a sign
   std::uint64_t same_chain = 0;     ///< proved by the new edge crossing the old chain
   std::uint64_t chain_facets = 0;   ///< facets examined for that
   std::uint64_t clear = 0;          ///< proved to meet no wall
@@ -41,17 +39,17 @@ struct Edge_counts {
   std::uint64_t search_misses = 0;
   Walk_counts walk;  ///< of all walks and signs
 
-  static constexpr std::array<std::string_view, 16> names{
-      "checked",       "same_cell",    "convex_pair",  "same_chain",    "chain_facets", "clear",
-      "event_sweeps",  "changed",      "floods",       "flooded_cells", "pierced",      "searches",
-      "search_sweeps", "search_walks", "search_walls", "search_misses"};
+  static constexpr std::array<std::string_view, 15> names{
+      "checked",      "same_cell",     "same_chain",   "chain_facets",  "clear",
+      "event_sweeps", "changed",       "floods",       "flooded_cells", "pierced",
+      "searches",     "search_sweeps", "search_walks", "search_walls",  "search_misses"};
 };
 static_assert(names_all_before<Edge_counts>(offsetof(Edge_counts, walk)));
 
 /// The certificates that a sweep tries before it follows events. Each is sound by itself; disabling one only
 /// costs time.
 struct Edge_certificates {
-  bool same_cell = true, convex_pair = true, same_chain = true, flood = true;
+  bool same_chain = true, flood = true;
 };
 
 /// The chain of a segment, or the wall that blocks it.

@@ -67,8 +67,7 @@ Any_compiled_environment open_compiled(Held_bytes image);
 /// The same of bytes anywhere, which are copied.
 Any_compiled_environment open_compiled_copy(std::span<const std::byte> bytes);
 
-/// Tests that the certificates of all cells, their planes and pairs of convex union, are those that compiling
-/// gives.
+/// Tests that the certificates of all cells, their planes, are those that compiling gives.
 /// \pre Environment::certify() throws nothing
 /// \throw Error(not_certified) naming the first cell that has others
 /// Cost: linear, about 0.5 us a tetrahedron; memory of a second snapshot.

@@ -16,7 +16,6 @@
 #include <cellwalk/internal/environment/tissue_boxes.h>
 #include <cellwalk/records/cell_soup.h>
 
-#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -105,30 +104,17 @@ class Snapshot {
     static_assert(wall_bit == 1u << 31, "walls are those whose links are negative");
     return lane_mask(links_of_block < 0);
   }
-  /// True if the union of the two cells is convex, all facets they share are passable, and these facets are
-  /// their whole intersection, so that no slit lies between them.
-  bool is_convex_pair(Half_facet f) const { return links_[to_index(f)] & convex_pair_bit; }
   /// The cell on the other side, walls included; Cell::none on the boundary.
   Cell neighbour(Half_facet f) const {
     const std::uint32_t link = links_[to_index(f)] & link_mask;
     return link == link_mask ? Cell::none : Cell{link};
   }
-  /// The facet, seen from the first cell, through which all segments between two cells pass: the cells are a
-  /// convex pair and share no other facet. Half_facet::none if there is no such facet.
-  /// Cost: reading the links of the facets of one cell.
-  Half_facet convex_passage(Cell from, Cell to) const {
-    Half_facet passage = Half_facet::none;
-    for (std::size_t b = 0; b < block_count(from); ++b) {
-      Int4 block;
-      std::memcpy(&block, links(from) + 4 * b, sizeof(block));
-      // Lanes without a facet link to nothing.
-      const unsigned there =
-          lane_mask((block & static_cast<int>(link_mask)) == static_cast<int>(to_index(to)));
-      if (there == 0) continue;
-      if (passage != Half_facet::none || (there & (there - 1)) != 0) return Half_facet::none;
-      passage = half_facet(from, 4 * b + static_cast<std::size_t>(std::countr_zero(there)));
-    }
-    return passage != Half_facet::none && is_convex_pair(passage) ? passage : Half_facet::none;
+  /// The facets of a block of a cell beyond which another cell lies, as a bit mask.
+  unsigned facets_to(Cell neighbour, Cell c, std::size_t block) const {
+    Int4 links_of_block;
+    std::memcpy(&links_of_block, links(c) + 4 * block, sizeof(links_of_block));
+    // Lanes without a facet link to nothing.
+    return lane_mask((links_of_block & static_cast<int>(link_mask)) == static_cast<int>(to_index(neighbour)));
   }
   /// The other side of the facet; Half_facet::none on the boundary.
   /// Cost: a search over the neighbour's facets.
@@ -149,7 +135,7 @@ class Snapshot {
   /// The planes of the facets in lanes, and the box in which their error bound holds.
   const Plane_frame<D>& frame() const { return frame_; }
   const Plane_block<D>* blocks(Cell c) const { return planes_.data() + to_index(c); }
-  /// Neighbours of the facets of a cell with the wall and convex-pair bits, four a block.
+  /// Neighbours of the facets of a cell with the wall bits, four a block.
   const std::uint32_t* links(Cell c) const { return links_.data() + 4 * std::size_t{to_index(c)}; }
   /// Blocks of a cell: ceil(facets/4).
   std::size_t block_count(Cell c) const {
@@ -194,7 +180,7 @@ class Snapshot {
   }
 
   // --- local updates (Environment keeps map and snapshot consistent)
-  /// Marks both sides of a facet, and updates the convex-pair bits of the two cells.
+  /// Marks both sides of a facet.
   void set_impassable(Half_facet f, bool wall);
   /// Moves a point; call update_geometry() for all cells that contain it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
@@ -207,7 +193,7 @@ class Snapshot {
   /// Gives the index of a point that no cell has to later ones.
   void remove_point(std::uint32_t index) { free_points_.insert(index); }
   /// Recomputes the data of cells that depend on positions: the starting vertices of loops (the first D
-  /// vertices must not be collinear), planes and convex-pair bits. Half-facets keep their names.
+  /// vertices must not be collinear) and planes. Half-facets keep their names.
   /// \param cells all cells with a moved point
   void update_geometry(std::span<const Cell> cells);
   /// Replaces the cells `removed` by the cells of `soup`, whose vertices are indices of this snapshot's
@@ -228,15 +214,16 @@ class Snapshot {
 
  private:
   static constexpr std::uint32_t wall_bit = 1u << 31;
-  static constexpr std::uint32_t convex_pair_bit = 1u << 30;
-  static constexpr std::uint32_t link_mask = convex_pair_bit - 1;
+  static constexpr std::uint32_t link_mask = wall_bit - 1;
+  /// The number of blocks that half-facets can name.
+  static constexpr std::uint32_t most_blocks = to_index(Half_facet::none) / 4;
   static constexpr std::uint32_t solid_bit = 1u << 31;
   static constexpr std::uint32_t continuation_bit = 1u << 30;
   static constexpr std::uint32_t removed_bit = 1u << 29;
   static constexpr std::uint32_t shape_mask = removed_bit - 1;
 
   detail::Flat_array<Plane_block<D>> planes_;        // per block
-  detail::Flat_array<std::uint32_t> links_;          // per lane: neighbouring cell, wall and convex-pair bits
+  detail::Flat_array<std::uint32_t> links_;          // per lane: neighbouring cell, wall bit
   detail::Flat_array<std::uint32_t> vertex_begin_;   // per block: start of the cell's vertices
   detail::Flat_array<std::uint32_t> shape_;          // per block: shape, or distance to the first block
   detail::Flat_array<std::uint32_t> index_;          // per block: index of the cell in the input

@@ -101,7 +101,6 @@ ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
 
 ordered_json shares_json(const Edge_counts& c) {
   return {{"same_cell", share(c.same_cell, c.edges)},
-          {"convex_pair", share(c.convex_pair, c.edges)},
           {"same_chain", share(c.same_chain, c.edges)},
           {"clear", share(c.clear, c.edges)},
           {"event_sweeps", share(c.event_sweeps, c.edges)}};
@@ -129,10 +128,10 @@ std::string describe_moves(const Body_counts& c) {
 
 std::string describe_edges(const Edge_counts& e) {
   return fmt::format(
-      "{} checked: {:.1f} % in one cell, {:.1f} % in a convex pair of cells, {:.1f} % along the same "
+      "{} checked: {:.1f} % in one cell, {:.1f} % along the same "
       "chain, {:.1f} % clear of walls, {:.1f} % by their events",
-      e.edges, percent(e.same_cell, e.edges), percent(e.convex_pair, e.edges), percent(e.same_chain, e.edges),
-      percent(e.clear, e.edges), percent(e.event_sweeps, e.edges));
+      e.edges, percent(e.same_cell, e.edges), percent(e.same_chain, e.edges), percent(e.clear, e.edges),
+      percent(e.event_sweeps, e.edges));
 }
 
 template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);

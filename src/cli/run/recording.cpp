@@ -74,7 +74,6 @@ Decision decision(const Body_counts& before, const Body_counts& now) {
   if (grew(&Edge_counts::event_sweeps)) return Decision::events;
   if (grew(&Edge_counts::clear)) return Decision::clear;
   if (grew(&Edge_counts::same_chain)) return Decision::same_chain;
-  if (grew(&Edge_counts::convex_pair)) return Decision::convex_pair;
   if (grew(&Edge_counts::same_cell)) return Decision::same_cell;
   const auto moves = now.moves - before.moves, in_region = now.in_region - before.in_region;
   if (moves == 0) return Decision::none;

@@ -48,21 +48,11 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
     const Swept_triangle<D> triangle{path.from.position, p.position, q.position};
     return !may_have_choice(snapshot, triangle, end, chain, counts.walk);
   };
-  // A triangle with a corner in the interior of a cell lies in the plane of no facet of it; and a convex
-  // union has no facet in a plane through its interior.
+  // A triangle with a corner in the interior of a cell lies in the plane of no facet of it.
   const bool has_inner_corner = (!path.blocked && p.dimension == D) || q.dimension == D;
-  if (certificates.same_cell && chain.empty() && (has_inner_corner || has_no_choice())) {
+  if (certificates.same_chain && chain.empty() && (has_inner_corner || has_no_choice())) {
     ++counts.same_cell;
     result = {};
-    return true;
-  }
-  if (certificates.convex_pair && chain.size() == 1 &&
-      snapshot.convex_passage(snapshot.cell_of(chain.front()), snapshot.neighbour(chain.front())) !=
-          Half_facet::none &&
-      (has_inner_corner || has_no_choice())) {
-    ++counts.convex_pair;
-    result = {};
-    result.chain = chain;
     return true;
   }
   counts.chain_facets += chain.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Compilation of a whole soup: order, sizes, cells, links, planes, convex pairs.
+// Compilation of a whole soup: order, sizes, cells, links, planes.
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/parallel_sort.h>
@@ -74,7 +74,7 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
     blocks += own_blocks;
     vertices += vertex_count[c];
   }
-  if (blocks >= link_mask) throw Error(Error_code::input, "more than 10^9 cells: split the environment");
+  if (blocks > most_blocks) throw Error(Error_code::input, "more than 10^9 cells: split the environment");
   s.planes_.resize(blocks);
   s.links_.resize(4 * blocks);
   s.vertex_begin_.resize(blocks);
@@ -110,19 +110,6 @@ Snapshot<D> Snapshot<D>::compile(const Cell_soup<D>& soup, const Gluing& gluing,
     if (n) uncertified += n;
   });
   s.uncertified_planes_ = uncertified;
-  // A pair is found by links that other pairs mark: first all are found.
-  std::vector<std::uint8_t> is_pair(soup.facet_count());
-  const auto for_each_glued = [&](const auto& visit) {
-    for_each_parallel(cells, [&](std::size_t i) {
-      const std::uint32_t c = order[i];
-      for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
-        if (gluing.opposite[f] != no_facet && f < gluing.opposite[f]) visit(f);
-    });
-  };
-  for_each_glued([&](std::uint32_t f) { is_pair[f] = compiler.is_convex_pair(slot[f]); });
-  for_each_glued([&](std::uint32_t f) {
-    if (is_pair[f]) compiler.mark_convex_pair(slot[f], slot[gluing.opposite[f]]);
-  });
   return s;
 }
 

@@ -2,7 +2,6 @@
 #include "compiler.h"
 
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,52 +10,6 @@
 #include "plane_compiler.h"
 
 namespace cellwalk {
-namespace {
-
-/// The side of x with respect to facet i of a cell: > 0 strictly outside.
-int side(const Cell_view<2>& cell, std::size_t i, const Point<2>& x) {
-  Predicate_counts counts;
-  const auto loop = cell.loop(i);
-  return -Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), x);
-}
-
-int side(const Cell_view<3>& cell, std::size_t i, const Point<3>& x) {
-  Predicate_counts counts;
-  const auto loop = cell.loop(i);
-  return Exact::orientation(counts, cell.point(loop[0]), cell.point(loop[1]), cell.point(loop[2]), x);
-}
-
-/// The facet of a cell other than `facet` with the ridge from point u to point v in the loop of `facet` (2D:
-/// with the vertex u); facet_count() if there is none.
-template <int D>
-std::size_t across_ridge(const Cell_view<D>& cell, std::size_t facet, std::uint32_t u, std::uint32_t v) {
-  for (std::size_t i = 0; i < cell.facet_count(); ++i) {
-    if (i == facet) continue;
-    const auto loop = cell.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      if constexpr (D == 2) {
-        if (cell.point_index(loop[k]) == u) return i;
-      } else {
-        const std::uint16_t next = loop[k + 1 == loop.size() ? 0 : k + 1];
-        if (cell.point_index(loop[k]) == v && cell.point_index(next) == u) return i;
-      }
-    }
-  }
-  return cell.facet_count();
-}
-
-/// True if facet j of a cell, which has the ridge uv (2D: the vertex u) in common with facet i, lies in its
-/// plane.
-template <int D>
-bool lies_in_plane(const Cell_view<D>& cell, std::size_t i, std::size_t j, std::uint32_t u, std::uint32_t v) {
-  const auto loop = cell.loop(j);
-  return std::all_of(loop.begin(), loop.end(), [&](std::uint16_t w) {
-    const std::uint32_t point = cell.point_index(w);
-    return point == u || (D == 3 && point == v) || side(cell, i, cell.point(w)) == 0;
-  });
-}
-
-}  // namespace
 
 template <int D>
 std::uint32_t Snapshot_compiler<D>::shape_number(const Cell_shape& shape) {
@@ -123,19 +76,12 @@ void Snapshot_compiler<D>::remove_cell(Cell c) {
 
 template <int D>
 void Snapshot_compiler<D>::withdraw(Cell c) {
-  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
   const std::size_t facets = s_.facet_count(c);
   s_.uncertified_planes_ += facets - count_uncertified(c);
   for (std::size_t i = 0; i < facets; ++i) {
     Plane_block<D>& block = s_.planes_[to_index(c) + i / 4];
     for (Float4& n : block.normal) n[i % 4] = 0;
     block.offset[i % 4] = 0;
-    std::uint32_t& link = s_.links_[4 * std::size_t{to_index(c)} + i];
-    const Cell other = s_.neighbour(s_.half_facet(c, i));
-    if (!(link & bit)) continue;
-    link &= ~bit;
-    for (std::size_t k = 0; k < s_.facet_count(other); ++k)
-      if (s_.neighbour(s_.half_facet(other, k)) == c) s_.links_[4 * std::size_t{to_index(other)} + k] &= ~bit;
   }
   s_.forget(c);
 }
@@ -198,76 +144,6 @@ std::size_t Snapshot_compiler<D>::write_planes(Cell c) {
 }
 
 template <int D>
-bool Snapshot_compiler<D>::is_convex(Cell a, std::size_t facet, Cell b) const requires(D == 3) {
-  if (s_.is_impassable(Snapshot<D>::half_facet(a, facet))) return false;
-  // The vertex of b that is not one of a: all others occur twice, but that of a that is not one of b.
-  const Cell_view<D> va = s_.view(a);
-  std::uint32_t apex =
-      va.vertices[static_cast<std::size_t>(6 - va.loop(facet)[0] - va.loop(facet)[1] - va.loop(facet)[2])];
-  for (const std::uint32_t v : va.vertices) apex ^= v;
-  for (const std::uint32_t v : s_.view(b).vertices) apex ^= v;
-  // It may lie in the plane of another facet of a: no slit can be there, as that is not the plane of `facet`.
-  Float_point<D> y{};
-  Float4 outside{};  // unknown
-  if (s_.frame_.map(s_.points_[apex], y)) outside = evaluate<D>(s_.planes_[to_index(a)], y);
-  outside[facet] = -1;
-  for (int i = 0; i < 4; ++i)
-    if (outside[i] > plane_error) return false;
-  for (std::size_t i = 0; i < 4; ++i)
-    if (!(outside[i] < -plane_error) && side(va, i, s_.points_[apex]) > 0) return false;
-  return true;
-}
-
-template <int D>
-bool Snapshot_compiler<D>::is_convex_pair(Half_facet f) const {
-  const Half_facet opposite = s_.opposite(f);
-  if (opposite == Half_facet::none) return false;
-  const Cell a = s_.cell_of(f), b = s_.cell_of(opposite);
-  const Cell_view<D> va = s_.view(a), vb = s_.view(b);
-  for (std::size_t i = 0; i < va.facet_count(); ++i) {
-    const Half_facet shared = s_.half_facet(a, i);
-    if (s_.neighbour(shared) != b) continue;
-    if (s_.is_impassable(shared)) return false;
-    const std::size_t j = s_.facet_of(s_.opposite(shared));
-    const auto loop = va.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const std::uint32_t u = va.point_index(loop[k]), v = va.point_index(loop[(k + 1) % loop.size()]);
-      const std::size_t ga = across_ridge(va, i, u, v), gb = across_ridge(vb, j, D == 2 ? u : v, u);
-      if (ga == va.facet_count() || gb == vb.facet_count()) return false;
-      // A ridge between two shared facets lies inside the union.
-      if (s_.neighbour(s_.half_facet(a, ga)) == b &&
-          s_.opposite(s_.half_facet(a, ga)) == s_.half_facet(b, gb))
-        continue;
-      bool in_one_plane = true;
-      for (const std::uint16_t w : vb.loop(gb)) {
-        // The ridge itself lies in both facets: exact zeros that need not be computed.
-        const std::uint32_t point = vb.point_index(w);
-        if (point == u || (D == 3 && point == v)) continue;
-        const int s = side(va, ga, vb.point(w));
-        if (s > 0) return false;
-        in_one_plane &= s == 0;
-      }
-      // If that plane is also that of the shared facet, both cells continue in it without being glued: a
-      // slit.
-      if (in_one_plane && lies_in_plane(va, i, ga, u, v)) return false;
-    }
-  }
-  return true;
-}
-
-template <int D>
-void Snapshot_compiler<D>::write_convex_pair(Half_facet f) {
-  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
-  const Half_facet opposite = s_.opposite(f);
-  if (opposite == Half_facet::none) return;
-  const bool is_pair = is_convex_pair(f);
-  for (const Half_facet h : {f, opposite}) {
-    std::uint32_t& word = s_.links_[to_index(h)];
-    word = is_pair ? word | bit : word & ~bit;
-  }
-}
-
-template <int D>
 void Snapshot_compiler<D>::link(Half_facet f, Half_facet g, bool wall) {
   const std::uint32_t bits = wall ? Snapshot<D>::wall_bit : 0;
   s_.links_[to_index(f)] = to_index(s_.cell_of(g)) | bits;
@@ -284,60 +160,40 @@ Snapshot_compiler<D>::Wall_change::Wall_change(Snapshot<D>& snapshot, std::span<
                                                std::span<const Half_facet> opened, Cell turned)
     : s_(snapshot), closed_(closed), opened_(opened), turned_(turned) {
   s_.edits_.reserve_turned(2 * (closed.size() + opened.size()));
-  try {
-    for (const Half_facet f : closed_) set(f, true);
-    if (turned_ != Cell::none) turn(turned_);
-    for (const Half_facet f : opened_) set(f, false);
-  } catch (...) {  // exact numbers take memory
-    put_back();
-    throw;
-  }
+  set(closed_, true);
+  turn();
+  set(opened_, false);
 }
 
 template <int D>
-void Snapshot_compiler<D>::Wall_change::set(Half_facet f, bool wall) {
-  const Cell a = s_.cell_of(f), b = s_.neighbour(f);
-  const std::size_t first = before_.size();
-  // All facets that two cells share carry the same convex-pair condition.
-  for (std::size_t i = 0; i < s_.facet_count(a); ++i) {
-    const Half_facet own = s_.half_facet(a, i);
-    if (s_.neighbour(own) != b) continue;
-    for (const Half_facet h : {own, s_.opposite(own)}) before_.push_back({h, s_.links_[to_index(h)]});
-  }
-  for (const Half_facet h : {f, s_.opposite(f)}) {
-    std::uint32_t& word = s_.links_[to_index(h)];
-    word = wall ? word | Snapshot<D>::wall_bit : word & ~Snapshot<D>::wall_bit;
-  }
-  const bool is_pair = !wall && Snapshot_compiler(s_).is_convex_pair(f);
-  for (std::size_t k = first; k < before_.size(); ++k) {
-    std::uint32_t& word = s_.links_[to_index(before_[k].facet)];
-    constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
-    word = is_pair ? word | bit : word & ~bit;
-  }
-  for (const Cell c : {a, b}) s_.forget(c);
+void Snapshot_compiler<D>::Wall_change::set(std::span<const Half_facet> facets, bool wall) noexcept {
+  for (const Half_facet f : facets)
+    for (const Half_facet h : {f, s_.opposite(f)}) {
+      std::uint32_t& word = s_.links_[to_index(h)];
+      word = wall ? word | Snapshot<D>::wall_bit : word & ~Snapshot<D>::wall_bit;
+      s_.forget(s_.cell_of(h));
+    }
 }
 
 template <int D>
-void Snapshot_compiler<D>::Wall_change::turn(Cell c) noexcept {
-  s_.shape_[to_index(c)] ^= Snapshot<D>::solid_bit;
-  s_.forget(c);
-  is_turned_ = !is_turned_;
+void Snapshot_compiler<D>::Wall_change::turn() noexcept {
+  if (turned_ == Cell::none) return;
+  s_.shape_[to_index(turned_)] ^= Snapshot<D>::solid_bit;
+  s_.forget(turned_);
 }
 
 template <int D>
 void Snapshot_compiler<D>::Wall_change::put_back() noexcept {
-  for (auto link = before_.rbegin(); link != before_.rend(); ++link) {
-    s_.links_[to_index(link->facet)] = link->word;
-    s_.forget(s_.cell_of(link->facet));
-  }
-  if (is_turned_) turn(turned_);
+  set(opened_, true);
+  turn();
+  set(closed_, false);
 }
 
 template <int D>
 void Snapshot_compiler<D>::Wall_change::keep() noexcept {
   is_kept_ = true;
   for (const Half_facet f : closed_) s_.edits_.note_turned(++s_.epoch_, f, s_.opposite(f));
-  if (is_turned_) ++s_.epoch_;
+  if (turned_ != Cell::none) ++s_.epoch_;
   for (const Half_facet f : opened_) s_.edits_.note_turned(++s_.epoch_, f, s_.opposite(f));
 }
 

@@ -5,9 +5,6 @@
 
 #include <cellwalk/environment/snapshot.h>
 
-#include <boost/container/small_vector.hpp>
-
-#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <span>
@@ -39,8 +36,8 @@ class Snapshot_compiler {
   /// Rotates each loop whose first three vertices are collinear until they are not, if it has three such
   /// consecutive vertices.
   void turn_loops(Cell c);
-  /// Withdraws what planes and convex pairs certify of a cell, before its points move: all of it is decided
-  /// exactly until Snapshot::update_geometry(). Also of the other sides of its facets.
+  /// Withdraws what planes certify of a cell, before its points move: all of it is decided exactly until
+  /// Snapshot::update_geometry().
   void withdraw(Cell c);
   class Wall_change;
   /// What is known of many cells at once was wrong of a cell if it was found since its points began to move.
@@ -65,21 +62,6 @@ class Snapshot_compiler {
   /// The number of current planes of a cell that certify nothing; 0 for a cell just written, which has no
   /// planes yet.
   std::size_t count_uncertified(Cell c) const;
-  /// Whether the cells at a facet are a convex pair. Thread-safe unless a link is written.
-  bool is_convex_pair(Half_facet f) const;
-  /// Recomputes the convex-pair bit of a facet on both sides.
-  void write_convex_pair(Half_facet f);
-  /// Sets the convex-pair bits of both sides of a facet. Reads no other link.
-  void mark_convex_pair(Half_facet f, Half_facet opposite) {
-    for (const Half_facet h : {f, opposite}) s_.links_[to_index(h)] |= Snapshot<D>::convex_pair_bit;
-  }
-  /// True if all facets of a cell are triangles, and there are four.
-  bool is_tetrahedron(Cell c) const;
-  /// Recomputes the convex-pair bits of the facets of a tetrahedron on both sides.
-  /// \param is_done is_done(c): the facets to cell c are left out
-  /// \pre its planes are up to date
-  template <class Done>
-  void write_convex_pairs(Cell c, const Done& is_done) requires(D == 3);
   /// Links two half-facets; wall marks both.
   void link(Half_facet f, Half_facet g, bool wall);
   void link_boundary(Half_facet f);
@@ -87,9 +69,6 @@ class Snapshot_compiler {
   static constexpr std::size_t blocks_for(std::size_t facets) { return (facets + 3) / 4; }
 
  private:
-  /// Whether two tetrahedra are a convex pair, by planes where they tell.
-  /// \pre they share this facet only
-  bool is_convex(Cell a, std::size_t facet, Cell b) const requires(D == 3);
   /// The number of a shape, added if new. Thread-safe.
   std::uint32_t shape_number(const Cell_shape& shape);
   /// Removes all facets and neighbours.
@@ -122,49 +101,15 @@ class Snapshot_compiler<D>::Wall_change {
   void keep() noexcept;
 
  private:
-  void set(Half_facet f, bool wall);
-  void turn(Cell c) noexcept;
+  void set(std::span<const Half_facet> facets, bool wall) noexcept;
+  void turn() noexcept;
   void put_back() noexcept;
 
-  struct Link {
-    Half_facet facet;
-    std::uint32_t word;
-  };
   Snapshot<D>& s_;
   std::span<const Half_facet> closed_, opened_;
   Cell turned_;
-  boost::container::small_vector<Link, 16> before_;
-  bool is_turned_ = false, is_kept_ = false;
+  bool is_kept_ = false;
 };
-
-template <int D>
-bool Snapshot_compiler<D>::is_tetrahedron(Cell c) const {
-  const Cell_shape& shape = s_.shapes_[s_.shape_[to_index(c)] & Snapshot<D>::shape_mask];
-  return D == 3 && shape.vertex_count == 4 && shape.facet_count() == 4 && shape.loops.size() == 12;
-}
-
-template <int D>
-template <class Done>
-void Snapshot_compiler<D>::write_convex_pairs(Cell c, const Done& is_done) requires(D == 3) {
-  constexpr std::uint32_t bit = Snapshot<D>::convex_pair_bit;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Half_facet f = Snapshot<D>::half_facet(c, i);
-    const Cell other = s_.neighbour(f);
-    if (other == Cell::none || is_done(other)) continue;
-    const std::uint32_t* own = s_.links(c);
-    const auto leads_there = [&](std::uint32_t link) {
-      return (link & Snapshot<D>::link_mask) == to_index(other);
-    };
-    if (!is_tetrahedron(other) || std::count_if(own, own + 4, leads_there) > 1) {
-      write_convex_pair(f);
-      continue;
-    }
-    std::uint32_t* links = s_.links_.data() + 4 * std::size_t{to_index(other)};
-    while ((*links & Snapshot<D>::link_mask) != to_index(c)) ++links;
-    const bool is_pair = is_convex(c, i, other);
-    for (std::uint32_t* word : {&s_.links_[to_index(f)], links}) *word = is_pair ? *word | bit : *word & ~bit;
-  }
-}
 
 extern template class Snapshot_compiler<2>;
 extern template class Snapshot_compiler<3>;

@@ -2,7 +2,6 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -26,27 +25,6 @@ std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::u
   runs.erase(run);
   return {first, false};
 }
-
-/// A set of cells, ascending.
-class Cell_set {
- public:
-  Cell_set(std::span<const Cell> cells, std::size_t slots) : cells_(cells.begin(), cells.end()) {
-    if (!std::is_sorted(cells_.begin(), cells_.end())) std::sort(cells_.begin(), cells_.end());
-    if (cells_.size() < std::max(few, slots / blocks_a_cell)) return;
-    is_in_.resize(slots);
-    for (const Cell c : cells_) is_in_[to_index(c)] = true;
-  }
-  const std::vector<Cell>& cells() const { return cells_; }
-  bool has(Cell c) const {
-    return is_in_.empty() ? std::binary_search(cells_.begin(), cells_.end(), c) : is_in_[to_index(c)];
-  }
-
- private:
-  /// If there are fewer cells than one for so many blocks, they are searched; else all blocks are marked.
-  static constexpr std::size_t blocks_a_cell = 4096, few = 64;
-  std::vector<Cell> cells_;
-  std::vector<bool> is_in_;
-};
 
 /// False if a point of the cells lies outside the frame: what planes say holds in it only.
 template <int D>
@@ -106,11 +84,11 @@ void Snapshot<D>::set_impassable(Half_facet f, bool wall) {
 template <int D>
 void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
   geometry_epoch_ = ++epoch_;
-  for (const Cell c : cells) forget(c);
   Snapshot_compiler<D> compiler(*this);
-  // Convex pairs depend on the first vertices of loops, including those of neighbours.
-  for (const Cell c : cells)
-    if (!compiler.is_tetrahedron(c)) compiler.turn_loops(c);
+  for (const Cell c : cells) {
+    forget(c);
+    compiler.turn_loops(c);
+  }
   if (std::isnan(frame_.scale) || are_framed<D>(*this, cells)) {
     for (const Cell c : cells) {
       uncertified_planes_ -= compiler.count_uncertified(c);
@@ -122,18 +100,6 @@ void Snapshot<D>::update_geometry(std::span<const Cell> cells) {
     uncertified_planes_ = 0;
     for (std::uint32_t b = 0; b < shape_.size(); ++b)
       if (is_cell(Cell{b})) uncertified_planes_ += compiler.write_planes(Cell{b});
-  }
-  // A facet between two of the cells is written from the first of them, for both sides.
-  const Cell_set changed(cells, shape_.size());
-  for (const Cell c : changed.cells()) {
-    const auto is_done = [&](Cell other) { return other < c && changed.has(other); };
-    if constexpr (D == 3)
-      if (compiler.is_tetrahedron(c)) {
-        compiler.write_convex_pairs(c, is_done);
-        continue;
-      }
-    for (std::size_t i = 0; i < facet_count(c); ++i)
-      if (const Half_facet f = half_facet(c, i); !is_done(neighbour(f))) compiler.write_convex_pair(f);
   }
 }
 

@@ -137,53 +137,6 @@ TEST(Snapshot, PlanesOfSliversAreLeftToExactSigns) {
   EXPECT_GE(s.uncertified_planes(), 1u);
 }
 
-/// The definition: the union is convex if every vertex of one cell is inside every unshared facet of the
-/// other.
-template <int D>
-bool is_union_convex(const Snapshot<D>& s, Cell a, Cell b) {
-  const auto inside = [&](Cell of, Cell other) {
-    for (std::size_t i = 0; i < s.facet_count(of); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(of, i);
-      if (s.neighbour(f) == other) {
-        if (s.is_impassable(f)) return false;
-        continue;
-      }
-      const Cell_view<D> cell = s.view(other);
-      for (std::size_t v = 0; v < cell.vertex_count(); ++v)
-        if (side(s, f, cell.point(v)) > 0) return false;
-    }
-    return true;
-  };
-  return inside(a, b) && inside(b, a);
-}
-
-template <int D>
-void expect_convex_pairs(const Cell_soup<D>& soup, std::size_t& pairs, std::size_t& others) {
-  const Snapshot<D> s = Snapshot<D>::compile(soup, glue(soup));
-  for (std::size_t c = 0; c < s.cell_count(); ++c)
-    for (std::size_t i = 0; i < s.facet_count(s.cell(c)); ++i) {
-      const Half_facet f = Snapshot<D>::half_facet(s.cell(c), i);
-      if (s.neighbour(f) == Cell::none) continue;
-      const bool expected = is_union_convex(s, s.cell(c), s.neighbour(f));
-      ASSERT_EQ(s.is_convex_pair(f), expected) << "cell " << c << " facet " << i;
-      ++(expected ? pairs : others);
-    }
-}
-
-TEST(Snapshot, ConvexPairsAreThoseOfTheDefinition) {
-  std::size_t pairs = 0, others = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    expect_convex_pairs(world<2>(seed), pairs, others);
-    expect_convex_pairs(world<3>(seed), pairs, others);
-  }
-  Simplex_grid_options<3> options;
-  options.cells = {3, 3, 3};
-  options.jitter = 0.15;
-  expect_convex_pairs(tetrahedral_grid(options), pairs, others);
-  EXPECT_GT(pairs, 100u);
-  EXPECT_GT(others, 100u);
-}
-
 TEST(Snapshot, NeighboursInSpaceAreNeighboursInMemory) {
   Simplex_grid_options<3> options;
   options.cells = {16, 16, 16};

@@ -20,7 +20,7 @@ namespace cellwalk::detail {
 constexpr std::array<char, 8> image_magic{'C', 'E', 'L', 'L', 'W', 'A', 'L', 'K'};
 /// To be raised whenever the arrays of a snapshot get another meaning, as by another bound of the error of
 /// planes.
-constexpr std::uint32_t image_version = 1;
+constexpr std::uint32_t image_version = 2;
 constexpr std::uint32_t image_byte_order = 0x01020304;
 constexpr std::size_t image_alignment = 64;  // bytes; that of planes, and of lines of the cache
 

@@ -25,9 +25,9 @@ struct Star_check {
   double share = 1;        ///< of the move, rounded, at which it is flat
 };
 
-/// Moves vertices of an environment around which all cells are simplices. From the first move on, planes and
-/// convex pairs of the cells around moved vertices certify nothing, and all is decided exactly there, until
-/// restore(). Nothing else reads the environment meanwhile.
+/// Moves vertices of an environment around which all cells are simplices. From the first move on, planes of
+/// the cells around moved vertices certify nothing, and all is decided exactly there, until restore().
+/// Nothing else reads the environment meanwhile.
 template <int D>
 class Vertex_mover {
  public:

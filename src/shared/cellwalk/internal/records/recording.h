@@ -17,18 +17,17 @@ namespace cellwalk {
 /// The decision of a body's moves since the previous frame: the most expensive method that any of its
 /// vertices and edges needed.
 enum class Decision : std::uint8_t {
-  none,         ///< it did not move
-  region,       ///< in a region free of walls, without a test
-  same_cell,    ///< both ends of every edge in one cell; bodies without edges: by walking
-  convex_pair,  ///< the ends of an edge in two cells with a convex union
-  same_chain,   ///< an edge crossed the same facets before and after
-  clear,        ///< no wall meets the triangle that an edge swept
-  events,       ///< by events, or by three segments
-  contact       ///< with a contact
+  none,        ///< it did not move
+  region,      ///< in a region free of walls, without a test
+  same_cell,   ///< both ends of every edge in one cell; bodies without edges: by walking
+  same_chain,  ///< an edge crossed the same facets before and after
+  clear,       ///< no wall meets the triangle that an edge swept
+  events,      ///< by events, or by three segments
+  contact      ///< with a contact
 };
 
-inline constexpr std::array decision_names{"none",       "region", "same_cell", "convex_pair",
-                                           "same_chain", "clear",  "events",    "contact"};
+inline constexpr std::array decision_names{"none",  "region", "same_cell", "same_chain",
+                                           "clear", "events", "contact"};
 
 struct Recording_body {
   bool is_catheter = false;
