@@ -106,13 +106,18 @@ class Event_time {
     return value_ ? to_time(*value_) : Exact_time(low_);
   }
 
+  /// True if it certainly is before the root of a function.
+  bool is_certainly_before(const Moving_orientation<D>& f) const { return high_ < f.low(); }
+  /// True if it is given as the root of a function of the same points, up to sign.
+  bool is_root_of(const Moving_orientation<D>& f) const { return function_ && function_->has_points_of(f); }
+
   /// The sign of a function at this time.
   int sign_of(const Moving_orientation<D>& f) const {
     if (f.at_0() == f.at_1() || is_start()) return f.at_0();
     if (f.has_root()) {
       if (high_ < f.low()) return f.at_0();
       if (f.high() < low_) return f.at_1();
-      if (function_ && function_->has_points_of(f)) return 0;
+      if (is_root_of(f)) return 0;
     }
     return f.sign_at(value());
   }

@@ -17,6 +17,7 @@
 #include "edge/exact/rational_segment.h"
 #include "moving_line_walk.h"
 #include "relink.h"
+#include "strict_passage.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -59,12 +60,14 @@ class Event_sweep {
  public:
   /// \param choices if not null, the sweep goes on from the last of them; others that it takes are appended
   Event_sweep(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-              Walk_counts& counts, std::optional<double> until, Edge_choices<D>* choices = nullptr)
+              Walk_counts& counts, std::optional<double> until, Event_rule rule,
+              Edge_choices<D>* choices = nullptr)
       : snapshot_(snapshot),
         triangle_{path.from.position, path.to.position, q.position},
         first_(path.from.cell),
         q_(q),
         counts_(counts),
+        rule_(rule),
         choices_(choices) {
     plan(path);
     if (until) limit_ = Event_time<D>(*until);
@@ -77,7 +80,8 @@ class Event_sweep {
   std::optional<Sweep_result<D>> run(const Chain& before) {
     Edge_state<D> state{{}, 0, first_, before};
     auto& [time, step, start, chain] = state;
-    std::optional<Relinked<D>> taken;  // at a choice
+    std::optional<Relinked<D>> taken;           // at a choice
+    std::optional<Strict_passage<D>> passage;  // of the chain until now
     if (choices_ && !choices_->open.empty()) {
       const Edge_choice<D>& choice = choices_->open.back();
       state = choice.state;
@@ -90,17 +94,30 @@ class Event_sweep {
       }
       const Moving_line<D> line(triangle_, time, counts_);
       std::optional<Event_time<D>> next;
-      if (!taken) {
-        auto gone_on = go_on(line, state);
-        if (gone_on.was_seen) return {};
-        if (gone_on.contact) return Sweep_result<D>{std::move(gone_on.contact), {}};
-        taken = std::move(gone_on.relinked);
+      const std::optional<Ridge> ridge = passage ? passage->ridge : std::nullopt;
+      if (!taken && rule_ == Event_rule::turns) passage = pass_on(line, passage, chain);
+      if (passage) {
+        if (ridge && snapshot_.is_impassable(chain.back()))
+          return Sweep_result<D>{contact_at(line, chain.back(), *ridge), {}};
+        next = passage->end;
+      } else {
+        if (!taken) {
+          auto gone_on = go_on(line, state);
+          if (gone_on.was_seen) return {};
+          if (gone_on.contact) return Sweep_result<D>{std::move(gone_on.contact), {}};
+          taken = std::move(gone_on.relinked);
+        }
+        chain = std::move(taken->chain);
+        if (taken->end < Event_time<D>(1.0)) next = taken->end;
+        taken.reset();
+        if (!next && rule_ == Event_rule::turns) passage = pass_strictly(snapshot_, line, chain);
+        const auto end = passage ? passage->end : end_of(chain, line);
+        if (end && (!next || *end < *next)) next = *end;
       }
-      chain = std::move(taken->chain);
-      if (taken->end < Event_time<D>(1.0)) next = taken->end;
-      taken.reset();
-      if (const auto end = end_of(chain, line); end && (!next || *end < *next)) next = *end;
-      if (step != steps_.size() && (!next || steps_[step].time < *next)) next = steps_[step].time;
+      if (step != steps_.size() && (!next || !(*next < steps_[step].time))) {
+        if (!next || steps_[step].time < *next) next = steps_[step].time;
+        if (passage) passage->ridge.reset();  // p goes on at that time
+      }
       if (!next) break;
       time = *next;
     }
@@ -117,6 +134,21 @@ class Event_sweep {
     std::optional<Contact<D>> contact{};
     bool was_seen = false;
   };
+
+  /// The passage of the chain just after a time, round the ridge at which the passage until then ends.
+  /// The chain may end with a wall, in which the edge is then stopped. None if this is not all that happens.
+  std::optional<Strict_passage<D>> pass_on(const Moving_line<D>& line,
+                                           const std::optional<Strict_passage<D>>& before, Chain& chain) {
+    if (!before || !before->ridge) {
+      // In its plane an edge without a chain may have a wall.
+      if (chain.empty() && q_.dimension != D) return {};
+      return pass_strictly(snapshot_, line, chain);
+    }
+    if (!turn_round(snapshot_, chain, before->place, *before->ridge, turned_)) return {};
+    auto passage = pass_strictly(snapshot_, line, turned_);
+    if (passage) chain.swap(turned_);
+    return passage;
+  }
 
   Gone_on go_on(const Moving_line<D>& line, const Edge_state<D>& state) {
     std::optional<Rational_segment<D>> segment;
@@ -209,6 +241,13 @@ class Event_sweep {
     return end;
   }
 
+  /// The contact with a wall that the edge meets at the inside of a ridge.
+  Contact<D> contact_at(const Moving_line<D>& line, Half_facet wall, const Ridge& ridge) const {
+    const Exact_time time = line.time().exact();
+    const auto found = contact_at_ridge(snapshot_, line, time, wall, ridge);
+    return found ? *found : contact(time, line, Rational_segment<D>(triangle_, line.time().value()), wall);
+  }
+
   Contact<D> contact(const Exact_time& time, const Moving_line<D>& line, const Rational_segment<D>& segment,
                      Half_facet wall) const {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(wall));
@@ -241,7 +280,9 @@ class Event_sweep {
   std::vector<Step<D>> steps_;
   std::optional<Event_time<D>> limit_;  ///< events from then on do not matter
   std::optional<bool> in_wall_plane_;
+  const Event_rule rule_;
   Edge_choices<D>* choices_;
+  Chain turned_;
   bool was_relinked_ = false;
 };
 
@@ -250,11 +291,11 @@ class Event_sweep {
 template <int D, class Accept>
 void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                         const Chain& before, Walk_counts& counts, std::optional<double> until,
-                        const Accept& accept) {
+                        Event_rule rule, const Accept& accept) {
   Edge_choices<D> choices;
   auto& open = choices.open;
   for (int tries = 0; tries < most_side_tries; ++tries) {
-    const auto result = Event_sweep<D>(snapshot, path, q, counts, until, &choices).run(before);
+    const auto result = Event_sweep<D>(snapshot, path, q, counts, until, rule, &choices).run(before);
     if (result && accept(*result)) return;
     // Sides taken after a contact do not matter.
     const auto is_exhausted = [&](const Edge_choice<D>& choice) {
@@ -271,13 +312,14 @@ void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
 
 template <int D>
 Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                              const Chain& before, Walk_counts& counts, std::optional<double> until) {
+                              const Chain& before, Walk_counts& counts, std::optional<double> until,
+                              Event_rule rule) {
   if (are_collinear(path.from.position, path.to.position, q.position))
     return collinear_sweep(snapshot, path, q, before, counts, until);
-  Event_sweep<D> sweep(snapshot, path, q, counts, until);
+  Event_sweep<D> sweep(snapshot, path, q, counts, until, rule);
   Sweep_result<D> result = *sweep.run(before);  // what has no choices is nowhere twice
   if (!result.contact || !sweep.was_relinked()) return result;
-  sweep_on_all_sides(snapshot, path, q, before, counts, until, [&](const Sweep_result<D>& other) {
+  sweep_on_all_sides(snapshot, path, q, before, counts, until, rule, [&](const Sweep_result<D>& other) {
     if (!other.contact || result.contact->time < other.contact->time) result = other;
     return !other.contact;
   });
@@ -294,7 +336,7 @@ std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_pa
     return chains;
   }
   const Rational_segment<D> segment(b, q.position);
-  sweep_on_all_sides(snapshot, path, q, before, counts, {}, [&](const Sweep_result<D>& result) {
+  sweep_on_all_sides(snapshot, path, q, before, counts, {}, Event_rule::turns, [&](const Sweep_result<D>& result) {
     Half_facet wall = Half_facet::none;
     if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
           return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
@@ -307,7 +349,7 @@ std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_pa
 
 #define CELLWALK_INSTANTIATE(D)                                                                            \
   template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
-                                            const Chain&, Walk_counts&, std::optional<double>);            \
+                                            const Chain&, Walk_counts&, std::optional<double>, Event_rule); \
   template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,               \
                                                   const Particle<D>&, const Chain&, Walk_counts&);
 
