@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Counts the instructions of free moves, and compares them with a table: the same on every machine, however busy, for the same build.
+"""Counts the instructions of moves, and compares them with a table: the same on every machine, however busy, for the same build.
 
     scripts/check_instructions.py [--build DIR] [--table FILE] [--update]
 
@@ -8,9 +8,10 @@
     --table FILE  default tests/instructions/expected.json
     --update      writes what was counted into the table, as the row of this build
 
-Motions are recorded, what walls hold is made to stay (free_moves.py), and the rest is replayed under callgrind, which counts what is inside the
-steps of the replay. Contacts are left out because valgrind rounds to nearest always, so that intervals of numbers take other paths than they do
-natively; experiments/benchmarks/bench_contact measures them.
+Free moves: motions are recorded, what walls hold is made to stay (free_moves.py), and the rest is replayed under callgrind, which counts what is
+inside the steps of the replay. Contacts apart: the steps of a catheter that is pressed on walls, with its solver, stops and slides. Valgrind
+rounds to nearest always, so that the few signs left to intervals of numbers take other paths than they do natively;
+experiments/benchmarks/bench_contact and bench_steps measure times.
 
 Counts depend on the compiler and on libraries: a row of the table holds for one build, and where none fits, nothing is compared, which is said.
 Exit code 1 if a scene takes over 2 % more instructions than its row says, or is not in it.
@@ -33,7 +34,7 @@ import free_moves
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TOLERANCE = 2  # percent
 SWEEPS = ("three_segments", "triangle")
-COUNTED = ("cellwalk::Replay::step()", "cellwalk::Body_replay::step()")
+COUNTED = ("cellwalk::Replay::step()", "cellwalk::Body_replay::step()", "cellwalk::World<3>::step()")
 # The library of C picks its functions by the processor: these leave the choice that every x86-64 has.
 BASELINE = "glibc.cpu.hwcaps=" + ",".join(
     f"-{name}" for name in ("AVX2", "AVX2_Usable", "AVX_Fast_Unaligned_Load", "AVX512F", "AVX512VL", "ERMS", "FSRM", "SSSE3", "SSE4_1", "SSE4_2"))
@@ -49,6 +50,12 @@ SCENES = {
               ["cellwalk", "run", "DATA/soft.json", "--steps", "60",
                "--set", "output.picture=false", "-o", "soft", "--record", "TRACE"]],
              "grid.ovm"),
+}
+
+# With contacts: how a scene is run.
+STEPS = {
+    "steps of a catheter": ["cellwalk", "run", "DATA/catheter.json", "--set", "environment.generations=2", "--steps", "220",
+                            "--set", "output.picture=false", "-o", "steps"],
 }
 
 
@@ -110,12 +117,27 @@ def count(name, sweep, program, folder):
     moves = said["moves"] if "moves" in said else said["counts"]["moves"]
     if said["mismatches"] != 0 or held != 0:
         raise Failure(f"{name}, {sweep}: {held} moves are not free, {said['mismatches']} answers differ from those of the trace")
-    profile = folder / f"{name}_{sweep}.callgrind"
+    return {"moves": moves, "instructions": instructions(f"{name}_{sweep}", command, folder)}
+
+
+def count_steps(name, programs, folder):
+    """Instructions and moves of the steps of a run. It has contacts."""
+    words = [programs["cellwalk"], *(word.replace("DATA", str(ROOT / "data")) for word in STEPS[name][1:])]
+    counted = instructions(name.replace(" ", "_"), words, folder)
+    said = json.loads((folder / words[-1] / "run.json").read_text())["body_counts"]
+    if said["contacts"] == 0:
+        raise Failure(f"{name}: there is no contact")
+    return {"moves": said["moves"], "instructions": counted}
+
+
+def instructions(name, command, folder):
+    """Those of a command within the functions that make a step."""
+    profile = folder / f"{name}.callgrind"
     run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile.name}", *(f"--toggle-collect={f}" for f in COUNTED), *command], folder)
     total = re.search(r"^(?:totals|summary): (\d+)", profile.read_text(), re.MULTILINE)
     if total is None or int(total[1]) == 0:
-        raise Failure(f"{name}, {sweep}: no instruction was counted in {' or '.join(COUNTED)}: name the functions that replay a step")
-    return {"moves": moves, "instructions": int(total[1])}
+        raise Failure(f"{name}: no instruction was counted in {' or '.join(COUNTED)}: name the functions that make a step")
+    return int(total[1])
 
 
 def count_all(programs, folder):
@@ -123,6 +145,7 @@ def count_all(programs, folder):
         record(name, programs, folder)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = {f"{name} {sweep}": pool.submit(count, name, sweep, programs["cellwalk"], folder) for name in SCENES for sweep in SWEEPS}
+        counts |= {name: pool.submit(count_steps, name, programs, folder) for name in STEPS}
         return {scene: counted.result() for scene, counted in counts.items()}
 
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "chains_in_place.h"
 
+#include <cellwalk/internal/edge/ridge_relink.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <utility>
-
-#include "other_side.h"
-#include "ridge_relink.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -38,7 +37,7 @@ template <int D>
 const std::vector<Half_facet>& Edge_words<D>::behind() {
   std::vector<Half_facet>& behind = body_.scratch.behind;
   for (std::size_t i = behind.size(); i < crossed_.size(); ++i)
-    behind.push_back(other_side(snapshot_, crossed_[i]));
+    behind.push_back(snapshot_.opposite(crossed_[i]));
   return behind;
 }
 

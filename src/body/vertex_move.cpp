@@ -66,15 +66,18 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
     Moved_chain<D>& moved = scratch.chains[i];
     moved.is_stale = moved.is_relinked = false;
     moved.is_in_place = may_confirm && in_place.confirms(corner);
-    moved.is_free = moved.is_in_place || (may_confirm && !path.blocked && in_place.relinks(corner, moved));
+    const bool may_look = may_confirm && !path.blocked && !moved.is_in_place;
+    const bool passes_wall = may_look && in_place.is_blocked(corner);
+    moved.is_free = moved.is_in_place || (may_look && !passes_wall && in_place.relinks(corner, moved));
     if (moved.is_free) {
       // Faces look into the chains of their sides.
       if (options.sweep == Sweep::faces) show_chain(body, corner, moved);
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      auto free = free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner), options,
-                             counts.edges);
+      auto free = passes_wall ? std::nullopt
+                              : free_chain(snapshot, path, body.particles[corner.other],
+                                           body.seen_from(corner), options, counts.edges);
       if (!free) {
         in_place.add_to(counts.edges);
         return Contact<D>{};
@@ -84,7 +87,7 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
-                                             body.seen_from(corner), options, counts.edges);
+                                             body.seen_from(corner), options, counts.edges, passes_wall);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
       keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
       if (any) break;

@@ -123,8 +123,14 @@ double rounded_time(const Crossing<D>& crossing, const std::optional<Bounded_two
 template <int D>
 class Place {
  public:
+  explicit Place(const Crossing<D>& crossing)
+      : p_(crossing.a),
+        target_(crossing.b),
+        crossing_(&crossing),
+        is_crossing_of_p_(true),
+        bounded_(bounded_time(crossing)) {}
   Place(const Point<D>& p, const Point<D>& target, const Exact_time& time)
-      : p_(p), target_(target), time_(time) {
+      : p_(p), target_(target), time_(&time) {
     if (!time.fraction()) {
       bounded_ = {{time.rounded(), 0}, 0};
     } else if ((crossing_ = std::get_if<Crossing<D>>(&time.fraction()->source))) {
@@ -133,6 +139,13 @@ class Place {
     }
   }
 
+  Point_bounds<D> bounds() const {
+    Point_bounds<D> bounds;
+    for (int i = 0; i < D; ++i) std::tie(bounds.below[i], bounds.above[i]) = bounds_of(i);
+    return bounds;
+  }
+
+ private:
   std::pair<double, double> bounds_of(int i) const {
     const auto k = static_cast<std::size_t>(i);
     if (p_[k] == target_[k]) return {p_[k], p_[k]};
@@ -144,15 +157,13 @@ class Place {
     const Rounded below = exact_floor(k);
     return {below.value, below.is_exact ? below.value : double_above(below.value)};
   }
-
- private:
   Rounded exact_floor(std::size_t k) const {
-    if (!fraction_) fraction_ = to_fraction(time_);
+    if (!fraction_) fraction_ = time_ ? to_fraction(*time_) : fraction_of(*crossing_);
     return rounded_down(exact_coordinate(p_[k], target_[k], *fraction_));
   }
 
   const Point<D>&p_, &target_;
-  const Exact_time& time_;
+  const Exact_time* time_ = nullptr;
   const Crossing<D>* crossing_ = nullptr;
   bool is_crossing_of_p_ = false;
   std::optional<Bounded_twofold> bounded_;
@@ -219,19 +230,22 @@ Timed_point<D> timed_point(const Crossing<D>& crossing) {
 
 template <int D>
 Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time) {
-  const Place<D> place(p, target, time);
-  Point_bounds<D> bounds;
-  for (int i = 0; i < D; ++i) std::tie(bounds.below[i], bounds.above[i]) = place.bounds_of(i);
-  return bounds;
+  return Place<D>(p, target, time).bounds();
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                \
-  template std::optional<Bounded_twofold> bounded_time<D>(const Crossing<D>&); \
-  template Fraction fraction_of<D>(const Crossing<D>&);                        \
-  template Exact_time to_time<D>(const Crossing<D>&);                          \
-  template double crossing_time<D>(const Crossing<D>&);                        \
-  template Timed_point<D> timed_point<D>(const Crossing<D>&);                  \
-  template Point_bounds<D> bounds_at<D>(const Point<D>&, const Point<D>&, const Exact_time&);
+template <int D>
+Point_bounds<D> bounds_at(const Crossing<D>& crossing) {
+  return Place<D>(crossing).bounds();
+}
+
+#define CELLWALK_INSTANTIATE(D)                                                               \
+  template std::optional<Bounded_twofold> bounded_time<D>(const Crossing<D>&);                \
+  template Fraction fraction_of<D>(const Crossing<D>&);                                       \
+  template Exact_time to_time<D>(const Crossing<D>&);                                         \
+  template double crossing_time<D>(const Crossing<D>&);                                       \
+  template Timed_point<D> timed_point<D>(const Crossing<D>&);                                 \
+  template Point_bounds<D> bounds_at<D>(const Point<D>&, const Point<D>&, const Exact_time&); \
+  template Point_bounds<D> bounds_at<D>(const Crossing<D>&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -31,10 +31,12 @@ inline constexpr double least_difference = 0x1p-150, largest_difference = 0x1p15
 
 template <int D>
 bool are_in_range(const Twofold_vector<D>& d) {
-  return std::all_of(d.begin(), d.end(), [](const Twofold& x) {
+  bool are = true;
+  for (const Twofold& x : d) {
     const double size = std::abs(x.high);
-    return size == 0 || (size > least_difference && size < largest_difference);
-  });
+    are &= size == 0 || (size > least_difference && size < largest_difference);
+  }
+  return are;
 }
 
 /// The normal of a line or plane, with the sums of the sizes of the terms of each component.

@@ -266,8 +266,7 @@ TEST(EdgeOrders, CertificatesTakeTheSameSideOfAMembrane3) {
   Particle<3> to = p;
   ASSERT_FALSE(move(snapshot, to, target, walks, {Walk_strategy::certified, &visited, &crossed}).contact);
   std::vector<oracle::Placed_chain> chains;
-  for (const Edge_certificates& certificates :
-       {Edge_certificates{}, Edge_certificates{false, false}}) {
+  for (const Edge_certificates& certificates : {Edge_certificates{}, Edge_certificates{false, false}}) {
     Edge_counts counts;
     const auto swept = sweep_triangle<3>(snapshot, {p, to, visited, crossed}, q, {}, counts, certificates);
     ASSERT_FALSE(swept.contact);

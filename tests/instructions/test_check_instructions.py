@@ -147,6 +147,10 @@ assert "GLIBC_TUNABLES" in os.environ and "HOME" not in os.environ
 told = json.loads(pathlib.Path({told!r}).read_text())
 out = [word.partition("=")[2] for word in sys.argv if word.startswith("--callgrind-out-file=")]
 pathlib.Path(out[0]).write_text("events: Ir\\nsummary: %d\\n" % told["instructions"])
+if "-o" in sys.argv:
+    folder = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
+    folder.mkdir()
+    (folder / "run.json").write_text(json.dumps({{"body_counts": {{"moves": 100, "contacts": told["contacts"]}}}}))
 """
 
 
@@ -170,8 +174,8 @@ class Whole(unittest.TestCase):
         path.write_text(text)
         path.chmod(0o755)
 
-    def run_gate(self, instructions, *options, mismatches=0):
-        self.told.write_text(json.dumps({"instructions": instructions, "mismatches": mismatches}))
+    def run_gate(self, instructions, *options, mismatches=0, contacts=1):
+        self.told.write_text(json.dumps({"instructions": instructions, "mismatches": mismatches, "contacts": contacts}))
         out = io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
             code = gate.main(["--build", str(self.build), "--table", str(self.table), *options])
@@ -183,12 +187,12 @@ class Whole(unittest.TestCase):
         self.assertFalse(self.table.exists(), "nothing is written without --update")
         self.assertEqual(self.run_gate(1000, "--update")[0], 0)
         scenes = json.loads(self.table.read_text())["rows"][0]["scenes"]
-        self.assertEqual(len(scenes), len(gate.SCENES) * len(gate.SWEEPS))
+        self.assertEqual(len(scenes), len(gate.SCENES) * len(gate.SWEEPS) + len(gate.STEPS))
         self.assertEqual(scenes["figure_8 triangle"], {"moves": 100, "instructions": 1000})
         self.assertEqual(self.run_gate(1020)[0], 0)
         code, said = self.run_gate(1030)
         self.assertEqual(code, 1)
-        self.assertIn("soft triangle: over 2 % more than expected", said)
+        self.assertIn("steps of a catheter: over 2 % more than expected", said)
         self.assertEqual(self.run_gate(1030, "--update")[0], 0)
         self.assertEqual(self.run_gate(1030)[0], 0)
 
@@ -201,6 +205,11 @@ class Whole(unittest.TestCase):
         code, said = self.run_gate(1000, mismatches=3)
         self.assertEqual(code, 1)
         self.assertIn("0 moves are not free, 3 answers differ from those of the trace", said)
+
+    def test_steps_without_contacts_fail(self):
+        code, said = self.run_gate(1000, contacts=0)
+        self.assertEqual(code, 1)
+        self.assertIn("steps of a catheter: there is no contact", said)
 
     def test_a_missing_program_is_named(self):
         (self.build / "experiments/01_figure_8/make_traces").unlink()
@@ -219,7 +228,7 @@ class Table(unittest.TestCase):
     def test_every_row_has_every_scene(self):
         table = json.loads((ROOT / "tests/instructions/expected.json").read_text())
         self.assertGreater(len(table["rows"]), 0)
-        names = {f"{name} {sweep}" for name in gate.SCENES for sweep in gate.SWEEPS}
+        names = {f"{name} {sweep}" for name in gate.SCENES for sweep in gate.SWEEPS} | set(gate.STEPS)
         for row in table["rows"]:
             self.assertEqual(set(row["scenes"]), names)
             self.assertEqual(set(row["build"]), {"compiler", "flags", "cgal", "libc", "machine", "avx2"})

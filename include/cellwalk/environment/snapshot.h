@@ -117,7 +117,7 @@ class Snapshot {
     return lane_mask((links_of_block & static_cast<int>(link_mask)) == static_cast<int>(to_index(neighbour)));
   }
   /// The other side of the facet; Half_facet::none on the boundary.
-  /// Cost: a search over the neighbour's facets.
+  /// Cost: a look at the neighbour's links; where the two cells share several facets, at its points.
   Half_facet opposite(Half_facet f) const;
   /// The point indices of a half-facet, counterclockwise seen from outside its cell.
   std::vector<std::uint32_t> loop(Half_facet f) const;

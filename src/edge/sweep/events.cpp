@@ -80,7 +80,7 @@ class Event_sweep {
   std::optional<Sweep_result<D>> run(const Chain& before) {
     Edge_state<D> state{{}, 0, first_, before};
     auto& [time, step, start, chain] = state;
-    std::optional<Relinked<D>> taken;           // at a choice
+    std::optional<Relinked<D>> taken;          // at a choice
     std::optional<Strict_passage<D>> passage;  // of the chain until now
     if (choices_ && !choices_->open.empty()) {
       const Edge_choice<D>& choice = choices_->open.back();
@@ -110,7 +110,7 @@ class Event_sweep {
         chain = std::move(taken->chain);
         if (taken->end < Event_time<D>(1.0)) next = taken->end;
         taken.reset();
-        if (!next && rule_ == Event_rule::turns) passage = pass_strictly(snapshot_, line, chain);
+        if (!next && rule_ == Event_rule::turns) passage = pass_strictly(snapshot_, line, chain, q_);
         const auto end = passage ? passage->end : end_of(chain, line);
         if (end && (!next || *end < *next)) next = *end;
       }
@@ -139,13 +139,11 @@ class Event_sweep {
   /// The chain may end with a wall, in which the edge is then stopped. None if this is not all that happens.
   std::optional<Strict_passage<D>> pass_on(const Moving_line<D>& line,
                                            const std::optional<Strict_passage<D>>& before, Chain& chain) {
-    if (!before || !before->ridge) {
-      // In its plane an edge without a chain may have a wall.
-      if (chain.empty() && q_.dimension != D) return {};
-      return pass_strictly(snapshot_, line, chain);
-    }
+    if (!before || !before->ridge) return pass_strictly(snapshot_, line, chain, q_);
     if (!turn_round(snapshot_, chain, before->place, *before->ridge, turned_)) return {};
-    auto passage = pass_strictly(snapshot_, line, turned_);
+    // At a wall the sweep ends, and the facets before the ridge are passed still.
+    const bool is_at_wall = snapshot_.is_impassable(turned_.back());
+    auto passage = pass_strictly(snapshot_, line, turned_, q_, is_at_wall ? before->place : 0);
     if (passage) chain.swap(turned_);
     return passage;
   }
@@ -336,21 +334,22 @@ std::vector<Chain> all_swept_chains(const Snapshot<D>& snapshot, const Vertex_pa
     return chains;
   }
   const Rational_segment<D> segment(b, q.position);
-  sweep_on_all_sides(snapshot, path, q, before, counts, {}, Event_rule::turns, [&](const Sweep_result<D>& result) {
-    Half_facet wall = Half_facet::none;
-    if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
-          return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
-        }))
-      chains.push_back(result.chain);
-    return false;
-  });
+  sweep_on_all_sides(snapshot, path, q, before, counts, {}, Event_rule::turns,
+                     [&](const Sweep_result<D>& result) {
+                       Half_facet wall = Half_facet::none;
+                       if (!result.contact && std::ranges::none_of(chains, [&](const Chain& other) {
+                             return are_equal(snapshot, segment, path.to.cell, other, result.chain, wall);
+                           }))
+                         chains.push_back(result.chain);
+                       return false;
+                     });
   return chains;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                            \
-  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&, \
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Sweep_result<D> follow_events<D>(const Snapshot<D>&, const Vertex_path<D>&, const Particle<D>&,  \
                                             const Chain&, Walk_counts&, std::optional<double>, Event_rule); \
-  template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,               \
+  template std::vector<Chain> all_swept_chains<D>(const Snapshot<D>&, const Vertex_path<D>&,                \
                                                   const Particle<D>&, const Chain&, Walk_counts&);
 
 CELLWALK_INSTANTIATE(2)

@@ -8,36 +8,8 @@ namespace cellwalk::detail {
 namespace {
 
 template <int D>
-Ridge ridge_of(const Cell_view<D>& cell, std::size_t i, std::size_t k) {
-  const auto loop = cell.loop(i);
-  const std::uint32_t u = cell.point_index(loop[k]);
-  return {u, D == 2 ? u : cell.point_index(loop[k + 1 == loop.size() ? 0 : k + 1])};
-}
-
-/// The position of a ridge in the loop of facet i; none if it is not there.
-template <int D>
-std::optional<std::size_t> position_of(const Cell_view<D>& cell, std::size_t i, const Ridge& ridge) {
-  for (std::size_t k = 0; k < cell.loop(i).size(); ++k) {
-    const auto [u, v] = ridge_of(cell, i, k);
-    if ((u == ridge.u && v == ridge.v) || (u == ridge.v && v == ridge.u)) return k;
-  }
-  return {};
-}
-
-template <int D>
-bool has_ridge(const Snapshot<D>& snapshot, Half_facet f, const Ridge& ridge) {
+bool is_at(const Snapshot<D>& snapshot, Half_facet f, const Ridge& ridge) {
   return position_of(snapshot.view(snapshot.cell_of(f)), snapshot.facet_of(f), ridge).has_value();
-}
-
-/// The other facet of a cell at a ridge of one; Half_facet::none if there is none.
-template <int D>
-Half_facet across(const Snapshot<D>& snapshot, Half_facet f, const Ridge& ridge) {
-  const Cell c = snapshot.cell_of(f);
-  const Cell_view<D> cell = snapshot.view(c);
-  const std::size_t i = snapshot.facet_of(f);
-  const auto k = position_of(cell, i, ridge);
-  const std::size_t j = k ? facet_across(cell, i, *k) : cell.facet_count();
-  return j == cell.facet_count() ? Half_facet::none : Snapshot<D>::half_facet(c, j);
 }
 
 /// The first root of some functions after a time, and whether others have it.
@@ -73,12 +45,14 @@ double towards_zero(double below, double above) { return (below >= 0 ? below : a
 
 template <int D>
 std::optional<Strict_passage<D>> pass_strictly(const Snapshot<D>& snapshot, const Moving_line<D>& line,
-                                               const Chain& chain) {
+                                               const Chain& chain, const Particle<D>& q, std::size_t from) {
+  // In the plane of a facet an edge without a chain may have a wall.
+  if (chain.empty() && q.dimension != D) return {};
   First_root<D> first(line.time());
-  for (std::size_t place = 0; place < chain.size(); ++place) {
+  for (std::size_t place = from; place < chain.size(); ++place) {
     const Cell_view<D> cell = snapshot.view(snapshot.cell_of(chain[place]));
     const std::size_t i = snapshot.facet_of(chain[place]);
-    if (side<Exact>(cell, i, line.triangle().q, line.counts()) <= 0) return {};
+    if (side<Exact>(cell, i, q.position, line.counts()) <= 0) return {};
     if (!first.note(line.side_of(cell, i), -1, place, {})) return {};
     for (std::size_t k = 0; k < cell.loop(i).size(); ++k)
       if (!first.note(line.along_of(cell, i, k), 1, place, ridge_of(cell, i, k))) return {};
@@ -91,16 +65,20 @@ bool turn_round(const Snapshot<D>& snapshot, const Chain& chain, std::size_t pla
                 Chain& turned) {
   const auto first = chain.begin() + static_cast<std::ptrdiff_t>(place);
   auto rest = first + 1;
-  while (rest != chain.end() && has_ridge(snapshot, *rest, ridge)) ++rest;
+  while (rest != chain.end() && is_at(snapshot, *rest, ridge)) ++rest;
   const Cell last = snapshot.neighbour(*(rest - 1));
   turned.assign(chain.begin(), first);
-  for (Half_facet f = across(snapshot, *first, ridge); f != Half_facet::none;
-       f = across(snapshot, snapshot.opposite(f), ridge)) {
+  // In a certified environment this comes to the last cell or to a wall.
+  const Half_facet begin = across(snapshot, *first, ridge);
+  for (Half_facet f = begin; f != Half_facet::none;) {
     turned.push_back(f);
     if (snapshot.is_impassable(f)) return true;
-    if (snapshot.neighbour(f) != last) continue;
-    turned.insert(turned.end(), rest, chain.end());
-    return true;
+    if (snapshot.neighbour(f) == last) {
+      turned.insert(turned.end(), rest, chain.end());
+      return true;
+    }
+    f = across(snapshot, snapshot.opposite(f), ridge);
+    if (f == begin) break;
   }
   return false;
 }
@@ -120,7 +98,7 @@ std::optional<Contact<D>> contact_at_ridge(const Snapshot<D>& snapshot, const Mo
   const Point<D>& u = snapshot.point(ridge.u);
   if constexpr (D == 2) {
     contact.kind = Contact_kind::vertex;
-    contact.point = u;
+    for (int k = 0; k < 2; ++k) contact.point[k] = towards_zero(u[k], u[k]);
   } else {
     const Swept_triangle<3>& t = line.triangle();
     const Crossing<3> crossing{u, snapshot.point(ridge.v), {t.a, t.b, t.q}};
@@ -129,7 +107,7 @@ std::optional<Contact<D>> contact_at_ridge(const Snapshot<D>& snapshot, const Mo
             Exact::orientation(counts, t.a, t.b, t.q, crossing.b) >=
         0)
       return {};
-    const Point_bounds<3> x = bounds_at<3>(crossing.a, crossing.b, to_time(crossing));
+    const Point_bounds<3> x = bounds_at<3>(crossing);
     for (int k = 0; k < 3; ++k) contact.point[k] = towards_zero(x.below[k], x.above[k]);
     contact.kind = Contact_kind::edge;
   }
@@ -138,7 +116,7 @@ std::optional<Contact<D>> contact_at_ridge(const Snapshot<D>& snapshot, const Mo
 
 #define CELLWALK_INSTANTIATE(D)                                                                              \
   template std::optional<Strict_passage<D>> pass_strictly<D>(const Snapshot<D>&, const Moving_line<D>&,      \
-                                                             const Chain&);                                  \
+                                                             const Chain&, const Particle<D>&, std::size_t); \
   template bool turn_round<D>(const Snapshot<D>&, const Chain&, std::size_t, const Ridge&, Chain&);          \
   template std::optional<Contact<D>> contact_at_ridge<D>(const Snapshot<D>&, const Moving_line<D>&,          \
                                                          const Exact_time&, Half_facet, const Ridge&);

@@ -2,6 +2,7 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -45,6 +46,16 @@ Half_facet Snapshot<D>::opposite(Half_facet f) const {
   const Cell other = neighbour(f);
   if (other == Cell::none) return Half_facet::none;
   const Cell own = cell_of(f);
+  // Of two cells that share one facet, the links tell without a look at points.
+  Half_facet only = Half_facet::none;
+  bool is_only = true;
+  for (std::size_t block = 0; block < block_count(other); ++block) {
+    const unsigned there = facets_to(own, other, block);
+    if (there == 0) continue;
+    is_only &= only == Half_facet::none && std::has_single_bit(there);
+    only = half_facet(other, 4 * block + static_cast<std::size_t>(std::countr_zero(there)));
+  }
+  if (is_only) return only;
   const Cell_view<D> a = view(own), b = view(other);
   const auto loop = a.loop(facet_of(f));
   const std::uint32_t u = a.point_index(loop[0]), v = a.point_index(loop[1]);

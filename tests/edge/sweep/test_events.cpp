@@ -2,6 +2,7 @@
 // Events: an edge that turns round a ridge goes on, and is stopped, as one that is walked along.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <iostream>
 #include <optional>
@@ -29,6 +30,8 @@ void expect_same(const Sweep_result<D>& a, const Sweep_result<D>& b, const std::
   EXPECT_EQ(a.contact->time, b.contact->time) << world;
   EXPECT_EQ(a.contact->rounded_time(), b.contact->rounded_time()) << world;
   EXPECT_EQ(a.contact->point, b.contact->point) << world;
+  for (int k = 0; k < D; ++k)
+    EXPECT_EQ(std::signbit(a.contact->point[k]), std::signbit(b.contact->point[k])) << world;
   EXPECT_EQ(a.contact->normal, b.contact->normal) << world;
   EXPECT_EQ(a.contact->kind, b.contact->kind) << world;
   EXPECT_EQ(a.contact->corner, b.contact->corner) << world;

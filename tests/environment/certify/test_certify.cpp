@@ -169,7 +169,14 @@ TEST(Certify, RefusesFalseGluings) {
   gluing.opposite[12 + 5] = 3;
   gluing.opposite[6 + 5] = gluing.opposite[6 + 3] = no_facet;
   EXPECT_EQ(refusal_of(soup, gluing),
-            "facet (1 5 13 9) of cell 0 does not occur in the cell it is glued to: glue the cells again");
+            "facet (1 5 13 9) of cell 0 is glued to a facet with other vertices: glue the cells again");
+  // Facet 5 of cell 0 and facet 3 of cell 1 do not meet, but two other facets of these cells do.
+  const Cell_soup<3> two = hex_grid({.cells = {2, 1, 1}});
+  Gluing of_two = glue(two);
+  of_two.opposite[5] = 6 + 3;
+  of_two.opposite[6 + 3] = 5;
+  EXPECT_EQ(refusal_of(two, of_two),
+            "facet (3 0 6 9) of cell 0 does not occur in the cell it is glued to: glue the cells again");
 }
 
 TEST(Certify, RefusesDuplicateVerticesUnlessAllowed) {

@@ -73,6 +73,10 @@ struct Point_bounds {
 /// \pre the point is finite
 template <int D>
 Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time);
+/// The bounds of the point where a motion passes a plane.
+/// \pre a and b lie strictly on different sides
+template <int D>
+Point_bounds<D> bounds_at(const Crossing<D>& crossing);
 
 }  // namespace cellwalk
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A chain led round the ridges that its edge passes on the way. Theory: docs/sweep.md, relinking at ridges.
-#ifndef CELLWALK_BODY_RIDGE_RELINK_H
-#define CELLWALK_BODY_RIDGE_RELINK_H
+#ifndef CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
+#define CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/edge/certain_line.h>
@@ -49,4 +49,4 @@ bool relink_at_ridges(const Snapshot<D>& snapshot, const Certain_line<D>& line,
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_BODY_RIDGE_RELINK_H
+#endif  // CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H

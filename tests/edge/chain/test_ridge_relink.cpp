@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Chains in place, and chains led round ridges: what is found free must be free for the oracle that follows
 // the definition of chains, with a chain that it accepts, and for the exact sweep, with an equal one.
+#include <cellwalk/internal/edge/ridge_relink.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
@@ -14,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "body/ridge_relink.h"
 #include "edge/edge_worlds.h"
 #include "edge/sweep_judge.h"
 #include "edge/thin_worlds.h"
@@ -172,8 +172,8 @@ class Relink_trial {
     if (fault != Sweep_fault::none)
       seen_.note(seen_.wrong, name + fault_names[static_cast<std::size_t>(fault)]);
     Edge_counts counts;
-    const Sweep_result<D> swept = sweep_triangle<D>(w_.snapshot, path, q, before, counts,
-                                                    Edge_certificates{false, false});
+    const Sweep_result<D> swept =
+        sweep_triangle<D>(w_.snapshot, path, q, before, counts, Edge_certificates{false, false});
     if (swept.contact) return seen_.note(seen_.not_free, name + "the exact sweep meets a wall");
     if (swept.chain == chain) return;
     ++seen_.other_chains;

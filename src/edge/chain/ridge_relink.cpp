@@ -1,46 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "ridge_relink.h"
+#include <cellwalk/internal/edge/ridge_relink.h>
 
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "other_side.h"
+#include "ridge.h"
 
 namespace cellwalk::detail {
 namespace {
-
-/// A ridge by its points: two in 3D, one in 2D, which stands twice.
-using Ridge = std::array<std::uint32_t, 2>;
-
-template <int D>
-bool has_ridge(const Cell_view<D>& cell, std::size_t facet, const Ridge& ridge) {
-  int found = 0;
-  for (const std::uint16_t v : cell.loop(facet)) {
-    const std::uint32_t point = cell.point_index(v);
-    found += (point == ridge[0]) + (point == ridge[1]);
-  }
-  return found == 2;
-}
-
-/// The other facet of a cell at a ridge of a facet; Half_facet::none if there is not one alone.
-template <int D>
-Half_facet across(const Snapshot<D>& snapshot, Half_facet facet, const Ridge& ridge) {
-  const Cell cell = snapshot.cell_of(facet);
-  const Cell_view<D> view = snapshot.view(cell);
-  Half_facet other = Half_facet::none;
-  for (std::size_t i = 0; i < view.facet_count(); ++i) {
-    const Half_facet f = Snapshot<D>::half_facet(cell, i);
-    if (f == facet || !has_ridge(view, i, ridge)) continue;
-    if (other != Half_facet::none) return Half_facet::none;
-    other = f;
-  }
-  return other;
-}
 
 template <int D>
 class Ridge_relink {
@@ -85,7 +56,7 @@ class Ridge_relink {
       chain_.push_back(f);
       if (!passes(std::span(corners_).subspan(before))) return false;
       if (snapshot_.neighbour(f) == end) return true;
-      f = across(snapshot_, other_side(snapshot_, f), ridge);
+      f = across(snapshot_, snapshot_.opposite(f), ridge);
     }
     return false;
   }
@@ -98,20 +69,15 @@ class Ridge_relink {
                          std::optional<Ridge>& beyond) const {
     beyond.reset();
     constexpr std::size_t ridges_a_part = 3;
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(facet));
     for (std::size_t part = 0; part < corners.size(); ++part) {
       const unsigned not_passed = ~line_.ridges_passed(corners[part]) & Certain_line<D>::all_lanes;
       if (not_passed == 0) continue;
       if (beyond || !std::has_single_bit(not_passed)) return false;
-      beyond = ridge(facet, part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
+      beyond = ridge_of(cell, snapshot_.facet_of(facet),
+                        part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
     }
     return beyond.has_value();
-  }
-
-  Ridge ridge(Half_facet facet, std::size_t number) const {
-    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(facet));
-    const auto loop = cell.loop(snapshot_.facet_of(facet));
-    const std::uint32_t u = cell.point_index(loop[number]);
-    return {u, D == 2 ? u : cell.point_index(loop[(number + 1) % loop.size()])};
   }
 
   const Snapshot<D>& snapshot_;
