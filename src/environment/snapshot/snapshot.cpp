@@ -52,7 +52,7 @@ Half_facet Snapshot<D>::opposite(Half_facet f) const {
   for (std::size_t block = 0; block < block_count(other); ++block) {
     const unsigned there = facets_to(own, other, block);
     if (there == 0) continue;
-    is_only &= only == Half_facet::none && std::has_single_bit(there);
+    is_only &= only == Half_facet::none && (there & (there - 1)) == 0;
     only = half_facet(other, 4 * block + static_cast<std::size_t>(std::countr_zero(there)));
   }
   if (is_only) return only;
