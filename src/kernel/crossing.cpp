@@ -76,17 +76,23 @@ std::optional<Bounded_twofold> quotient(const Bounded_twofold& at_a, const Bound
   return Bounded_twofold{time, (1 + 0x1p-8) * share * std::abs(time.high)};
 }
 
-/// The time rounded down, if twice the precision of a double tells; in a second attempt with smaller errors,
-/// which a motion needs that starts close to the plane.
+/// The time rounded down, if twice the precision of a double tells; otherwise with a smaller error of the
+/// orientation of a, which a motion needs that starts close to the plane, and at last of both.
 /// \param time what is known of it
 template <int D>
 std::optional<double> certain_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
   if (time)
     if (const auto rounded = certain_floor(*time)) return rounded;
-  const auto at_a = detail::sharp_orientation<D>(crossing.plane, crossing.a),
-             at_b = detail::sharp_orientation<D>(crossing.plane, crossing.b);
-  const auto sharper = at_a && at_b ? quotient(*at_a, *at_b) : std::nullopt;
-  return sharper ? certain_floor(*sharper) : std::nullopt;
+  const auto at_a = detail::sharp_orientation<D>(crossing.plane, crossing.a);
+  if (!at_a) return {};
+  const auto with = [&](const std::optional<Bounded_twofold>& at_b) -> std::optional<double> {
+    const auto sharper = at_b ? quotient(*at_a, *at_b) : std::nullopt;
+    return sharper ? certain_floor(*sharper) : std::nullopt;
+  };
+  const Twofold_normal<D> normal = detail::normal_of(crossing.plane);
+  if (const auto rounded = with(detail::orientation<D>(normal, crossing.plane[0], crossing.b)))
+    return rounded;
+  return with(detail::sharp_orientation<D>(crossing.plane, crossing.b));
 }
 
 /// The orientations of both ends of a motion.

@@ -83,8 +83,8 @@ std::optional<Bounded_twofold> orientation(const Twofold_normal<D>& normal, cons
   return Bounded_twofold{value, orientation_share * size};
 }
 
-/// Terms of a sum that is computed as if in many times the precision of a double: passes that change the
-/// terms, but not their sum, leave little in all but the last of them (Ogita, Rump and Oishi, "Accurate sum
+/// Terms of a sum that is computed as if in three times the precision of a double: a pass that changes the
+/// terms, but not their sum, leaves little in all but the last of them (Ogita, Rump and Oishi, "Accurate sum
 /// and dot product", SIAM Journal on Scientific Computing 26(6), 2005).
 class Exact_terms {
  public:
@@ -94,19 +94,18 @@ class Exact_terms {
       for (const double b : {y.high, y.low})
         for (const double c : {z.high, z.low}) add(a, b, c);
   }
-  /// With n terms at most, n = 192, and u = 2^-53, three passes make the sum S of the sizes of all terms but
-  /// the last at most (nu)^3 times what it was, and 2nu times the size of the sum. Then the terms are added
-  /// in numbers of twice the precision, each with an error below 4u^2: the bound is ample for
-  /// 4nu^2 (|sum| + 2S).
+  /// With n terms at most, n = 192, and u = 2^-53, the pass makes the sum S of the sizes of all terms but the
+  /// last at most nu times what it was, as each is the error of a sum of some of them. Then the terms are
+  /// added in numbers of twice the precision, each with an error below 4u^2 times a sum so far: the bound is
+  /// ample for 4nu^2 (|sum| + 2S), where 8n^2 u^3 < 2^-140.
   Bounded_twofold sum() {
     double size = 0;
     for (std::size_t i = 0; i < count_; ++i) size += std::abs(terms_[i]);
-    for (int pass = 0; pass < 3; ++pass)
-      for (std::size_t i = 1; i < count_; ++i) {
-        const Twofold exact = exact_sum(terms_[i], terms_[i - 1]);
-        terms_[i] = exact.high;
-        terms_[i - 1] = exact.low;
-      }
+    for (std::size_t i = 1; i < count_; ++i) {
+      const Twofold exact = exact_sum(terms_[i], terms_[i - 1]);
+      terms_[i] = exact.high;
+      terms_[i - 1] = exact.low;
+    }
     Twofold sum;
     for (std::size_t i = 0; i < count_; ++i) sum = sum + Twofold{terms_[i], 0};
     return {sum, 0x1p-90 * std::abs(sum.high) + 0x1p-128 * size};
