@@ -9,6 +9,10 @@
 
 namespace cellwalk::detail {
 
+/// A contact with a wall, with its normal; the feature and the point are left to the caller.
+template <int D>
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall);
+
 /// The contact at x, a point of the wall, with the normal of the wall.
 template <int D>
 Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall,

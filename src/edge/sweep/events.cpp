@@ -98,7 +98,7 @@ class Event_sweep {
       if (!taken && rule_ == Event_rule::turns) passage = pass_on(line, passage, chain);
       if (passage) {
         if (ridge && snapshot_.is_impassable(chain.back()))
-          return Sweep_result<D>{contact_at(line, chain.back(), *ridge), {}};
+          return Sweep_result<D>{contact_at_ridge(snapshot_, line, time.exact(), chain.back(), *ridge), {}};
         next = passage->end;
       } else {
         if (!taken) {
@@ -237,13 +237,6 @@ class Event_sweep {
     for (const Half_facet f : chain)
       line.for_all_roots(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f), note);
     return end;
-  }
-
-  /// The contact with a wall that the edge meets at the inside of a ridge.
-  Contact<D> contact_at(const Moving_line<D>& line, Half_facet wall, const Ridge& ridge) const {
-    const Exact_time time = line.time().exact();
-    const auto found = contact_at_ridge(snapshot_, line, time, wall, ridge);
-    return found ? *found : contact(time, line, Rational_segment<D>(triangle_, line.time().value()), wall);
   }
 
   Contact<D> contact(const Exact_time& time, const Moving_line<D>& line, const Rational_segment<D>& segment,

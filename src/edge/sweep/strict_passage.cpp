@@ -2,7 +2,8 @@
 #include "strict_passage.h"
 
 #include <cellwalk/internal/kernel/crossing.h>
-#include <cellwalk/internal/walk/star.h>
+
+#include "edge/contact/edge_contact.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -84,33 +85,16 @@ bool turn_round(const Snapshot<D>& snapshot, const Chain& chain, std::size_t pla
 }
 
 template <int D>
-std::optional<Contact<D>> contact_at_ridge(const Snapshot<D>& snapshot, const Moving_line<D>& line,
-                                           const Exact_time& time, Half_facet wall, const Ridge& ridge) {
-  const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
-  const std::size_t i = snapshot.facet_of(wall);
-  Contact<D> contact;
-  contact.time = time;
-  contact.body = Body_feature::edge;
-  contact.facet = wall;
-  contact.cell = snapshot.cell_of(wall);
-  contact.normal = inner_normal(cell, i);
-  contact.corner = static_cast<std::uint16_t>(*position_of(cell, i, ridge));
-  const Point<D>& u = snapshot.point(ridge.u);
-  if constexpr (D == 2) {
-    contact.kind = Contact_kind::vertex;
-    for (int k = 0; k < 2; ++k) contact.point[k] = towards_zero(u[k], u[k]);
-  } else {
-    const Swept_triangle<3>& t = line.triangle();
-    const Crossing<3> crossing{u, snapshot.point(ridge.v), {t.a, t.b, t.q}};
-    Predicate_counts& counts = line.counts().predicates;
-    if (Exact::orientation(counts, t.a, t.b, t.q, crossing.a) *
-            Exact::orientation(counts, t.a, t.b, t.q, crossing.b) >=
-        0)
-      return {};
-    const Point_bounds<3> x = bounds_at<3>(crossing);
-    for (int k = 0; k < 3; ++k) contact.point[k] = towards_zero(x.below[k], x.above[k]);
-    contact.kind = Contact_kind::edge;
-  }
+Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Moving_line<D>& line, const Exact_time& time,
+                            Half_facet wall, const Ridge& ridge) {
+  Contact<D> contact = edge_contact(snapshot, time, wall);
+  const auto corner = position_of(snapshot.view(contact.cell), snapshot.facet_of(wall), ridge);
+  contact.corner = static_cast<std::uint16_t>(*corner);
+  const Point<D>&u = snapshot.point(ridge.u), &v = snapshot.point(ridge.v);
+  Point_bounds<D> x{u, u};
+  if constexpr (D == 3) x = bounds_at<3>({u, v, {line.triangle().a, line.triangle().b, line.triangle().q}});
+  for (int k = 0; k < D; ++k) contact.point[k] = towards_zero(x.below[k], x.above[k]);
+  contact.kind = D == 2 ? Contact_kind::vertex : Contact_kind::edge;
   return contact;
 }
 
@@ -118,8 +102,8 @@ std::optional<Contact<D>> contact_at_ridge(const Snapshot<D>& snapshot, const Mo
   template std::optional<Strict_passage<D>> pass_strictly<D>(const Snapshot<D>&, const Moving_line<D>&,      \
                                                              const Chain&, const Particle<D>&, std::size_t); \
   template bool turn_round<D>(const Snapshot<D>&, const Chain&, std::size_t, const Ridge&, Chain&);          \
-  template std::optional<Contact<D>> contact_at_ridge<D>(const Snapshot<D>&, const Moving_line<D>&,          \
-                                                         const Exact_time&, Half_facet, const Ridge&);
+  template Contact<D> contact_at_ridge<D>(const Snapshot<D>&, const Moving_line<D>&, const Exact_time&,      \
+                                          Half_facet, const Ridge&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)
