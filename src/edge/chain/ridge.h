@@ -50,6 +50,23 @@ Half_facet across(const Snapshot<D>& snapshot, Half_facet f, const Ridge& ridge)
   return j == cell.facet_count() ? Half_facet::none : Snapshot<D>::half_facet(c, j);
 }
 
+/// Calls visit(f) for the facets at a ridge on the other way round it, each seen from the cell
+/// before it, until one leads to the last cell. True if it was reached, and visit(f) was true for all.
+/// \pre the ridge is one of the first facet
+template <int D, class Visit>
+bool go_round(const Snapshot<D>& snapshot, Half_facet first, const Ridge& ridge, Cell last,
+              const Visit& visit) {
+  const Half_facet begin = across(snapshot, first, ridge);
+  Half_facet f = begin;
+  // In a certified environment this comes to the last cell or to a wall.
+  while (f != Half_facet::none && visit(f)) {
+    if (snapshot.neighbour(f) == last) return true;
+    f = across(snapshot, snapshot.opposite(f), ridge);
+    if (f == begin) return false;
+  }
+  return false;
+}
+
 }  // namespace cellwalk::detail
 
 #endif  // CELLWALK_EDGE_CHAIN_RIDGE_H

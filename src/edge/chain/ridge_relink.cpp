@@ -47,18 +47,14 @@ class Ridge_relink {
   /// Appends the facets on the other way round a ridge, from the cell before a run of facets to that after
   /// it. False if one is not certainly passed.
   bool go_round(Half_facet first, Half_facet last, const Ridge& ridge) {
-    const Cell end = snapshot_.neighbour(last);
-    Half_facet f = across(snapshot_, first, ridge);
-    for (std::size_t facets = 0; facets < most_facets_round; ++facets) {
-      if (f == Half_facet::none || snapshot_.is_impassable(f)) return false;
+    std::size_t facets = 0;
+    return detail::go_round(snapshot_, first, ridge, snapshot_.neighbour(last), [&](Half_facet f) {
+      if (snapshot_.is_impassable(f) || ++facets > most_facets_round) return false;
       const std::size_t before = corners_.size();
       append_corners(snapshot_, f, corners_);
       chain_.push_back(f);
-      if (!passes(std::span(corners_).subspan(before))) return false;
-      if (snapshot_.neighbour(f) == end) return true;
-      f = across(snapshot_, snapshot_.opposite(f), ridge);
-    }
-    return false;
+      return passes(std::span(corners_).subspan(before));
+    });
   }
 
  private:

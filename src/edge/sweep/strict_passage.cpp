@@ -69,19 +69,14 @@ bool turn_round(const Snapshot<D>& snapshot, const Chain& chain, std::size_t pla
   while (rest != chain.end() && is_at(snapshot, *rest, ridge)) ++rest;
   const Cell last = snapshot.neighbour(*(rest - 1));
   turned.assign(chain.begin(), first);
-  // In a certified environment this comes to the last cell or to a wall.
-  const Half_facet begin = across(snapshot, *first, ridge);
-  for (Half_facet f = begin; f != Half_facet::none;) {
+  bool is_at_wall = false;
+  const bool is_round = go_round(snapshot, *first, ridge, last, [&](Half_facet f) {
     turned.push_back(f);
-    if (snapshot.is_impassable(f)) return true;
-    if (snapshot.neighbour(f) == last) {
-      turned.insert(turned.end(), rest, chain.end());
-      return true;
-    }
-    f = across(snapshot, snapshot.opposite(f), ridge);
-    if (f == begin) break;
-  }
-  return false;
+    is_at_wall = snapshot.is_impassable(f);
+    return !is_at_wall;
+  });
+  if (is_round) turned.insert(turned.end(), rest, chain.end());
+  return is_round || is_at_wall;
 }
 
 template <int D>
