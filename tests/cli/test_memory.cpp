@@ -36,9 +36,9 @@ class Little_memory : public Program {
     succeed({"generate", "tets", "--cells", "2", "-o", "env.ovm"});
     write("moves.csv", "ax,ay,az,bx,by,bz\n0.5,0.5,0.5,1.5,1.4,0.5\n0.5,0.5,0.5,2.5,0.5,0.5\n");
     write("points.csv", "point,x,y,z\n0,0.01,0.01,0.01\n");
-    write("scene.json", R"({"environment": "env.ovm", "particles": [{"count": 20, "speed": 9}], "steps": 6,
+    write("scene.json", R"({"environment": "env.ovm", "particles": [{"count": 20, "speed": 9}], "steps": 24,
       "bodies": [{"shape": "hexahedron", "side": 0.2, "count": 2, "seed": 3, "speed": 4}],
-      "output": {"frame_every": 3, "picture": {"width": 16, "height": 16}}})");
+      "output": {"frame_every": 12, "picture": {"width": 16, "height": 16}}})");
     write("pulse.json",
           R"({"environment": {"generate": "tets", "cells": [2, 2, 2]}, "steps": 4, "time_step": 0.02,
       "bodies": [{"shape": "hexahedron", "side": 0.2, "count": 1, "seed": 3, "speed": 4}],
@@ -82,9 +82,13 @@ class Little_memory : public Program {
     clean();
     Random random(seed);
     for (int i = 0; i < limits; ++i) {
-      // Half of them at the begin, where there are more different places.
-      const auto most = static_cast<std::uint64_t>(i % 2 == 0 ? count : std::min(count, 3000L));
-      const std::string at = std::to_string(1 + random.below(most));
+      // Half of them at the begin, where there are more different places; the others one in each part of the
+      // run, so that some come after a checkpoint whatever the draw.
+      const long part = i / 2, parts = (limits + 1) / 2;
+      const long first = i % 2 == 0 ? count * part / parts : 0;
+      const long last = i % 2 == 0 ? count * (part + 1) / parts : std::min(count, 3000L);
+      const std::string at =
+          std::to_string(first + 1 + static_cast<long>(random.below(static_cast<std::uint64_t>(last - first))));
       const bool once = i % 3 == 0;
       const Outcome outcome = run_with_little(command, at, once);
       ++runs_;
