@@ -8,6 +8,7 @@
 #include <cellwalk/edge/face.h>
 #include <cellwalk/internal/body/certificates.h>
 #include <cellwalk/internal/edge/certain_line.h>
+#include <cellwalk/internal/edge/ridge_relink.h>
 
 #include <cstdint>
 #include <cstring>
@@ -45,6 +46,7 @@ struct Move_scratch {
   /// Of the facets crossed, in order, and from the other sides, from the last to the first; or empty.
   std::vector<Facet_corners<D>> corners_ahead, corners_behind;
   std::vector<Facet_corners<D>> corners;  ///< of a facet
+  Relink_scratch<D> relink;
 
   /// Room for the chains of so many edges.
   void take_up_chains(std::size_t edges) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "chains_in_place.h"
 
-#include <cellwalk/internal/edge/ridge_relink.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -197,20 +195,35 @@ bool Chains_in_place<D>::is_blocked(const Corner& corner) {
 }
 
 template <int D>
-bool Chains_in_place<D>::relinks(const Corner& corner, Moved_chain<D>& moved) {
-  const Snapshot<D>& snapshot = *body_.snapshot;
-  const std::size_t undone = words_.undone(corner);
-  std::array<Spread_point<D>, 2> ends;
-  if (not_passed_ == Half_facet::none || !map_ends(corner, ends)) return false;
-  Word_corners<D> corners{words_.corners_added(corner, undone), words_.corners_kept(corner, undone)};
-  if (corner.is_reversed) std::swap(corners.first, corners.second);
-  if (!relink_at_ridges(snapshot, line_, ends, words_.facets(corner, undone), corners, moved.chain,
-                        moved.corners))
-    return false;
-  moved.is_relinked = true;
-  ++edges_;
-  ++changed_;
-  return true;
+Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Moved_chain<D>& moved) {
+  const Plane_frame<D>& frame = body_.snapshot->frame();
+  if (!from_) {
+    Float_point<D> mapped;
+    if (!frame.map(from.position, mapped)) return Relinked::open;
+    from_.emplace(frame, from.position, mapped);
+    path_.emplace(frame, from.position, mapped);
+    path_->lead_to(line_.from(), false);
+  }
+  const Point<D>& q = body_.particles[corner.other].position;
+  from_->lead_to(q, corner.is_reversed);
+  line_.lead_to(q, corner.is_reversed);
+  const Chain& chain = body_.chains[corner.edge];
+  const Moving_edge<D> edge{*from_,
+                            line_,
+                            *path_,
+                            corner.is_reversed,
+                            has_inner_end_ || body_.particles[corner.other].dimension == D,
+                            body_.scratch.crossed,
+                            {chain.data(), chain.size()},
+                            body_.corners_of(corner.edge)};
+  const Relinked answer =
+      relink_at_ridges<D>(*body_.snapshot, edge, body_.scratch.relink, moved.chain, moved.corners);
+  if (answer == Relinked::free) {
+    moved.is_relinked = true;
+    ++edges_;
+    ++changed_;
+  }
+  return answer;
 }
 
 /// True if the target, beyond the wall that blocks the vertex, certainly lies before the first facet of the
@@ -259,9 +272,12 @@ bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>
     if (moved.is_in_place) continue;
     is_changed = true;
     const bool passes_wall = in_place.is_blocked(corners[i]);
-    if (!passes_wall && in_place.relinks(corners[i], moved)) continue;
+    const Relinked relinked = passes_wall ? Relinked::blocked : in_place.relink(corners[i], from, moved);
+    if (relinked == Relinked::free) continue;
     settled.free_edges = i;
-    settled.next_edge = passes_wall ? Settled_move<D>::passes_wall : Settled_move<D>::changes;
+    settled.next_edge = passes_wall                     ? Settled_move<D>::passes_wall
+                        : relinked == Relinked::blocked ? Settled_move<D>::meets_wall
+                                                        : Settled_move<D>::changes;
     in_place.add_to(counts.edges);
     return false;
   }

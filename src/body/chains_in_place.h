@@ -96,10 +96,11 @@ class Chains_in_place {
   /// \pre !confirms(corner), called just before, and the vertex is not blocked
   /// Cost: looking at one cell.
   bool is_blocked(const Corner& corner);
-  /// True proves the edge free with another chain, where the line passes ridges of its word on the way.
-  /// \param moved that chain; it is left undefined where this is false
-  /// \pre !confirms(corner), called just before, and the vertex is not blocked
-  bool relinks(const Corner& corner, Moved_chain<D>& moved);
+  /// Follows the edge round the ridges that it meets on the way, see relink_at_ridges().
+  /// \param from the vertex before the move
+  /// \param moved the chain of a free edge; it is left undefined otherwise
+  /// \pre the edge is not stale, and the vertex is not blocked
+  Relinked relink(const Corner& corner, const Particle<D>& from, Moved_chain<D>& moved);
   /// Counts what was proved; that of a move that is decided otherwise is counted there.
   void add_to(Edge_counts& counts) const {
     counts.edges += edges_;
@@ -123,7 +124,8 @@ class Chains_in_place {
   Edge_words<D> words_;
   bool has_inner_end_, is_blocked_;
   Certain_line<D> line_;
-  Half_facet not_passed_ = Half_facet::none;  ///< a facet that was not, of the edge last looked at
+  std::optional<Certain_line<D>> from_, path_;  ///< before the move, and of the vertex, where they are needed
+  Half_facet not_passed_ = Half_facet::none;    ///< a facet that was not, of the edge last looked at
   std::uint64_t edges_ = 0, same_cell_ = 0, chain_facets_ = 0, changed_ = 0;
 };
 
@@ -146,8 +148,9 @@ struct Settled_move {
   /// The vertex at its target, if planes alone prove its way free: the facets crossed are in the scratch.
   std::optional<Particle<D>> to;
   std::size_t free_edges = 0;  ///< so many, the first ones, are free, and their chains are in the scratch
-  /// The next one passes a wall at the target, or it is neither in place nor relinked, or nothing is known.
-  enum { passes_wall, changes, unknown } next_edge = unknown;
+  /// The next one passes a wall at the target, or meets one on the way, or it is neither in place nor
+  /// relinked, or nothing is known.
+  enum { passes_wall, meets_wall, changes, unknown } next_edge = unknown;
 };
 
 /// Moves a vertex if planes alone prove it free, and all its edges in place: so are most moves. Faces are

@@ -209,14 +209,20 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
     if (moved.is_stale) continue;
     body_.refresh_edge(corners[i].edge, counts_);
     const auto known = i == settled.free_edges ? settled.next_edge : Settled_move<D>::unknown;
-    bool passes_wall = known == Settled_move<D>::passes_wall;
+    // What an edge meets on the way counts only where triangles are swept.
+    bool is_blocked =
+        known == Settled_move<D>::passes_wall || (known == Settled_move<D>::meets_wall && sweeps());
     if (known == Settled_move<D>::unknown && may_confirm) {
       moved.is_in_place = in_place.confirms(corners[i]);
       if (moved.is_in_place) continue;
-      passes_wall = in_place.is_blocked(corners[i]);
-      if (!passes_wall && in_place.relinks(corners[i], moved)) continue;
+      is_blocked = in_place.is_blocked(corners[i]);
+      if (!is_blocked) {
+        const Relinked relinked = in_place.relink(corners[i], path.from, moved);
+        if (relinked == Relinked::free) continue;
+        is_blocked = relinked == Relinked::blocked && sweeps();
+      }
     }
-    if (meets_at_end(path, i, corners[i], passes_wall, moved, tried)) answer.edges |= std::uint64_t{1} << i;
+    if (meets_at_end(path, i, corners[i], is_blocked, moved, tried)) answer.edges |= std::uint64_t{1} << i;
   }
   in_place.add_to(counts_.edges);
   return tried;
@@ -239,12 +245,12 @@ bool Target_step<D>::is_swept_free(const Vertex_path<D>& path, const Corner& cor
 
 /// True if the edge of a corner meets a wall where its vertex goes; its way is looked at where triangles are
 /// swept.
-/// \param passes_wall it is known that it passes the interior of one
+/// \param is_blocked it is known that it meets one: at the target, or on the way where triangles are swept
 template <int D>
 bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner,
-                                  bool passes_wall, Moved_chain<D>& moved, Tried_move<D>& tried) {
+                                  bool is_blocked, Moved_chain<D>& moved, Tried_move<D>& tried) {
   Edge_counts& edges = counts_.edges;
-  if (passes_wall || !sweeps()) {
+  if (is_blocked || !sweeps()) {
     ++edges.edges;
     edges.changed += sweeps();
   } else if (is_swept_free(path, corner, moved)) {

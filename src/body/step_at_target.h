@@ -55,7 +55,7 @@ class Target_step {
   Tried_move<D> try_on_all_sides(std::uint32_t vertex, const Point<D>& target, Particle<D>& to);
   Tried_move<D> try_on_sides(std::uint32_t vertex, const Point<D>& target, const Settled_move<D>& settled,
                              Sides_taken* choices, Particle<D>& to, bool& had_choice);
-  bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, bool passes_wall,
+  bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, bool is_blocked,
                     Moved_chain<D>& moved, Tried_move<D>& tried);
   bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain<D>& moved);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;

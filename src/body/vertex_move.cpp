@@ -67,17 +67,23 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
     moved.is_stale = moved.is_relinked = false;
     moved.is_in_place = may_confirm && in_place.confirms(corner);
     const bool may_look = may_confirm && !path.blocked && !moved.is_in_place;
-    const bool passes_wall = may_look && in_place.is_blocked(corner);
-    moved.is_free = moved.is_in_place || (may_look && !passes_wall && in_place.relinks(corner, moved));
+    bool is_blocked = may_look && in_place.is_blocked(corner);
+    if (may_look && !is_blocked) {
+      const Relinked relinked = in_place.relink(corner, from, moved);
+      moved.is_relinked = relinked == Relinked::free;
+      // What an edge meets on the way counts only where triangles are swept.
+      is_blocked = relinked == Relinked::blocked && options.sweep != Sweep::three_segments;
+    }
+    moved.is_free = moved.is_in_place || moved.is_relinked;
     if (moved.is_free) {
       // Faces look into the chains of their sides.
       if (options.sweep == Sweep::faces) show_chain(body, corner, moved);
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      auto free = passes_wall ? std::nullopt
-                              : free_chain(snapshot, path, body.particles[corner.other],
-                                           body.seen_from(corner), options, counts.edges);
+      auto free = is_blocked ? std::nullopt
+                             : free_chain(snapshot, path, body.particles[corner.other],
+                                          body.seen_from(corner), options, counts.edges);
       if (!free) {
         in_place.add_to(counts.edges);
         return Contact<D>{};
@@ -87,7 +93,7 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
-                                             body.seen_from(corner), options, counts.edges, passes_wall);
+                                             body.seen_from(corner), options, counts.edges, is_blocked);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
       keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
       if (any) break;

@@ -87,8 +87,8 @@ class Little_memory : public Program {
       const long part = i / 2, parts = (limits + 1) / 2;
       const long first = i % 2 == 0 ? count * part / parts : 0;
       const long last = i % 2 == 0 ? count * (part + 1) / parts : std::min(count, 3000L);
-      const std::string at =
-          std::to_string(first + 1 + static_cast<long>(random.below(static_cast<std::uint64_t>(last - first))));
+      const auto later = static_cast<long>(random.below(static_cast<std::uint64_t>(last - first)));
+      const std::string at = std::to_string(first + 1 + later);
       const bool once = i % 3 == 0;
       const Outcome outcome = run_with_little(command, at, once);
       ++runs_;

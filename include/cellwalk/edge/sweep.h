@@ -86,8 +86,8 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 /// Touch::stop those of p as well. The result's p and cells are not set.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \param passes_wall the edge is known to pass the interior of a wall when p is at its target, so that no
-///        certificate is tried
+/// \param passes_wall the edge is known to meet a wall, at the target of p or, where triangles are swept, on
+///        the way there, so that no certificate is tried
 /// \pre if the path is blocked, path.visited holds the cells of the walk
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,

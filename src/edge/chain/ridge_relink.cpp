@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/ridge_relink.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ridge.h"
@@ -13,107 +16,229 @@
 namespace cellwalk::detail {
 namespace {
 
+/// When an affine function has its root, if its values at 0 and 1 have these sizes, certainly not 0, and
+/// different signs. The roundings of doubles are far below the factor.
+struct Root_bounds {
+  Root_bounds(double at_0, double error_0, double at_1, double error_1)
+      : least((at_0 - error_0) / ((at_0 - error_0) + (at_1 + error_1)) * (1 - slack)),
+        most((at_0 + error_0) / ((at_0 + error_0) + (at_1 - error_1)) * (1 + slack)) {}
+
+  static constexpr double slack = 0x1p-48;
+  double least, most;
+};
+
 template <int D>
 class Ridge_relink {
  public:
-  Ridge_relink(const Snapshot<D>& snapshot, const Certain_line<D>& line,
-               const std::array<Spread_point<D>, 2>& ends, Chain& chain,
-               std::vector<Facet_corners<D>>& corners)
-      : snapshot_(snapshot), line_(line), ends_(ends), chain_(chain), corners_(corners) {
-    chain_.clear();
-    corners_.clear();
+  using Event = typename Relink_scratch<D>::Event;
+  using Passed_facet = typename Relink_scratch<D>::Passed_facet;
+
+  Ridge_relink(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch)
+      : snapshot_(snapshot), edge_(edge), all_(scratch) {
+    all_.word.clear();
+    all_.corners.clear();
+    all_.events.clear();
   }
 
-  bool passes(std::span<const Facet_corners<D>> corners) const {
-    for (const Facet_corners<D>& some : corners)
-      if (!line_.passes(some)) return false;
-    return true;
+  Relinked run() {
+    if (!read_chain()) return Relinked::open;
+    std::size_t next = 0;
+    std::optional<Root_bounds> crossing;
+    for (std::size_t turns = 0; turns <= most_turns;) {
+      // In the plane of a facet an edge without a chain may have a wall.
+      if (all_.word.empty() && !edge_.has_inner_end) return Relinked::open;
+      if (!crossing && next < edge_.crossed.size()) {
+        crossing = time_of_crossing(edge_.crossed[next]);
+        if (!crossing) return Relinked::open;
+      }
+      const Event* event = first_event();
+      if (event == nullptr && !crossing) return Relinked::free;
+      if (crossing && (event == nullptr || crossing->most < least_time_)) {
+        now_ = crossing->most;
+        if (!cross(edge_.crossed[next++])) return Relinked::open;
+        crossing.reset();
+        continue;
+      }
+      if (!is_alone(*event) || (crossing && !(event->most < crossing->least))) return Relinked::open;
+      now_ = event->most;
+      ++turns;
+      const Event turned = *event;
+      if (const Relinked answer = turn_round({turned.u, turned.v}); answer != Relinked::free) return answer;
+    }
+    return Relinked::open;
   }
-  void append(Half_facet facet, std::span<const Facet_corners<D>> corners) {
-    chain_.push_back(facet);
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
-  }
-  /// True if the line certainly passes a facet on the inner sides of all ridges but one, which is set, and
-  /// the ends of the edge certainly lie on both sides of its plane.
-  bool is_passed_but_for_one(Half_facet facet, std::optional<Ridge>& beyond) {
-    // Corners beside a chain may begin with another one.
-    const std::size_t before = corners_.size();
-    append_corners(snapshot_, facet, corners_);
-    const bool is_one = find_ridge_beyond(facet, std::span(corners_).subspan(before), beyond);
-    corners_.resize(before);
-    return is_one && distance_from_plane(snapshot_, facet, ends_[0]) < -plane_error &&
-           distance_from_plane(snapshot_, facet, ends_[1]) > plane_error;
-  }
-  /// Appends the facets on the other way round a ridge, from the cell before a run of facets to that after
-  /// it. False if one is not certainly passed.
-  bool go_round(Half_facet first, Half_facet last, const Ridge& ridge) {
-    std::size_t facets = 0;
-    return detail::go_round(snapshot_, first, ridge, snapshot_.neighbour(last), [&](Half_facet f) {
-      if (snapshot_.is_impassable(f) || ++facets > most_facets_round) return false;
-      const std::size_t before = corners_.size();
-      append_corners(snapshot_, f, corners_);
-      chain_.push_back(f);
-      return passes(std::span(corners_).subspan(before));
-    });
+
+  void write(Chain& chain, std::vector<Facet_corners<D>>& corners) const {
+    chain.clear();
+    corners.clear();
+    for (const Passed_facet& f : all_.word) {
+      chain.push_back(f.facet);
+      const auto its_corners = corners_of(f);
+      corners.insert(corners.end(), its_corners.begin(), its_corners.end());
+    }
   }
 
  private:
-  /// More are seldom, and walked round as fast.
-  static constexpr std::size_t most_facets_round = 16;
+  /// More are seldom, and swept as fast.
+  static constexpr std::size_t most_turns = 64, most_facets_round = 16;
 
-  bool find_ridge_beyond(Half_facet facet, std::span<const Facet_corners<D>> corners,
-                         std::optional<Ridge>& beyond) const {
-    beyond.reset();
-    constexpr std::size_t ridges_a_part = 3;
-    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(facet));
-    for (std::size_t part = 0; part < corners.size(); ++part) {
-      const unsigned not_passed = ~line_.ridges_passed(corners[part]) & Certain_line<D>::all_lanes;
-      if (not_passed == 0) continue;
-      if (beyond || !std::has_single_bit(not_passed)) return false;
-      beyond = ridge_of(cell, snapshot_.facet_of(facet),
-                        part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(not_passed)));
+  bool read_chain() {
+    all_.corners.assign(edge_.corners.begin(), edge_.corners.end());
+    std::size_t begin = 0;
+    for (const Half_facet f : edge_.chain) {
+      std::size_t end = begin;
+      bool is_passed = true;
+      do is_passed &= edge_.to.passes(all_.corners[end]);
+      while (all_.corners[end++].continues);
+      // Corners that were read from behind may begin with another one than the loop of the facet.
+      const auto passed = is_passed ? std::optional(Passed_facet{f, begin, end, 0, 0}) : read(f);
+      if (!passed) return false;
+      all_.word.push_back(*passed);
+      begin = end;
     }
-    return beyond.has_value();
+    return true;
+  }
+
+  /// A facet with the events of its ridges, which come after all that happened; none if one is not certain.
+  std::optional<Passed_facet> read(Half_facet f) {
+    const std::size_t corners = all_.corners.size();
+    append_corners(snapshot_, f, all_.corners);
+    const std::size_t corners_end = all_.corners.size();
+    constexpr std::size_t ridges_a_part = 3;
+    Passed_facet passed{f, corners, corners_end, all_.events.size(), all_.events.size()};
+    for (std::size_t part = 0; corners + part < corners_end; ++part) {
+      const Facet_corners<D>& some = all_.corners[corners + part];
+      const auto to = edge_.to.turn(some);
+      unsigned beyond = ~(lane_mask(to.sign > to.bound) | some.ignored) & Certain_line<D>::all_lanes;
+      if (beyond == 0) continue;
+      const auto from = edge_.from.turn(some);
+      if ((beyond & ~(lane_mask(from.sign > from.bound) & lane_mask(-to.sign > to.bound))) != 0) return {};
+      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
+      for (; beyond != 0; beyond &= beyond - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(beyond));
+        const Root_bounds time(double{from.sign[lane]}, double{from.bound[lane]}, -double{to.sign[lane]},
+                               double{to.bound[lane]});
+        if (!(now_ < time.least)) return {};
+        const Ridge ridge = ridge_of(cell, snapshot_.facet_of(f), part * ridges_a_part + lane);
+        all_.events.push_back(
+            {std::min(ridge.u, ridge.v), std::max(ridge.u, ridge.v), time.least, time.most});
+      }
+    }
+    passed.events_end = all_.events.size();
+    return passed;
+  }
+
+  std::optional<Root_bounds> time_of_crossing(Half_facet f) const {
+    const float before = -distance_from_plane(snapshot_, f, edge_.from.start()),
+                after = distance_from_plane(snapshot_, f, edge_.to.start());
+    if (!(before > plane_error && after > plane_error)) return {};
+    return Root_bounds(double{before}, double{plane_error}, double{after}, double{plane_error});
+  }
+
+  /// The vertex crosses a facet: the first one of the chain seen from it, or another one.
+  bool cross(Half_facet f) {
+    auto& word = all_.word;
+    const Half_facet behind = snapshot_.opposite(f);
+    const Half_facet undone = edge_.is_reversed ? behind : f;
+    if (!word.empty() && (edge_.is_reversed ? word.back() : word.front()).facet == undone) {
+      const auto place = edge_.is_reversed ? std::prev(word.end()) : word.begin();
+      const bool is_crossed = is_crossed_inside(*place);
+      word.erase(place);
+      return is_crossed;
+    }
+    const auto passed = read(edge_.is_reversed ? f : behind);
+    if (!passed || !is_crossed_inside(*passed)) return false;
+    word.insert(edge_.is_reversed ? word.end() : word.begin(), *passed);
+    return true;
+  }
+  bool is_crossed_inside(const Passed_facet& f) const {
+    unsigned outwards = Certain_line<D>::all_lanes, inwards = outwards;
+    for (const Facet_corners<D>& some : corners_of(f)) {
+      const auto turn = edge_.path.turn(some);
+      outwards &= lane_mask(turn.sign > turn.bound) | some.ignored;
+      inwards &= lane_mask(-turn.sign > turn.bound) | some.ignored;
+    }
+    return outwards == Certain_line<D>::all_lanes || inwards == Certain_line<D>::all_lanes;
+  }
+
+  std::span<const Facet_corners<D>> corners_of(const Passed_facet& f) const {
+    return std::span(all_.corners).subspan(f.corners, f.corners_end - f.corners);
+  }
+
+  std::span<const Event> events_of(const Passed_facet& f) const {
+    return std::span(all_.events).subspan(f.events, f.events_end - f.events);
+  }
+
+  /// The event that is over first, if there is one; the least time of all is noted.
+  const Event* first_event() {
+    const Event* first = nullptr;
+    least_time_ = std::numeric_limits<double>::infinity();
+    for (const Passed_facet& f : all_.word)
+      for (const Event& event : events_of(f)) {
+        if (first == nullptr || event.most < first->most) first = &event;
+        least_time_ = std::min(least_time_, event.least);
+      }
+    return first;
+  }
+  static bool is_at(const Event& event, const Ridge& ridge) {
+    return event.u == ridge.u && event.v == ridge.v;
+  }
+  /// True if those at other ridges certainly come later.
+  bool is_alone(const Event& event) const {
+    for (const Passed_facet& f : all_.word)
+      for (const Event& other : events_of(f))
+        if (!is_at(other, {event.u, event.v}) && !(event.most < other.least)) return false;
+    return true;
+  }
+
+  /// Exchanges the facets at a ridge for those on the other way round it.
+  Relinked turn_round(const Ridge& ridge) {
+    auto& word = all_.word;
+    const auto has_ridge = [&](const Passed_facet& f) {
+      return std::ranges::any_of(events_of(f), [&](const Event& e) { return is_at(e, ridge); });
+    };
+    const auto first = std::ranges::find_if(word, has_ridge);
+    const auto rest = std::find_if_not(first, word.end(), has_ridge);
+    if (std::any_of(rest, word.end(), has_ridge)) return Relinked::open;
+    auto& exchanged = all_.exchanged;
+    exchanged.clear();
+    bool is_at_wall = false;
+    const bool is_round = go_round(snapshot_, first->facet, ridge,
+                                   snapshot_.neighbour(std::prev(rest)->facet), [&](Half_facet f) {
+                                     is_at_wall = snapshot_.is_impassable(f);
+                                     if (is_at_wall || exchanged.size() == most_facets_round) return false;
+                                     const auto passed = read(f);
+                                     if (passed) exchanged.push_back(*passed);
+                                     return passed.has_value();
+                                   });
+    if (is_at_wall) return Relinked::blocked;
+    if (!is_round) return Relinked::open;
+    const auto place = word.erase(first, rest);
+    word.insert(place, exchanged.begin(), exchanged.end());
+    return Relinked::free;
   }
 
   const Snapshot<D>& snapshot_;
-  const Certain_line<D>& line_;
-  const std::array<Spread_point<D>, 2>& ends_;
-  Chain& chain_;
-  std::vector<Facet_corners<D>>& corners_;
+  const Moving_edge<D>& edge_;
+  Relink_scratch<D>& all_;
+  double now_ = 0;  ///< all that happened did so until then
+  double least_time_ = 0;
 };
 
 }  // namespace
 
 template <int D>
-bool relink_at_ridges(const Snapshot<D>& snapshot, const Certain_line<D>& line,
-                      const std::array<Spread_point<D>, 2>& ends, std::span<const Half_facet> word,
-                      Word_corners<D> corners, Chain& chain, std::vector<Facet_corners<D>>& its_corners) {
-  Ridge_relink<D> relink(snapshot, line, ends, chain, its_corners);
-  std::optional<Ridge> beyond, next;
-  for (std::size_t i = 0; i < word.size();) {
-    if (relink.passes(corners.front())) {
-      relink.append(word[i++], corners.front());
-      corners.drop_front();
-      continue;
-    }
-    const Half_facet first = word[i];
-    if (!relink.is_passed_but_for_one(first, beyond)) return false;
-    Half_facet last = first;
-    corners.drop_front();
-    while (++i < word.size() && relink.is_passed_but_for_one(word[i], next) && next == beyond) {
-      last = word[i];
-      corners.drop_front();
-    }
-    if (!relink.go_round(first, last, *beyond)) return false;
-  }
-  return true;
+Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
+                          Chain& chain, std::vector<Facet_corners<D>>& its_corners) {
+  Ridge_relink<D> relink(snapshot, edge, scratch);
+  const Relinked answer = relink.run();
+  if (answer == Relinked::free) relink.write(chain, its_corners);
+  return answer;
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                      \
-  template bool relink_at_ridges(const Snapshot<D>&, const Certain_line<D>&,                         \
-                                 const std::array<Spread_point<D>, 2>&, std::span<const Half_facet>, \
-                                 Word_corners<D>, Chain&, std::vector<Facet_corners<D>>&);
+#define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Relinked relink_at_ridges(const Snapshot<D>&, const Moving_edge<D>&, Relink_scratch<D>&, Chain&, \
+                                     std::vector<Facet_corners<D>>&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

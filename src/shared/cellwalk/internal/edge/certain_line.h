@@ -60,6 +60,7 @@ class Certain_line {
 
   static constexpr unsigned all_lanes = 15;
 
+  const Point<D>& from() const { return from_; }
   /// The start in the frame, in all lanes.
   const Spread_point<D>& start() const { return start_; }
 
@@ -87,27 +88,26 @@ class Certain_line {
   /// \param corners some of its corners: the facet is passed if this is true of all
   /// \pre the line was led to a point
   /// Cost: some 30 operations on lanes.
-  bool passes(const Facet_corners<D>& corners) const { return ridges_passed(corners) == all_lanes; }
-  /// The ridges on whose inner side the line certainly passes, as a bit mask, with the lanes ignored.
-  unsigned ridges_passed(const Facet_corners<D>& corners) const {
-    const Turn turn = turn_round_ridges(corners);
-    return lane_mask(turn.sign > turn.bound) | corners.ignored;
+  bool passes(const Facet_corners<D>& corners) const {
+    const Turn turned = turn(corners);
+    return (lane_mask(turned.sign > turned.bound) | corners.ignored) == all_lanes;
   }
   /// The ridges round which the line certainly turns in one direction, and in the other, as bit masks.
   struct Sides {
     unsigned inner, outer;
   };
   Sides sides(const Facet_corners<D>& corners) const {
-    const Turn turn = turn_round_ridges(corners);
-    return {lane_mask(turn.sign > turn.bound) & ~corners.ignored,
-            lane_mask(-turn.sign > turn.bound) & ~corners.ignored};
+    const Turn turned = turn(corners);
+    return {lane_mask(turned.sign > turned.bound) & ~corners.ignored,
+            lane_mask(-turned.sign > turned.bound) & ~corners.ignored};
   }
 
- private:
+  /// The sign of each ridge, positive if the line passes on its inner side. It is an affine function of the
+  /// start of the line, and off by at most its bound.
   struct Turn {
     Float4 sign, bound;
   };
-  Turn turn_round_ridges(const Facet_corners<D>& corners) const {
+  Turn turn(const Facet_corners<D>& corners) const {
     std::array<Float4, D> w;
     for (std::size_t k = 0; k < D; ++k) w[k] = corners.lanes[k] - start_[k];
     Float4 sign, bound;
@@ -126,6 +126,7 @@ class Certain_line {
     return {sign, bound};
   }
 
+ private:
   static constexpr float unit = 0x1p-24F, part = unit * Part::num / Part::den;
   /// In the frame. What underflows in shorter lines may exceed the bound.
   static constexpr float least_length = 0x1p-60F, most_length = 0x1p60F;

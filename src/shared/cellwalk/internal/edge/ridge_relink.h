@@ -1,51 +1,60 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A chain led round the ridges that its edge passes on the way. Theory: docs/sweep.md, relinking at ridges.
+// A chain led round the ridges that its edge meets on the way, one after the other, or to the wall that it
+// meets at one. Theory: docs/sweep.md, relinking at ridges.
 #ifndef CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
 #define CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/edge/certain_line.h>
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cellwalk::detail {
 
-/// The corners of the facets of a word, one after the other, in two runs.
+/// The edge of a vertex that moves, and its chain before the move.
 template <int D>
-struct Word_corners {
-  std::span<const Facet_corners<D>> first, second;
-
-  /// Those of the next facet.
-  std::span<const Facet_corners<D>> front() const {
-    const std::span<const Facet_corners<D>>& run = first.empty() ? second : first;
-    std::size_t parts = 1;
-    while (run[parts - 1].continues) ++parts;
-    return run.first(parts);
-  }
-  void drop_front() {
-    std::span<const Facet_corners<D>>& run = first.empty() ? second : first;
-    run = run.subspan(front().size());
-  }
+struct Moving_edge {
+  const Certain_line<D>&from, &to;      ///< from the vertex before the move, and after it, to its other end
+  const Certain_line<D>& path;          ///< of the vertex
+  bool is_reversed;                     ///< the vertex is the second end, and the lines lead backwards
+  bool has_inner_end;                   ///< one of its ends lies in the interior of its cell in the end
+  std::span<const Half_facet> crossed;  ///< by the vertex
+  std::span<const Half_facet> chain;    ///< from the first end of the edge to the second
+  std::span<const Facet_corners<D>> corners;  ///< of the chain
 };
 
-/// Leads a word round ridges until a line certainly passes it: runs of facets that have but one ridge beyond
-/// the line, the same in all, are exchanged for those on the other side of the ridge. Then the edge is free
-/// on its way, and the new word is its chain.
-/// \param line leads from the moved end to the other one, or backwards, so that it should pass the facets
-///        outwards
-/// \param ends the first end of the edge and the second, in the frame
-/// \param word the facets seen from the cells on the side of the first end of the edge
-/// \param corners those of the word
-/// \param chain set to the new word, `its_corners` to those of its facets
-/// False is inconclusive.
-/// Cost: some 40 operations on lanes a facet of the word, and reading the corners of those exchanged.
+enum class Relinked { free, blocked, open };
+
+/// Memory of relinks, kept from one to the next.
 template <int D>
-bool relink_at_ridges(const Snapshot<D>& snapshot, const Certain_line<D>& line,
-                      const std::array<Spread_point<D>, 2>& ends, std::span<const Half_facet> word,
-                      Word_corners<D> corners, Chain& chain, std::vector<Facet_corners<D>>& its_corners);
+struct Relink_scratch {
+  /// The time at which the edge meets the line of a ridge, beyond which it is in the end.
+  struct Event {
+    std::uint32_t u, v;  ///< the ridge by its points, the lesser one first
+    double least, most;
+  };
+  struct Passed_facet {
+    Half_facet facet;
+    std::size_t corners, corners_end;  ///< its own among all
+    std::size_t events, events_end;
+  };
+  std::vector<Passed_facet> word, exchanged;
+  std::vector<Facet_corners<D>> corners;
+  std::vector<Event> events;
+};
+
+/// Follows an edge in general position from ridge to ridge, all signs and times being certain in lanes.
+/// free: the edge is free on its way, and `chain` is set to the chain at the end, `its_corners` to those of
+/// its facets. blocked: the edge meets a wall at a ridge before the vertex is at its target. open: it is not
+/// certain.
+/// \pre the chain is valid before the move, and no wall is on the way of the vertex
+/// Cost: some 60 operations on lanes a facet of the chain, and reading the corners of those round the ridges.
+template <int D>
+Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
+                          Chain& chain, std::vector<Facet_corners<D>>& its_corners);
 
 }  // namespace cellwalk::detail
 
