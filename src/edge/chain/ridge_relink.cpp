@@ -59,7 +59,8 @@ class Ridge_relink {
         crossing.reset();
         continue;
       }
-      if (!is_alone(*event) || (crossing && !(event->most < crossing->least))) return Relinked::open;
+      const double next_least = crossing ? std::min(crossing->least, others_least_) : others_least_;
+      if (!(event->most < next_least)) return Relinked::open;
       now_ = event->most;
       ++turns;
       const Event turned = *event;
@@ -169,26 +170,22 @@ class Ridge_relink {
     return std::span(all_.events).subspan(f.events, f.events_end - f.events);
   }
 
-  /// The event that is over first, if there is one; the least time of all is noted.
+  /// The event that is over first, if there is one; the least times are noted.
   const Event* first_event() {
     const Event* first = nullptr;
-    least_time_ = std::numeric_limits<double>::infinity();
+    least_time_ = others_least_ = std::numeric_limits<double>::infinity();
     for (const Passed_facet& f : all_.word)
       for (const Event& event : events_of(f)) {
-        if (first == nullptr || event.most < first->most) first = &event;
         least_time_ = std::min(least_time_, event.least);
+        if (first != nullptr && is_at(event, {first->u, first->v})) continue;
+        const Event* later = &event;
+        if (first == nullptr || event.most < first->most) std::swap(first, later);
+        if (later != nullptr) others_least_ = std::min(others_least_, later->least);
       }
     return first;
   }
   static bool is_at(const Event& event, const Ridge& ridge) {
     return event.u == ridge.u && event.v == ridge.v;
-  }
-  /// True if those at other ridges certainly come later.
-  bool is_alone(const Event& event) const {
-    for (const Passed_facet& f : all_.word)
-      for (const Event& other : events_of(f))
-        if (!is_at(other, {event.u, event.v}) && !(event.most < other.least)) return false;
-    return true;
   }
 
   /// Exchanges the facets at a ridge for those on the other way round it.
@@ -221,8 +218,8 @@ class Ridge_relink {
   const Snapshot<D>& snapshot_;
   const Moving_edge<D>& edge_;
   Relink_scratch<D>& all_;
-  double now_ = 0;  ///< all that happened did so until then
-  double least_time_ = 0;
+  double now_ = 0;                            ///< all that happened did so until then
+  double least_time_ = 0, others_least_ = 0;  ///< of all events, and of those at other ridges than the first
 };
 
 }  // namespace
