@@ -152,14 +152,15 @@ class Ridge_relink {
     word.insert(edge_.is_reversed ? word.end() : word.begin(), *passed);
     return true;
   }
+  /// True if the vertex certainly crosses the interior of a facet, in either direction.
   bool is_crossed_inside(const Passed_facet& f) const {
-    unsigned outwards = Certain_line<D>::all_lanes, inwards = outwards;
+    unsigned inner = Certain_line<D>::all_lanes, outer = inner;
     for (const Facet_corners<D>& some : corners_of(f)) {
-      const auto turn = edge_.path.turn(some);
-      outwards &= lane_mask(turn.sign > turn.bound) | some.ignored;
-      inwards &= lane_mask(-turn.sign > turn.bound) | some.ignored;
+      const auto sides = edge_.path.sides(some);
+      inner &= sides.inner | some.ignored;
+      outer &= sides.outer | some.ignored;
     }
-    return outwards == Certain_line<D>::all_lanes || inwards == Certain_line<D>::all_lanes;
+    return inner == Certain_line<D>::all_lanes || outer == Certain_line<D>::all_lanes;
   }
 
   std::span<const Facet_corners<D>> corners_of(const Passed_facet& f) const {

@@ -253,14 +253,14 @@ void test_worlds() {
     Relinks_seen seen;
     for (std::uint64_t number = 0; number < worlds; ++number) {
       Edge_world<D> w(first_relink_world + number, generic);
-      move_edges(w, D == 2 ? 400 : 200, seen);
+      move_edges(w, D == 2 ? 400 : 260, seen);
     }
     report(std::to_string(D) + (generic ? "D, generic" : "D, degenerate"), seen);
     EXPECT_EQ(seen.all_wrong(), 0) << seen.first;
     if (worlds < 8 * oracle::world_kinds) continue;  // too few to meet everything
-    EXPECT_GT(seen.relinked, 150);
-    EXPECT_GT(seen.through_p, 80);
-    EXPECT_GT(seen.long_runs, 80);
+    EXPECT_GT(seen.relinked, 200);
+    EXPECT_GT(seen.through_p, 100);
+    EXPECT_GT(seen.long_runs, 100);
     EXPECT_GT(seen.several_ridges, 20);
     EXPECT_GT(seen.blocked, 50);
     EXPECT_EQ(seen.from_plane > 0, !generic);
