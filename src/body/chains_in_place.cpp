@@ -196,23 +196,14 @@ bool Chains_in_place<D>::is_blocked(const Corner& corner) {
 
 template <int D>
 Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Moved_chain<D>& moved) {
-  const Plane_frame<D>& frame = body_.snapshot->frame();
-  if (!from_) {
-    Float_point<D> mapped;
-    if (!frame.map(from.position, mapped)) return Relinked::open;
-    from_.emplace(frame, from.position, mapped);
-    path_.emplace(frame, from.position, mapped);
-    path_->lead_to(line_.from(), false);
-  }
-  const Point<D>& q = body_.particles[corner.other].position;
-  from_->lead_to(q, corner.is_reversed);
-  line_.lead_to(q, corner.is_reversed);
+  const Particle<D>& q = body_.particles[corner.other];
+  line_.lead_to(q.position, corner.is_reversed);
   const Chain& chain = body_.chains[corner.edge];
-  const Moving_edge<D> edge{*from_,
+  const Moving_edge<D> edge{from.position,
+                            q.position,
                             line_,
-                            *path_,
                             corner.is_reversed,
-                            has_inner_end_ || body_.particles[corner.other].dimension == D,
+                            has_inner_end_ || q.dimension == D,
                             body_.scratch.crossed,
                             {chain.data(), chain.size()},
                             body_.corners_of(corner.edge)};

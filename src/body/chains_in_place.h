@@ -124,8 +124,7 @@ class Chains_in_place {
   Edge_words<D> words_;
   bool has_inner_end_, is_blocked_;
   Certain_line<D> line_;
-  std::optional<Certain_line<D>> from_, path_;  ///< before the move, and of the vertex, where they are needed
-  Half_facet not_passed_ = Half_facet::none;    ///< a facet that was not, of the edge last looked at
+  Half_facet not_passed_ = Half_facet::none;  ///< a facet that was not, of the edge last looked at
   std::uint64_t edges_ = 0, same_cell_ = 0, chain_facets_ = 0, changed_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/ridge_relink.h>
+#include <cellwalk/internal/walk/star.h>
 
 #include <algorithm>
 #include <bit>
@@ -8,22 +9,27 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "ridge.h"
+#include "rounded_orientation.h"
 
 namespace cellwalk::detail {
 namespace {
 
-/// When an affine function has its root, if its values at 0 and 1 have these sizes, certainly not 0, and
-/// different signs. The roundings of doubles are far below the factor.
+/// When an affine function has its root, if its values at 0 and 1 certainly have different signs.
 struct Root_bounds {
-  Root_bounds(double at_0, double error_0, double at_1, double error_1)
-      : least((at_0 - error_0) / ((at_0 - error_0) + (at_1 + error_1)) * (1 - slack)),
-        most((at_0 + error_0) / ((at_0 + error_0) + (at_1 - error_1)) * (1 + slack)) {}
+  Root_bounds(const Rounded& at_0, const Rounded& at_1) {
+    const double x_0 = std::abs(at_0.value), x_1 = std::abs(at_1.value);
+    const double least_0 = x_0 - at_0.error, most_0 = x_0 + at_0.error;
+    // The roundings of these lines are far below the factor.
+    constexpr double slack = 0x1p-48;
+    least = least_0 / (least_0 + (x_1 + at_1.error)) * (1 - slack);
+    most = most_0 / (most_0 + (x_1 - at_1.error)) * (1 + slack);
+  }
 
-  static constexpr double slack = 0x1p-48;
   double least, most;
 };
 
@@ -107,20 +113,19 @@ class Ridge_relink {
     const std::size_t corners_end = all_.corners.size();
     constexpr std::size_t ridges_a_part = 3;
     Passed_facet passed{f, corners, corners_end, all_.events.size(), all_.events.size()};
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
     for (std::size_t part = 0; corners + part < corners_end; ++part) {
       const Facet_corners<D>& some = all_.corners[corners + part];
-      const auto to = edge_.to.turn(some);
-      unsigned beyond = ~(lane_mask(to.sign > to.bound) | some.ignored) & Certain_line<D>::all_lanes;
-      if (beyond == 0) continue;
-      const auto from = edge_.from.turn(some);
-      if ((beyond & ~(lane_mask(from.sign > from.bound) & lane_mask(-to.sign > to.bound))) != 0) return {};
-      const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
-      for (; beyond != 0; beyond &= beyond - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(beyond));
-        const Root_bounds time(double{from.sign[lane]}, double{from.bound[lane]}, -double{to.sign[lane]},
-                               double{to.bound[lane]});
+      unsigned open = ~(edge_.to.sides(some).inner | some.ignored) & Certain_line<D>::all_lanes;
+      for (; open != 0; open &= open - 1) {
+        const std::size_t k = part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(open));
+        const Ridge ridge = ridge_of(cell, snapshot_.facet_of(f), k);
+        const Rounded after = turn(cell, ridge, k, edge_.to.from());
+        if (after.is_positive()) continue;
+        const Rounded before = turn(cell, ridge, k, edge_.from);
+        if (!before.is_positive() || !after.is_negative()) return {};
+        const Root_bounds time(before, after);
         if (!(now_ < time.least)) return {};
-        const Ridge ridge = ridge_of(cell, snapshot_.facet_of(f), part * ridges_a_part + lane);
         all_.events.push_back(
             {std::min(ridge.u, ridge.v), std::max(ridge.u, ridge.v), time.least, time.most});
       }
@@ -129,11 +134,36 @@ class Ridge_relink {
     return passed;
   }
 
+  /// The sign of ridge k of a facet, positive if the line from a point to the other end of the edge passes on
+  /// its inner side.
+  Rounded turn(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k, const Point<D>& start) const {
+    Rounded turned = turn_of_line(cell, ridge, k, start, edge_.other);
+    if (edge_.is_reversed) turned.value = -turned.value;
+    return turned;
+  }
+  /// The same for the line to any point, as facets are seen from the cells before them.
+  static Rounded turn_of_line(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k,
+                              const Point<D>& start, const Point<D>& end) {
+    const Point<D>& u = cell.points[ridge.u];
+    if constexpr (D == 3) {
+      return rounded_orientation<D>(start, end, u, cell.points[ridge.v]);
+    } else {
+      Rounded turned = rounded_orientation<D>(start, end, u);
+      if (k == 0) turned.value = -turned.value;
+      return turned;
+    }
+  }
+
   std::optional<Root_bounds> time_of_crossing(Half_facet f) const {
-    const float before = -distance_from_plane(snapshot_, f, edge_.from.start()),
-                after = distance_from_plane(snapshot_, f, edge_.to.start());
-    if (!(before > plane_error && after > plane_error)) return {};
-    return Root_bounds(double{before}, double{plane_error}, double{after}, double{plane_error});
+    const auto corners = spanning_corners(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
+    const auto height = [&](const Point<D>& p) {
+      return std::apply([&](const auto&... corner) { return rounded_orientation<D>(p, *corner...); },
+                        corners);
+    };
+    const Rounded before = height(edge_.from), after = height(edge_.to.from());
+    const bool is_certain =
+        before.is_positive() ? after.is_negative() : before.is_negative() && after.is_positive();
+    return is_certain ? std::optional(Root_bounds(before, after)) : std::nullopt;
   }
 
   /// The vertex crosses a facet: the first one of the chain seen from it, or another one.
@@ -154,13 +184,15 @@ class Ridge_relink {
   }
   /// True if the vertex certainly crosses the interior of a facet, in either direction.
   bool is_crossed_inside(const Passed_facet& f) const {
-    unsigned inner = Certain_line<D>::all_lanes, outer = inner;
-    for (const Facet_corners<D>& some : corners_of(f)) {
-      const auto sides = edge_.path.sides(some);
-      inner &= sides.inner | some.ignored;
-      outer &= sides.outer | some.ignored;
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f.facet));
+    const std::size_t i = snapshot_.facet_of(f.facet), ridges = cell.loop(i).size();
+    std::size_t inner = 0, outer = 0;
+    for (std::size_t k = 0; k < ridges; ++k) {
+      const Rounded turned = turn_of_line(cell, ridge_of(cell, i, k), k, edge_.from, edge_.to.from());
+      inner += turned.is_positive();
+      outer += turned.is_negative();
     }
-    return inner == Certain_line<D>::all_lanes || outer == Certain_line<D>::all_lanes;
+    return inner == ridges || outer == ridges;
   }
 
   std::span<const Facet_corners<D>> corners_of(const Passed_facet& f) const {

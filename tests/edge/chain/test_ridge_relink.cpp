@@ -80,12 +80,10 @@ std::pair<Relinked, Chain> relink(const Snapshot<D>& snapshot, const Moved_end<D
                                   bool is_from_behind, detail::Relink_scratch<D>& scratch) {
   const Point<D>&p = moved.from.position, &t = moved.to.position, &q = other.position;
   const bool has_inner_end = moved.to.dimension == D || other.dimension == D;
-  Float_point<D> of_p, of_t;
-  if (!snapshot.frame().map(p, of_p) || !snapshot.frame().map(t, of_t)) return {};
-  detail::Certain_line<D> from(snapshot.frame(), p, of_p), to(snapshot.frame(), t, of_t), path = from;
-  from.lead_to(q, is_reversed);
+  Float_point<D> mapped;
+  if (!snapshot.frame().map(t, mapped)) return {};
+  detail::Certain_line<D> to(snapshot.frame(), t, mapped);
   to.lead_to(q, is_reversed);
-  path.lead_to(t, false);
   const Chain word = is_reversed ? reversed(snapshot, before) : before;
   // Bodies keep corners that were read from behind, too.
   const Chain back = reversed(snapshot, word);
@@ -98,8 +96,8 @@ std::pair<Relinked, Chain> relink(const Snapshot<D>& snapshot, const Moved_end<D
   std::vector<Facet_corners<D>> corners;
   const Relinked answer = detail::relink_at_ridges<D>(
       snapshot,
-      {from, to, path, is_reversed, has_inner_end, moved.crossed, {word.data(), word.size()}, its_corners},
-      scratch, chain, corners);
+      {p, q, to, is_reversed, has_inner_end, moved.crossed, {word.data(), word.size()}, its_corners}, scratch,
+      chain, corners);
   if (answer == Relinked::free && !is_from_behind) {
     EXPECT_TRUE(are_same(corners, corners_of(snapshot, {chain.data(), chain.size()})));
   }

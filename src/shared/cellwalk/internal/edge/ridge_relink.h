@@ -17,12 +17,12 @@ namespace cellwalk::detail {
 /// The edge of a vertex that moves, and its chain before the move.
 template <int D>
 struct Moving_edge {
-  const Certain_line<D>&from, &to;      ///< from the vertex before the move, and after it, to its other end
-  const Certain_line<D>& path;          ///< of the vertex
-  bool is_reversed;                     ///< the vertex is the second end, and the lines lead backwards
-  bool has_inner_end;                   ///< one of its ends lies in the interior of its cell in the end
-  std::span<const Half_facet> crossed;  ///< by the vertex
-  std::span<const Half_facet> chain;    ///< from the first end of the edge to the second
+  const Point<D>&from, &other;                ///< the vertex before the move, and the other end
+  const Certain_line<D>& to;                  ///< from the vertex after the move to the other end
+  bool is_reversed;                           ///< the vertex is the second end, and the lines lead backwards
+  bool has_inner_end;                         ///< one of its ends lies in the interior of its cell in the end
+  std::span<const Half_facet> crossed;        ///< by the vertex
+  std::span<const Half_facet> chain;          ///< from the first end of the edge to the second
   std::span<const Facet_corners<D>> corners;  ///< of the chain
 };
 
@@ -46,12 +46,14 @@ struct Relink_scratch {
   std::vector<Event> events;
 };
 
-/// Follows an edge in general position from ridge to ridge, all signs and times being certain in lanes.
+/// Follows an edge in general position from ridge to ridge, all signs and times being certain in lanes or in
+/// doubles.
 /// free: the edge is free on its way, and `chain` is set to the chain at the end, `its_corners` to those of
 /// its facets. blocked: the edge meets a wall at a ridge before the vertex is at its target. open: it is not
 /// certain.
 /// \pre the chain is valid before the move, and no wall is on the way of the vertex
-/// Cost: some 60 operations on lanes a facet of the chain, and reading the corners of those round the ridges.
+/// Cost: some 30 operations on lanes a facet of the chain, 100 operations a ridge that the edge meets, and
+/// reading the corners of the facets round those.
 template <int D>
 Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
                           Chain& chain, std::vector<Facet_corners<D>>& its_corners);
