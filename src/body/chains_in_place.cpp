@@ -195,7 +195,8 @@ bool Chains_in_place<D>::is_blocked(const Corner& corner) {
 }
 
 template <int D>
-Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Moved_chain<D>& moved) {
+Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Half_facet wall,
+                                    Moved_chain<D>& moved) {
   const Particle<D>& q = body_.particles[corner.other];
   line_.lead_to(q.position, corner.is_reversed);
   const Chain& chain = body_.chains[corner.edge];
@@ -205,6 +206,7 @@ Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& fro
                             corner.is_reversed,
                             has_inner_end_ || q.dimension == D,
                             body_.scratch.crossed,
+                            wall,
                             {chain.data(), chain.size()},
                             body_.corners_of(corner.edge)};
   const Relinked answer =
@@ -263,7 +265,8 @@ bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>
     if (moved.is_in_place) continue;
     is_changed = true;
     const bool passes_wall = in_place.is_blocked(corners[i]);
-    const Relinked relinked = passes_wall ? Relinked::blocked : in_place.relink(corners[i], from, moved);
+    const Relinked relinked =
+        passes_wall ? Relinked::blocked : in_place.relink(corners[i], from, Half_facet::none, moved);
     if (relinked == Relinked::free) continue;
     settled.free_edges = i;
     settled.next_edge = passes_wall                     ? Settled_move<D>::passes_wall

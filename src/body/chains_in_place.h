@@ -98,9 +98,10 @@ class Chains_in_place {
   bool is_blocked(const Corner& corner);
   /// Follows the edge round the ridges that it meets on the way, see relink_at_ridges().
   /// \param from the vertex before the move
+  /// \param wall in whose interior the vertex is stopped, or none
   /// \param moved the chain of a free edge; it is left undefined otherwise
-  /// \pre the edge is not stale, and the vertex is not blocked
-  Relinked relink(const Corner& corner, const Particle<D>& from, Moved_chain<D>& moved);
+  /// \pre the edge is not stale
+  Relinked relink(const Corner& corner, const Particle<D>& from, Half_facet wall, Moved_chain<D>& moved);
   /// Counts what was proved; that of a move that is decided otherwise is counted there.
   void add_to(Edge_counts& counts) const {
     counts.edges += edges_;

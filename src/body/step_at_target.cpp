@@ -217,7 +217,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
       if (moved.is_in_place) continue;
       is_blocked = in_place.is_blocked(corners[i]);
       if (!is_blocked) {
-        const Relinked relinked = in_place.relink(corners[i], path.from, moved);
+        const Relinked relinked = in_place.relink(corners[i], path.from, Half_facet::none, moved);
         if (relinked == Relinked::free) continue;
         is_blocked = relinked == Relinked::blocked && sweeps();
       }

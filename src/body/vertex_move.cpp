@@ -61,18 +61,26 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   Float_point<D> mapped{};
   const bool may_confirm = may_be_in_place(body, options, false) && snapshot.frame().map(target, mapped);
   Chains_in_place<D> in_place(body, to, mapped, path.blocked);
+  const Half_facet wall = path.blocked ? walked.contact->facet : Half_facet::none;
+  const bool may_relink = may_confirm && (!path.blocked || walked.contact->kind == Contact_kind::facet);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
     Moved_chain<D>& moved = scratch.chains[i];
     moved.is_stale = moved.is_relinked = false;
     moved.is_in_place = may_confirm && in_place.confirms(corner);
-    const bool may_look = may_confirm && !path.blocked && !moved.is_in_place;
-    bool is_blocked = may_look && in_place.is_blocked(corner);
-    if (may_look && !is_blocked) {
-      const Relinked relinked = in_place.relink(corner, from, moved);
+    std::optional<Contact<D>> met;
+    if (may_relink && !moved.is_in_place) {
+      if (any && in_place.is_blocked(corner)) {
+        in_place.add_to(counts.edges);
+        return Contact<D>{};
+      }
+      const Relinked relinked = in_place.relink(corner, from, wall, moved);
       moved.is_relinked = relinked == Relinked::free;
       // What an edge meets on the way counts only where triangles are swept.
-      is_blocked = relinked == Relinked::blocked && options.sweep != Sweep::three_segments;
+      if (relinked == Relinked::blocked && body.particles[corner.other].dimension == D &&
+          (options.sweep != Sweep::three_segments || (!path.blocked && in_place.is_blocked(corner))))
+        met = contact_at_ridge(snapshot, {from.position, target, body.particles[corner.other].position},
+                               scratch.relink);
     }
     moved.is_free = moved.is_in_place || moved.is_relinked;
     if (moved.is_free) {
@@ -81,9 +89,9 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      auto free = is_blocked ? std::nullopt
-                             : free_chain(snapshot, path, body.particles[corner.other],
-                                          body.seen_from(corner), options, counts.edges);
+      auto free = met ? std::nullopt
+                      : free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner),
+                                   options, counts.edges);
       if (!free) {
         in_place.add_to(counts.edges);
         return Contact<D>{};
@@ -93,7 +101,7 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
-                                             body.seen_from(corner), options, counts.edges, is_blocked);
+                                             body.seen_from(corner), options, counts.edges, met);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {
       keep(*swept.contact, swept.contact->body == Body_feature::edge ? corner.edge : vertex);
       if (any) break;

@@ -86,13 +86,12 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 /// Touch::stop those of p as well. The result's p and cells are not set.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \param passes_wall the edge is known to meet a wall, at the target of p or, where triangles are swept, on
-///        the way there, so that no certificate is tried
+/// \param met the first contact of the edge, if it is known: then only the rest of the contact is found
 /// \pre if the path is blocked, path.visited holds the cells of the walk
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                  const Particle<D>& q, const Chain& before, const Sweep_options& options,
-                                 Edge_counts& counts, bool passes_wall = false);
+                                 Edge_counts& counts, const std::optional<Contact<D>>& met = {});
 
 /// The chain of an edge that is free.
 struct Free_chain {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "edge/contact/edge_contact.h"
 #include "ridge.h"
 #include "rounded_orientation.h"
 
@@ -53,13 +54,15 @@ class Ridge_relink {
     for (std::size_t turns = 0; turns <= most_turns;) {
       // In the plane of a facet an edge without a chain may have a wall.
       if (all_.word.empty() && !edge_.has_inner_end) return Relinked::open;
-      if (!crossing && next < edge_.crossed.size()) {
-        crossing = time_of_crossing(edge_.crossed[next]);
+      const bool crosses = next < edge_.crossed.size();
+      if (!crossing && (crosses || edge_.wall != Half_facet::none)) {
+        crossing = time_of_crossing(crosses ? edge_.crossed[next] : edge_.wall);
         if (!crossing) return Relinked::open;
       }
       const Event* event = first_event();
       if (event == nullptr && !crossing) return Relinked::free;
       if (crossing && (event == nullptr || crossing->most < least_time_)) {
+        if (!crosses) return Relinked::free;
         now_ = crossing->most;
         if (!cross(edge_.crossed[next++])) return Relinked::open;
         crossing.reset();
@@ -241,11 +244,29 @@ class Ridge_relink {
                                      if (passed) exchanged.push_back(*passed);
                                      return passed.has_value();
                                    });
-    if (is_at_wall) return Relinked::blocked;
+    if (is_at_wall) {
+      note_wall(ridge, first->facet, std::prev(rest)->facet);
+      return Relinked::blocked;
+    }
     if (!is_round) return Relinked::open;
     const auto place = word.erase(first, rest);
     word.insert(place, exchanged.begin(), exchanged.end());
     return Relinked::free;
+  }
+
+  /// The first wall round a ridge seen from the vertex, which one of the walls there blocks.
+  /// \param first, last the facets at the ridge that the edge passes until then, seen from its first end
+  void note_wall(const Ridge& ridge, Half_facet first, Half_facet last) {
+    all_.u = ridge.u;
+    all_.v = ridge.v;
+    const auto until_wall = [&](Half_facet f) {
+      all_.wall = f;
+      return !snapshot_.is_impassable(f);
+    };
+    if (edge_.is_reversed)
+      go_round(snapshot_, snapshot_.opposite(last), ridge, snapshot_.cell_of(first), until_wall);
+    else
+      go_round(snapshot_, first, ridge, snapshot_.neighbour(last), until_wall);
   }
 
   const Snapshot<D>& snapshot_;
@@ -266,7 +287,15 @@ Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edg
   return answer;
 }
 
+template <int D>
+Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
+                            const Relink_scratch<D>& blocked) {
+  return edge_contact(snapshot, triangle, blocked.wall, Ridge{blocked.u, blocked.v});
+}
+
 #define CELLWALK_INSTANTIATE(D)                                                                             \
+  template Contact<D> contact_at_ridge(const Snapshot<D>&, const Swept_triangle<D>&,                        \
+                                       const Relink_scratch<D>&);                                           \
   template Relinked relink_at_ridges(const Snapshot<D>&, const Moving_edge<D>&, Relink_scratch<D>&, Chain&, \
                                      std::vector<Facet_corners<D>>&);
 

@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge_contact.h"
 
+#include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/star.h>
 
 namespace cellwalk::detail {
+namespace {
+
+/// When and where an edge passes the line of a ridge.
+Crossing<2> passage_of(const Swept_triangle<2>& t, const Point<2>& u, const Point<2>&) {
+  return {t.a, t.b, {t.q, u}};
+}
+Crossing<3> passage_of(const Swept_triangle<3>& t, const Point<3>& u, const Point<3>& v) {
+  return {t.a, t.b, {t.q, u, v}};
+}
+
+Point_bounds<2> place_of_passage(const Swept_triangle<2>&, const Point<2>& u, const Point<2>&) {
+  return {u, u};
+}
+Point_bounds<3> place_of_passage(const Swept_triangle<3>& t, const Point<3>& u, const Point<3>& v) {
+  return bounds_at<3>({u, v, {t.a, t.b, t.q}});
+}
+
+/// Towards 0, as Exact_point::rounded() does.
+double towards_zero(double below, double above) { return (below >= 0 ? below : above) + 0.0; }
+
+}  // namespace
 
 template <int D>
 Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall) {
@@ -29,9 +51,24 @@ Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Hal
   return contact;
 }
 
+template <int D>
+Contact<D> edge_contact(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, Half_facet wall,
+                        const Ridge& ridge) {
+  const Point<D>&u = snapshot.point(ridge.u), &v = snapshot.point(ridge.v);
+  Contact<D> contact = edge_contact(snapshot, to_time(passage_of(triangle, u, v)), wall);
+  const auto corner = position_of(snapshot.view(contact.cell), snapshot.facet_of(wall), ridge);
+  contact.corner = static_cast<std::uint16_t>(*corner);
+  const Point_bounds<D> x = place_of_passage(triangle, u, v);
+  for (std::size_t k = 0; k < D; ++k) contact.point[k] = towards_zero(x.below[k], x.above[k]);
+  contact.kind = D == 2 ? Contact_kind::vertex : Contact_kind::edge;
+  return contact;
+}
+
 template Contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet);
 template Contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet);
 template Contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet, const Exact_point<2>&);
 template Contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet, const Exact_point<3>&);
+template Contact<2> edge_contact<2>(const Snapshot<2>&, const Swept_triangle<2>&, Half_facet, const Ridge&);
+template Contact<3> edge_contact<3>(const Snapshot<3>&, const Swept_triangle<3>&, Half_facet, const Ridge&);
 
 }  // namespace cellwalk::detail

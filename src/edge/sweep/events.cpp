@@ -98,7 +98,7 @@ class Event_sweep {
       if (!taken && rule_ == Event_rule::turns) passage = pass_on(line, passage, chain);
       if (passage) {
         if (ridge && snapshot_.is_impassable(chain.back()))
-          return Sweep_result<D>{contact_at_ridge(snapshot_, line, time.exact(), chain.back(), *ridge), {}};
+          return Sweep_result<D>{edge_contact(snapshot_, triangle_, chain.back(), *ridge), {}};
         next = passage->end;
       } else {
         if (!taken) {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "strict_passage.h"
 
-#include <cellwalk/internal/kernel/crossing.h>
-
-#include "edge/contact/edge_contact.h"
-
 namespace cellwalk::detail {
 namespace {
 
@@ -38,9 +34,6 @@ class First_root {
   const Event_time<D>& after_;
   Strict_passage<D> first_;
 };
-
-/// Towards 0, as Exact_point::rounded() does.
-double towards_zero(double below, double above) { return (below >= 0 ? below : above) + 0.0; }
 
 }  // namespace
 
@@ -79,26 +72,10 @@ bool turn_round(const Snapshot<D>& snapshot, const Chain& chain, std::size_t pla
   return is_round || is_at_wall;
 }
 
-template <int D>
-Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Moving_line<D>& line, const Exact_time& time,
-                            Half_facet wall, const Ridge& ridge) {
-  Contact<D> contact = edge_contact(snapshot, time, wall);
-  const auto corner = position_of(snapshot.view(contact.cell), snapshot.facet_of(wall), ridge);
-  contact.corner = static_cast<std::uint16_t>(*corner);
-  const Point<D>&u = snapshot.point(ridge.u), &v = snapshot.point(ridge.v);
-  Point_bounds<D> x{u, u};
-  if constexpr (D == 3) x = bounds_at<3>({u, v, {line.triangle().a, line.triangle().b, line.triangle().q}});
-  for (int k = 0; k < D; ++k) contact.point[k] = towards_zero(x.below[k], x.above[k]);
-  contact.kind = D == 2 ? Contact_kind::vertex : Contact_kind::edge;
-  return contact;
-}
-
 #define CELLWALK_INSTANTIATE(D)                                                                              \
   template std::optional<Strict_passage<D>> pass_strictly<D>(const Snapshot<D>&, const Moving_line<D>&,      \
                                                              const Chain&, const Particle<D>&, std::size_t); \
-  template bool turn_round<D>(const Snapshot<D>&, const Chain&, std::size_t, const Ridge&, Chain&);          \
-  template Contact<D> contact_at_ridge<D>(const Snapshot<D>&, const Moving_line<D>&, const Exact_time&,      \
-                                          Half_facet, const Ridge&);
+  template bool turn_round<D>(const Snapshot<D>&, const Chain&, std::size_t, const Ridge&, Chain&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

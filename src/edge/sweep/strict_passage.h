@@ -5,7 +5,6 @@
 #define CELLWALK_EDGE_SWEEP_STRICT_PASSAGE_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 
 #include <cstddef>
 #include <optional>
@@ -43,13 +42,6 @@ std::optional<Strict_passage<D>> pass_strictly(const Snapshot<D>& snapshot, cons
 template <int D>
 bool turn_round(const Snapshot<D>& snapshot, const Chain& chain, std::size_t place, const Ridge& ridge,
                 Chain& turned);
-
-/// The contact of an edge with a wall that it meets at the inside of a ridge.
-/// \pre the ridge is that of a Strict_passage that ends at this time, and the wall has it
-/// Cost: some 3,000 instructions
-template <int D>
-Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Moving_line<D>& line, const Exact_time& time,
-                            Half_facet wall, const Ridge& ridge);
 
 }  // namespace cellwalk::detail
 

@@ -56,14 +56,7 @@ bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
 /// The first contact of the edge, or its chain: by the paper's segments or by the complete sweep.
 template <int D>
 Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                       const Chain& before, const Sweep_options& options, Edge_counts& counts,
-                       bool passes_wall) {
-  if (passes_wall) {
-    ++counts.edges;
-    ++counts.changed;
-    ++counts.event_sweeps;
-    return detail::follow_events(snapshot, path, q, before, counts.walk);
-  }
+                       const Chain& before, const Sweep_options& options, Edge_counts& counts) {
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, path, q, before, counts, options.certificates);
   if (path.blocked) {
@@ -150,8 +143,15 @@ void detail::check_search(const Sweep_options& options) {
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                  const Particle<D>& q, const Chain& before, const Sweep_options& options,
-                                 Edge_counts& counts, bool passes_wall) {
-  Sweep_result<D> result = detect(snapshot, path, q, before, options, counts, passes_wall);
+                                 Edge_counts& counts, const std::optional<Contact<D>>& met) {
+  Sweep_result<D> result;
+  if (met) {
+    ++counts.edges;
+    ++counts.changed;
+    result.contact = met;
+  } else {
+    result = detect(snapshot, path, q, before, options, counts);
+  }
   if (result.contact) result.contact = locate(snapshot, path, q, before, *result.contact, options, counts);
   if (options.touch == Touch::stop)
     keep_first(result.contact, detail::first_touch(snapshot, path.from.cell, triangle_of(path, q), counts));
@@ -214,7 +214,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 #define CELLWALK_INSTANTIATE(D)                                                                              \
   template Sweep_result<D> sweep_edge_along<D>(const Snapshot<D>&, const Vertex_path<D>&,                    \
                                                const Particle<D>&, const Chain&, const Sweep_options&,       \
-                                               Edge_counts&, bool);                                          \
+                                               Edge_counts&, const std::optional<Contact<D>>&);              \
   template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&,                \
                                         const Wall_contact<D>&, Walk_counts&);                               \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \

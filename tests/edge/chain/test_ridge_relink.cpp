@@ -36,6 +36,8 @@ struct Relinks_seen {
   int several_ridges = 0;  ///< facets at more than one ridge were exchanged
   int from_plane = 0;      ///< p started in the plane of a facet that was exchanged
   int blocked = 0;         ///< it meets a wall at a ridge
+  int located = 0;         ///< q being inside of its cell, so that this is the only contact
+  int stopped = 0;         ///< it is free until p is stopped at a wall
   int wrong = 0;           ///< for the oracle
   int not_free = 0, not_blocked = 0, unequal = 0, other_chains = 0;  ///< by the exact sweep
   std::string first;
@@ -73,15 +75,17 @@ bool are_same(const std::vector<Facet_corners<D>>& a, const std::vector<Facet_co
   });
 }
 
-/// What relinking says of an edge, and its chain as it is seen from p.
+/// What relinking says of an edge.
+/// \param chain set to that of a free edge, as it is seen from p
 template <int D>
-std::pair<Relinked, Chain> relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved,
-                                  const Particle<D>& other, const Chain& before, bool is_reversed,
-                                  bool is_from_behind, detail::Relink_scratch<D>& scratch) {
+Relinked relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved, const Particle<D>& other,
+                const Chain& before, bool is_reversed, bool is_from_behind,
+                detail::Relink_scratch<D>& scratch, Chain& chain) {
   const Point<D>&p = moved.from.position, &t = moved.to.position, &q = other.position;
-  const bool has_inner_end = moved.to.dimension == D || other.dimension == D;
+  const bool has_inner_end = (!moved.contact && moved.to.dimension == D) || other.dimension == D;
+  const Half_facet wall = moved.contact ? moved.contact->facet : Half_facet::none;
   Float_point<D> mapped;
-  if (!snapshot.frame().map(t, mapped)) return {};
+  if (!snapshot.frame().map(t, mapped)) return Relinked::open;
   detail::Certain_line<D> to(snapshot.frame(), t, mapped);
   to.lead_to(q, is_reversed);
   const Chain word = is_reversed ? reversed(snapshot, before) : before;
@@ -92,17 +96,16 @@ std::pair<Relinked, Chain> relink(const Snapshot<D>& snapshot, const Moved_end<D
     detail::append_from_behind<D>(corners_of(snapshot, {back.data(), back.size()}), its_corners);
   else
     its_corners = corners_of(snapshot, {word.data(), word.size()});
-  Chain chain;
   std::vector<Facet_corners<D>> corners;
   const Relinked answer = detail::relink_at_ridges<D>(
       snapshot,
-      {p, q, to, is_reversed, has_inner_end, moved.crossed, {word.data(), word.size()}, its_corners}, scratch,
-      chain, corners);
+      {p, q, to, is_reversed, has_inner_end, moved.crossed, wall, {word.data(), word.size()}, its_corners},
+      scratch, chain, corners);
   if (answer == Relinked::free && !is_from_behind) {
     EXPECT_TRUE(are_same(corners, corners_of(snapshot, {chain.data(), chain.size()})));
   }
   if (is_reversed) chain = reversed(snapshot, chain);
-  return {answer, std::move(chain)};
+  return answer;
 }
 
 /// The facets of one chain that are not in another.
@@ -136,21 +139,26 @@ class Relink_trial {
   std::optional<Chain> try_to_relink(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
     const Chain word = word_of<D>(w_.snapshot, moved.crossed, before);
     ++seen_.moves;
-    const auto [answer, found] =
-        relink<D>(w_.snapshot, moved, q, before, seen_.moves % 2 == 0, seen_.moves % 4 < 2, scratch_);
+    Chain chain;
+    const Relinked answer =
+        relink<D>(w_.snapshot, moved, q, before, seen_.moves % 2 == 0, seen_.moves % 4 < 2, scratch_, chain);
     if (answer == Relinked::blocked) {
       ++seen_.blocked;
       judge_blocked(moved, q, before);
     }
     if (answer != Relinked::free) return {};
-    const std::optional<Chain> chain = found;
-    if (*chain == word) {
-      if (++seen_.in_place % judged_in_place == 0) judge(moved, q, before, *chain);
+    if (moved.contact) {
+      ++seen_.stopped;
+      judge_stopped(moved, q, before);
+      return {};
+    }
+    if (chain == word) {
+      if (++seen_.in_place % judged_in_place == 0) judge(moved, q, before, chain);
       return chain;
     }
     ++seen_.relinked;
-    count(moved, word, *chain);
-    judge(moved, q, before, *chain);
+    count(moved, word, chain);
+    judge(moved, q, before, chain);
     return chain;
   }
 
@@ -199,14 +207,38 @@ class Relink_trial {
       seen_.note(seen_.unequal, name + "the exact sweep finds another chain");
   }
 
+  /// An edge that is free until its end is stopped at a wall.
+  void judge_stopped(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
+    Edge_counts counts;
+    if (sweep_triangle<D>(w_.snapshot, moved.path(), q, before, counts, Edge_certificates{false, false})
+            .contact)
+      seen_.note(seen_.not_free, w_.world.name + ": the exact sweep meets a wall before the end is stopped");
+  }
+
   void judge_blocked(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
     const Vertex_path<D> path = moved.path();
     Edge_counts counts;
     const Sweep_result<D> swept =
         sweep_triangle<D>(w_.snapshot, path, q, before, counts, Edge_certificates{false, false});
     if (!swept.contact) return seen_.note(seen_.not_blocked, w_.world.name + ": the exact sweep is free");
-    if (seen_.blocked % judged_in_place != 0) return;
-    const auto motion = motion_of(w_.world.soup, w_.snapshot, path, q, before);
+    if (seen_.blocked % judged_in_place == 0) judge_by_oracle(moved, q, before, swept);
+    compare_contacts(moved, q, *swept.contact);
+  }
+
+  void compare_contacts(const Moved_end<D>& moved, const Particle<D>& q, const Contact<D>& by_events) {
+    // From the border of a cell, the edge may meet other walls at the same time.
+    if (q.dimension != D) return;
+    ++seen_.located;
+    const Contact<D> contact = detail::contact_at_ridge<D>(
+        w_.snapshot, {moved.from.position, moved.to.position, q.position}, scratch_);
+    if (is_before(contact, by_events) || is_before(by_events, contact) || contact.cell != by_events.cell ||
+        contact.corner != by_events.corner)
+      seen_.note(seen_.wrong, w_.world.name + ": the exact sweep finds another contact");
+  }
+
+  void judge_by_oracle(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before,
+                       const Sweep_result<D>& swept) {
+    const auto motion = motion_of(w_.world.soup, w_.snapshot, moved.path(), q, before);
     const Sweep_fault fault = fault_of<D>(oracle_, motion, oracle_.judge(motion), w_.snapshot, swept);
     if (fault != Sweep_fault::none)
       seen_.note(seen_.wrong, w_.world.name + ": blocked, " + fault_names[static_cast<std::size_t>(fault)]);
@@ -224,8 +256,9 @@ void move_edges(Edge_world<D>& w, int edges, Relinks_seen& seen) {
   Edge_counts counts;
   for_each_sweep(
       w, edges, counts.walk, [&](const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
-        if (moved.contact) return std::optional<Chain>();
-        if (auto chain = trial.try_to_relink(moved, q, before)) return chain;
+        if (moved.contact && moved.contact->kind != Contact_kind::facet) return std::optional<Chain>();
+        auto chain = trial.try_to_relink(moved, q, before);
+        if (chain || moved.contact) return chain;
         const Sweep_result<D> swept = sweep_triangle<D>(w.snapshot, moved.path(), q, before, counts);
         return swept.contact ? std::nullopt : std::optional<Chain>(swept.chain);
       });
@@ -235,9 +268,9 @@ void report(const std::string& name, const Relinks_seen& seen) {
   std::cout << name << ": " << seen.moves << " moves, in place " << seen.in_place << ", relinked "
             << seen.relinked << "; facets crossed by p exchanged " << seen.through_p << ", long runs "
             << seen.long_runs << ", several ridges " << seen.several_ridges << ", from the plane of a facet "
-            << seen.from_plane << ", blocked " << seen.blocked << ", written otherwise " << seen.other_chains
-            << "; wrong " << seen.wrong << ", not free " << seen.not_free << ", not blocked "
-            << seen.not_blocked << ", unequal " << seen.unequal << "\n";
+            << seen.from_plane << ", blocked " << seen.blocked << ", free until p is stopped " << seen.stopped
+            << ", written otherwise " << seen.other_chains << "; wrong " << seen.wrong << ", not free "
+            << seen.not_free << ", not blocked " << seen.not_blocked << ", unequal " << seen.unequal << "\n";
 }
 
 /// Worlds that no other test has.
@@ -261,6 +294,8 @@ void test_worlds() {
     EXPECT_GT(seen.long_runs, 100);
     EXPECT_GT(seen.several_ridges, 20);
     EXPECT_GT(seen.blocked, 50);
+    EXPECT_GT(seen.stopped, 50);
+    EXPECT_GT(seen.located, 50);
     EXPECT_EQ(seen.from_plane > 0, !generic);
   }
 }

@@ -5,6 +5,8 @@
 #define CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/contact.h>
+#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/certain_line.h>
 
 #include <cstddef>
@@ -22,6 +24,7 @@ struct Moving_edge {
   bool is_reversed;                           ///< the vertex is the second end, and the lines lead backwards
   bool has_inner_end;                         ///< one of its ends lies in the interior of its cell in the end
   std::span<const Half_facet> crossed;        ///< by the vertex
+  Half_facet wall;                            ///< in whose interior the vertex is stopped, or none
   std::span<const Half_facet> chain;          ///< from the first end of the edge to the second
   std::span<const Facet_corners<D>> corners;  ///< of the chain
 };
@@ -44,19 +47,29 @@ struct Relink_scratch {
   std::vector<Passed_facet> word, exchanged;
   std::vector<Facet_corners<D>> corners;
   std::vector<Event> events;
+  /// Of a blocked edge: the ridge at which it meets a wall, and the first wall round it seen from the vertex.
+  std::uint32_t u = 0, v = 0;
+  Half_facet wall = Half_facet::none;
 };
 
 /// Follows an edge in general position from ridge to ridge, all signs and times being certain in lanes or in
 /// doubles.
-/// free: the edge is free on its way, and `chain` is set to the chain at the end, `its_corners` to those of
-/// its facets. blocked: the edge meets a wall at a ridge before the vertex is at its target. open: it is not
+/// free: the edge is free until the vertex is at its target or stopped, and `chain` is set to the chain then,
+/// `its_corners` to those of its facets. blocked: the edge meets a wall at a ridge before. open: it is not
 /// certain.
-/// \pre the chain is valid before the move, and no wall is on the way of the vertex
+/// \pre the chain is valid before the move
 /// Cost: some 30 operations on lanes a facet of the chain, 100 operations a ridge that the edge meets, and
 /// reading the corners of the facets round those.
 template <int D>
 Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
                           Chain& chain, std::vector<Facet_corners<D>>& its_corners);
+
+/// The first contact of an edge that relink_at_ridges() found blocked, with the normal of the wall.
+/// \pre the other end lies in the interior of its cell; else there may be others at the same time
+/// Cost: some 3,000 instructions
+template <int D>
+Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
+                            const Relink_scratch<D>& blocked);
 
 }  // namespace cellwalk::detail
 
