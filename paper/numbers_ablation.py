@@ -6,8 +6,7 @@ from collect_numbers import count, decimal, escaped, has, percent, read, span
 SCENES = {"catheter": "catheter", "fine_catheter": "fine catheter", "hexahedra": "hexahedra"}
 CATHETERS = ("catheter", "fine_catheter")
 CHOICES = {"all": "all certificates", "no_region_of_the_body": "no region of the body", "no_regions_of_stars": "no regions of stars",
-           "no_clusters": "no clusters", "no_planes": "no planes", "no_same_chain": "no same chain", "no_flood": "no flood",
-           "no_certificate_of_edges": "none of edges", "no_planes_nor_certificate_of_edges": "none of edges, no planes"}
+           "no_clusters": "no clusters", "no_chains_in_place": "no chains in place", "no_certificate_of_edges": "none of edges"}
 WAYS = {"planes": "planes, then signs", "planes_no_own_cell_first": "no test of the own cell first", "planes_no_forecast": "no forecast",
         "signs": "signs, exit rule", "signs_no_forecast": "no forecast", "simplex": "signs, predictive simplex",
         "simplex_no_forecast": "no forecast", "lazy_signs": "lazy signs, exit rule", "rational_signs": "rational signs, exit rule"}
@@ -52,17 +51,16 @@ def certificates(report, folder):
         return span([per_move((s, *one), column) / max(per_move((s, *other), column), 1e-9) for s in scenes], 3)
     report.define("AblationRegions", ratio_of("edges", ("0", "all"), ("1", "all")))
     report.define("AblationEdges", ratio_of("signs", ("0", "no_certificate_of_edges"), ("0", "all")))
-    for name, choice in (("Chain", "no_same_chain"), ("Flood", "no_flood")):
-        report.define(f"Ablation{name}Catheters", ratio_of("signs", ("0", choice), ("0", "all"), CATHETERS))
-        report.define(f"Ablation{name}Hexahedra", ratio_of("signs", ("0", choice), ("0", "all"), ("hexahedra",)))
+    for name, scenes in (("Catheters", CATHETERS), ("Hexahedra", ("hexahedra",))):
+        report.define(f"AblationPlace{name}", ratio_of("signs", ("0", "no_chains_in_place"), ("0", "all"), scenes))
     whole = [r for (_, _, choice), r in rows.items() if choice == "all" and int(r["edges"])]
-    report.define("AblationFloodShare", percent(max((int(r["clear"]) / int(r["edges"]) for r in whole), default=0)))
+    report.define("AblationRelinked", percent(max((int(r["relinked"]) / int(r["edges"]) for r in whole), default=0)))
     sentence = "Times were not taken in this run."
     if times:
         def ratio(choice, regions="0"):
             values = [times[s, regions, choice] / times[s, regions, "all"] for s in SCENES]
             return f"{min(values):.1f} to {max(values):.1f}"
-        sentence = (f"Without regions, moves take {ratio('no_same_chain')} times as long if same chain is missing, and "
+        sentence = (f"Without regions, moves take {ratio('no_chains_in_place')} times as long if chains are not confirmed in place, and "
                     f"{ratio('no_certificate_of_edges')} times if each edge is swept by its events.")
     report.define("AblationTimes", sentence)
 

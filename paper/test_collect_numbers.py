@@ -107,10 +107,10 @@ def scaling(folder, ghosts=10):
 
 def ablation(folder, swept=9):
     scenes, worlds = ("catheter", "fine_catheter", "hexahedra"), (("boxes", 0.0625), ("boxes", 0.25), ("cubes", 1))
-    choices = ("all", "no_same_chain", "no_flood", "no_certificate_of_edges")
-    signs = {"all": 10, "no_same_chain": 50, "no_flood": 30, "no_certificate_of_edges": 200}
+    choices = ("all", "no_chains_in_place", "no_certificate_of_edges")
+    signs = {"all": 10, "no_chains_in_place": 50, "no_certificate_of_edges": 200}
     keys = [{"scene": s, "regions": g, "certificates": c} for s in scenes for g in (1, 0) for c in choices]
-    write(folder, "certificates.csv", [{**k, "moves": 1000, "held": 20, "different": 0, "edges": 300 if k["regions"] else 2400, "event_sweeps": 2, "clear": 6,
+    write(folder, "certificates.csv", [{**k, "moves": 1000, "held": 20, "different": 0, "edges": 300 if k["regions"] else 2400, "event_sweeps": 2, "relinked": 6,
                                         "signs": signs.get(k["certificates"], 10)} for k in keys])
     ways = ("planes", "planes_no_own_cell_first", "planes_no_forecast", "signs", "signs_no_forecast", "simplex", "simplex_no_forecast",
             "lazy_signs", "rational_signs")
@@ -180,8 +180,8 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(("20.0", "40.0"), (macros["DegenerateDoubleLeast"], macros["DegenerateDoubleMost"]))
         self.assertEqual(("200", "20.0", "80.0"), tuple(macros[f"Degenerate{n}"] for n in ("Touches", "ToWallsPass", "ToWallsStop")))
         self.assertEqual("0", macros["DegeneratePlanarDouble"])
-        self.assertEqual(("8", "5", "3", "20", "2.0"),
-                         tuple(macros[f"Ablation{n}"] for n in ("Regions", "ChainCatheters", "FloodHexahedra", "Edges", "FloodShare")))
+        self.assertEqual(("8", "5", "5", "20", "2.0"),
+                         tuple(macros[f"Ablation{n}"] for n in ("Regions", "PlaceCatheters", "PlaceHexahedra", "Edges", "Relinked")))
         self.assertEqual(("30", "5.0", "0.05", "none there", ""),
                          tuple(macros[f"Flight{n}"] for n in ("PlaneSigns", "Forecast", "ForecastLength", "ForecastOthers", "Rational")))
         self.assertEqual(("5.0", "2.0", "7.0"), tuple(macros[f"Order{n}"] for n in ("SmallMore", "LargeFewer", "LargeDiffer")))
@@ -235,7 +235,7 @@ class CollectNumbers(unittest.TestCase):
         self.assertIn(r"3D & \texttt{double} & 1\,000 & 10 & 1.0 & 1 & 2 & 7 \\", (out / "table_walks.tex").read_text(encoding="utf-8"))
         self.assertIn(r"\texttt{0123456789ab} & GNU 12 & some\_processor", (out / "table_runs.tex").read_text(encoding="utf-8"))
         self.assertIn(r"coplanar walls & 0.0 & 50.0 & 40.0 & 50.0 \\", (out / "table_degenerate.tex").read_text(encoding="utf-8"))
-        self.assertIn(r"no regions; no same chain & 2 & 0.05 &", (out / "table_certificates.tex").read_text(encoding="utf-8"))
+        self.assertIn(r"no regions; no chains in place & 2 & 0.05 &", (out / "table_certificates.tex").read_text(encoding="utf-8"))
         self.assertIn(r"hexahedra turned & polyhedra & 100 & 90 & 550 & 1\,375 & 11 &", (out / "table_forms.tex").read_text(encoding="utf-8"))
         self.assertIn(r"rigid ring, cells 1/2 & 5\,000 & 4.0 & 300 & 200 / 400 & Bullet, group & 100 & 100 / 200 & CGAL, body & 160 &",
                       (out / "table_application.tex").read_text(encoding="utf-8"))

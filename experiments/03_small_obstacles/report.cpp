@@ -94,17 +94,16 @@ void write_sweeps(const Rows& rows, const std::filesystem::path& folder) {
 }
 
 void write_costs(const Rows& rows, const std::filesystem::path& folder) {
-  io::Csv_writer out(
-      folder / "costs.csv",
-      {"dimension", "edge_over_step", "size_over_step", "sweep", "sweeps", "edges", "same_cell", "same_chain",
-       "floods", "flooded_cells", "clear", "event_sweeps", "walks", "crossings", "signs", "exact_signs"});
+  io::Csv_writer out(folder / "costs.csv", {"dimension", "edge_over_step", "size_over_step", "sweep",
+                                            "sweeps", "edges", "same_cell", "same_chain", "event_sweeps",
+                                            "walks", "crossings", "signs", "exact_signs"});
   for (std::size_t i = 0; i < rows.sweeps.size(); ++i)
     for (std::size_t k = 0; k < sweep_names.size(); ++k) {
       const Sweep_setting& s = rows.sweep_settings[i];
       const Edge_counts& c = rows.sweeps[i].cost[k].counts;
       out.row(s.dimension, s.edge_over_step, s.size_over_step, sweep_names[k], rows.sweeps[i].sweeps, c.edges,
-              c.same_cell, c.same_chain, c.floods, c.flooded_cells, c.clear, c.event_sweeps, c.walk.walks,
-              c.walk.crossings, c.walk.predicates.orientations, c.walk.predicates.fallbacks);
+              c.same_cell, c.same_chain, c.event_sweeps, c.walk.walks, c.walk.crossings,
+              c.walk.predicates.orientations, c.walk.predicates.fallbacks);
     }
   out.commit();
 }

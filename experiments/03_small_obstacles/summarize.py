@@ -43,15 +43,15 @@ def sweep_table(sweeps):
 
 def cost_table(costs, timings):
     times = {(key(r), r["sweep"]): r["ns_per_sweep"] for r in timings}
-    header = ["dimension", "edge / step", "size / step", "sweep", "by certificates, %", "cells flooded", "events, %", "signs",
+    header = ["dimension", "edge / step", "size / step", "sweep", "by certificates, %", "events, %", "signs",
               "exact signs", "ns"]
     lines = []
     for r in costs:
         n, edges = int(r["sweeps"]), max(1, int(r["edges"]))
-        certified = sum(int(r[c]) for c in ("same_cell", "same_chain", "clear"))
+        certified = sum(int(r[c]) for c in ("same_cell", "same_chain"))
         time = times.get((key(r), r["sweep"]))
         lines.append([r["dimension"], r["edge_over_step"], r["size_over_step"], r["sweep"].replace("_", " "),
-                      f"{100 * certified / edges:.3g}", f'{int(r["flooded_cells"]) / n:.3g}',
+                      f"{100 * certified / edges:.3g}",
                       f'{100 * int(r["event_sweeps"]) / n:.3g}', f'{int(r["signs"]) / n:.3g}',
                       f'{int(r["exact_signs"]) / n:.2g}', f"{float(time):,.0f}" if time else ""])
     return table(header, lines)

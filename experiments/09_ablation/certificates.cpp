@@ -93,23 +93,19 @@ double run_round(Motion_by_choice motion, const Body_trace& trace, Body_counts& 
 
 std::vector<Chosen> choices() {
   constexpr detail::Body_certificates all;
-  detail::Body_certificates no_body_region, no_stars, no_clusters, no_planes;
+  detail::Body_certificates no_body_region, no_stars, no_clusters, not_in_place;
   no_body_region.body_region = false;
   no_stars.star_regions = false;
   no_clusters.clusters = false;
-  no_planes.chains_in_place = false;
-  constexpr Edge_certificates edges, none{false, false};
-  std::vector<Chosen> result{{"all", true, all, edges},
-                             {"no_region_of_the_body", true, no_body_region, edges},
-                             {"no_regions_of_stars", true, no_stars, edges},
-                             {"no_clusters", true, no_clusters, edges}};
+  not_in_place.chains_in_place = false;
+  std::vector<Chosen> result{{"all", true, all, true},
+                             {"no_region_of_the_body", true, no_body_region, true},
+                             {"no_regions_of_stars", true, no_stars, true},
+                             {"no_clusters", true, no_clusters, true}};
   for (const bool regions : {true, false}) {
-    if (!regions) result.push_back({"all", false, all, edges});
-    result.insert(result.end(), {{"no_planes", regions, no_planes, edges},
-                                 {"no_same_chain", regions, all, {false, true}},
-                                 {"no_flood", regions, all, {true, false}},
-                                 {"no_certificate_of_edges", regions, all, none},
-                                 {"no_planes_nor_certificate_of_edges", regions, no_planes, none}});
+    if (!regions) result.push_back({"all", false, all, true});
+    result.insert(result.end(), {{"no_chains_in_place", regions, not_in_place, true},
+                                 {"no_certificate_of_edges", regions, all, false}});
   }
   return result;
 }

@@ -17,7 +17,7 @@ struct Chosen {
   std::string name;  ///< "all", or "no_..."
   bool regions;      ///< whether there are regions free of walls at all
   detail::Body_certificates of_body;
-  Edge_certificates of_edges;
+  bool of_edges;
 };
 
 /// All certificates, then without one of them, or some; then the same without regions.

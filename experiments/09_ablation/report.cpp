@@ -60,10 +60,10 @@ void write_certificates(const std::vector<Scene_entry>& scenes, int rounds, cons
       rounds > 0 ? Trials::timed : Trials::on_threads));
   io::Csv_writer out(
       folder / "certificates.csv",
-      {"scene",      "regions",         "certificates", "moves",        "held",          "different",
-       "in_region",  "region_searches", "region_cells", "region_walls", "edges",         "same_cell",
-       "same_chain", "clear",           "event_sweeps", "floods",       "flooded_cells", "walks",
-       "crossings",  "plane_blocks",    "side_tests",   "along_tests",  "signs",         "exact_signs"});
+      {"scene",      "regions",         "certificates", "moves",        "held",      "different",
+       "in_region",  "region_searches", "region_cells", "region_walls", "edges",     "same_cell",
+       "same_chain", "relinked",        "event_sweeps", "walks",        "crossings", "plane_blocks",
+       "side_tests", "along_tests",     "signs",        "exact_signs"});
   for (const Certificate_row& r : rows) {
     refuse(r.different, r.scene + ", " + r.chosen);
     const Body_counts& c = r.counts;
@@ -71,8 +71,8 @@ void write_certificates(const std::vector<Scene_entry>& scenes, int rounds, cons
     const Walk_counts& w = e.walk;
     out.row(r.scene, r.regions ? 1 : 0, r.chosen, c.moves, c.held, r.different, c.in_region,
             c.regions + c.no_region, c.region_cells, c.region_walls, e.edges, e.same_cell, e.same_chain,
-            e.clear, e.event_sweeps, e.floods, e.flooded_cells, w.walks, w.crossings, w.plane_blocks,
-            w.side_tests, w.along_tests, w.predicates.orientations, w.predicates.fallbacks);
+            e.relinked, e.event_sweeps, w.walks, w.crossings, w.plane_blocks, w.side_tests, w.along_tests,
+            w.predicates.orientations, w.predicates.fallbacks);
   }
   out.commit();
   if (rounds == 0) return;

@@ -75,16 +75,9 @@ void fly(benchmark::State& state, const Body_options& options) {
   state.counters["edges"] = edges / n;
   state.counters["same_cell"] = share(counts.edges.same_cell, edges);
   state.counters["same_chain"] = share(counts.edges.same_chain, edges);
-  state.counters["clear"] = share(counts.edges.clear, edges);
+  state.counters["relinked"] = share(counts.edges.relinked, edges);
   state.counters["events"] = share(counts.edges.event_sweeps, edges);
   state.counters["contacts"] = share(counts.contacts, n);
-}
-
-Body_options without(bool Edge_certificates::*certificate) {
-  Body_options options;
-  options.clearance = false;
-  options.sweep.certificates.*certificate = false;
-  return options;
 }
 
 void all(benchmark::State& s) { fly(s, {}); }
@@ -93,12 +86,10 @@ void no_clearance(benchmark::State& s) {
   options.clearance = false;
   fly(s, options);
 }
-void nor_same_chain(benchmark::State& s) { fly(s, without(&Edge_certificates::same_chain)); }
-void nor_flood(benchmark::State& s) { fly(s, without(&Edge_certificates::flood)); }
 void no_certificate(benchmark::State& s) {
   Body_options options;
   options.clearance = false;
-  options.sweep.certificates = {false, false};
+  options.sweep.certificates = false;
   fly(s, options);
 }
 void three_segments(benchmark::State& s) {
@@ -110,8 +101,6 @@ void three_segments(benchmark::State& s) {
 
 BENCHMARK(all)->Unit(benchmark::kMicrosecond);
 BENCHMARK(no_clearance)->Unit(benchmark::kMicrosecond);
-BENCHMARK(nor_same_chain)->Unit(benchmark::kMicrosecond);
-BENCHMARK(nor_flood)->Unit(benchmark::kMicrosecond);
 BENCHMARK(no_certificate)->Unit(benchmark::kMicrosecond);
 BENCHMARK(three_segments)->Unit(benchmark::kMicrosecond);
 

@@ -99,7 +99,6 @@ void check_edges(benchmark::State& state, Check check) {
       benchmark::Counter(n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["same_cell"] = static_cast<double>(counts.same_cell) / n;
   state.counters["same_chain"] = static_cast<double>(counts.same_chain) / n;
-  state.counters["clear"] = static_cast<double>(counts.clear) / n;
   state.counters["changed"] = static_cast<double>(counts.changed) / n;
   state.counters["facets"] = static_cast<double>(counts.chain_facets) / n;
 }

@@ -4,7 +4,7 @@
 #define CELLWALK_EXPERIMENTS_FIGURES_NUMBERS_H
 
 #include <cellwalk/edge/contact.h>
-#include <cellwalk/internal/edge/flood.h>
+#include <cellwalk/internal/edge/may_intersect.h>
 
 #include <nlohmann/json.hpp>
 

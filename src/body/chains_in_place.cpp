@@ -19,15 +19,6 @@ std::size_t end_of(std::span<const Facet_corners<D>> corners, std::size_t facets
   return end;
 }
 
-/// How many facets end before some of their corners.
-template <int D>
-std::size_t facets_before(std::span<const Facet_corners<D>> facets, const Facet_corners<D>* corners) {
-  std::size_t count = 0;
-  for (const Facet_corners<D>* before = facets.data(); before != corners; ++before)
-    count += !before->continues;
-  return count;
-}
-
 }  // namespace
 
 /// The facets crossed, from their other sides.
@@ -136,23 +127,14 @@ template <int D>
 bool Chains_in_place<D>::confirms(const Corner& corner) {
   const Particle<D>& q = body_.particles[corner.other];
   const std::size_t undone = words_.undone(corner), size = words_.size(corner, undone);
-  not_passed_ = Half_facet::none;
   if (size == 0) {
     // With a corner inside of a cell the triangle lies in no plane of a facet, along which walls may begin.
     if (!has_inner_end_ && q.dimension != D) return false;
     ++same_cell_;
   } else {
     line_.lead_to(q.position, corner.is_reversed);
-    const auto kept = words_.corners_kept(corner, undone);
-    if (const Facet_corners<D>* failed = not_passed(kept)) {
-      not_passed_ = words_.kept_facet(corner, undone, facets_before(kept, failed));
+    if (!passes(words_.corners_kept(corner, undone)) || !passes(words_.corners_added(corner, undone)))
       return false;
-    }
-    const auto added = words_.corners_added(corner, undone);
-    if (const Facet_corners<D>* failed = not_passed(added)) {
-      not_passed_ = words_.added_facet(corner, undone, facets_before(added, failed));
-      return false;
-    }
     if (is_blocked_ && !is_before_wall(corner, undone)) return false;
     chain_facets_ += size;
   }
@@ -160,43 +142,9 @@ bool Chains_in_place<D>::confirms(const Corner& corner) {
   return true;
 }
 
-/// Maps the ends of the edge after the move, the first and the second.
 template <int D>
-bool Chains_in_place<D>::map_ends(const Corner& corner, std::array<Spread_point<D>, 2>& ends) const {
-  Float_point<D> mapped;
-  if (!body_.snapshot->frame().map(body_.particles[corner.other].position, mapped)) return false;
-  ends = {line_.start(), spread<D>(mapped)};
-  if (corner.is_reversed) std::swap(ends[0], ends[1]);
-  return true;
-}
-
-template <int D>
-bool Chains_in_place<D>::is_blocked(const Corner& corner) {
-  const Snapshot<D>& snapshot = *body_.snapshot;
-  std::array<Spread_point<D>, 2> ends;
-  if (not_passed_ == Half_facet::none || !map_ends(corner, ends)) return false;
-  std::vector<Facet_corners<D>>& corners = body_.scratch.corners;
-  const Cell cell = snapshot.cell_of(not_passed_);
-  for (std::size_t b = 0; b < snapshot.block_count(cell); ++b) {
-    const Plane_block<D>& planes = snapshot.blocks(cell)[b];
-    unsigned walls = snapshot.impassable_facets(cell, b);
-    if (walls == 0) continue;
-    walls &= lane_mask((evaluate<D>(planes, ends[0]) < -plane_error) &
-                       (evaluate<D>(planes, ends[1]) > plane_error));
-    for (; walls != 0; walls &= walls - 1) {
-      corners.clear();
-      append_corners(snapshot,
-                     Snapshot<D>::half_facet(cell, 4 * b + static_cast<std::size_t>(std::countr_zero(walls))),
-                     corners);
-      if (!not_passed(corners)) return true;
-    }
-  }
-  return false;
-}
-
-template <int D>
-Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Half_facet wall,
-                                    Moved_chain<D>& moved) {
+Relink_answer Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& from, Half_facet wall,
+                                         Moved_chain<D>& moved) {
   const Particle<D>& q = body_.particles[corner.other];
   line_.lead_to(q.position, corner.is_reversed);
   const Chain& chain = body_.chains[corner.edge];
@@ -209,12 +157,12 @@ Relinked Chains_in_place<D>::relink(const Corner& corner, const Particle<D>& fro
                             wall,
                             {chain.data(), chain.size()},
                             body_.corners_of(corner.edge)};
-  const Relinked answer =
+  const Relink_answer answer =
       relink_at_ridges<D>(*body_.snapshot, edge, body_.scratch.relink, moved.chain, moved.corners);
-  if (answer == Relinked::free) {
+  if (answer == Relink_answer::free) {
     moved.is_relinked = true;
     ++edges_;
-    ++changed_;
+    ++relinked_;
   }
   return answer;
 }
@@ -264,14 +212,10 @@ bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>
     moved.is_in_place = in_place.confirms(corners[i]);
     if (moved.is_in_place) continue;
     is_changed = true;
-    const bool passes_wall = in_place.is_blocked(corners[i]);
-    const Relinked relinked =
-        passes_wall ? Relinked::blocked : in_place.relink(corners[i], from, Half_facet::none, moved);
-    if (relinked == Relinked::free) continue;
+    const Relink_answer relinked = in_place.relink(corners[i], from, Half_facet::none, moved);
+    if (relinked == Relink_answer::free) continue;
     settled.free_edges = i;
-    settled.next_edge = passes_wall                     ? Settled_move<D>::passes_wall
-                        : relinked == Relinked::blocked ? Settled_move<D>::meets_wall
-                                                        : Settled_move<D>::changes;
+    settled.next_edge = relinked;
     in_place.add_to(counts.edges);
     return false;
   }

@@ -6,7 +6,7 @@
 
 #include <cellwalk/internal/edge/certain_line.h>
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -43,13 +43,6 @@ class Edge_words {
   }
   /// The facets of the word in the order of the chain, in the scratch of the body.
   std::span<const Half_facet> facets(const Corner& corner, std::size_t undone);
-  /// One of those facets kept, or added, by its number among them.
-  Half_facet kept_facet(const Corner& corner, std::size_t undone, std::size_t number) const {
-    return body_.chains[corner.edge][(corner.is_reversed ? 0 : undone) + number];
-  }
-  Half_facet added_facet(const Corner& corner, std::size_t undone, std::size_t number) {
-    return corner.is_reversed ? crossed_[undone + number] : behind()[crossed_.size() - 1 - number];
-  }
   /// The first facet seen from the vertex: as it is seen from there or, of reversed edges, from behind.
   /// \pre the word is not empty
   Half_facet first_facet(const Corner& corner, std::size_t undone);
@@ -92,41 +85,33 @@ class Chains_in_place {
   /// \pre it is not stale
   /// Cost: some 40 operations on lanes a facet.
   bool confirms(const Corner& corner);
-  /// True proves that the edge passes the interior of a wall when the vertex is at its target.
-  /// \pre !confirms(corner), called just before, and the vertex is not blocked
-  /// Cost: looking at one cell.
-  bool is_blocked(const Corner& corner);
   /// Follows the edge round the ridges that it meets on the way, see relink_at_ridges().
   /// \param from the vertex before the move
   /// \param wall in whose interior the vertex is stopped, or none
   /// \param moved the chain of a free edge; it is left undefined otherwise
   /// \pre the edge is not stale
-  Relinked relink(const Corner& corner, const Particle<D>& from, Half_facet wall, Moved_chain<D>& moved);
+  Relink_answer relink(const Corner& corner, const Particle<D>& from, Half_facet wall, Moved_chain<D>& moved);
   /// Counts what was proved; that of a move that is decided otherwise is counted there.
   void add_to(Edge_counts& counts) const {
     counts.edges += edges_;
     counts.same_cell += same_cell_;
-    counts.same_chain += edges_ - same_cell_ - changed_;
+    counts.same_chain += edges_ - same_cell_ - relinked_;
     counts.chain_facets += chain_facets_;
-    counts.changed += changed_;
+    counts.relinked += relinked_;
+    counts.changed += relinked_;
   }
 
  private:
-  /// The first of some corners that is not certainly passed; null if all are.
-  const Facet_corners<D>* not_passed(std::span<const Facet_corners<D>> facets) const {
-    for (const Facet_corners<D>& corners : facets)
-      if (!line_.passes(corners)) return &corners;
-    return nullptr;
+  bool passes(std::span<const Facet_corners<D>> facets) const {
+    return std::ranges::all_of(facets, [&](const auto& corners) { return line_.passes(corners); });
   }
-  bool map_ends(const Corner& corner, std::array<Spread_point<D>, 2>& ends) const;
   bool is_before_wall(const Corner& corner, std::size_t undone);
 
   Body_state<D>& body_;
   Edge_words<D> words_;
   bool has_inner_end_, is_blocked_;
   Certain_line<D> line_;
-  Half_facet not_passed_ = Half_facet::none;  ///< a facet that was not, of the edge last looked at
-  std::uint64_t edges_ = 0, same_cell_ = 0, chain_facets_ = 0, changed_ = 0;
+  std::uint64_t edges_ = 0, same_cell_ = 0, chain_facets_ = 0, relinked_ = 0;
 };
 
 extern template class Edge_words<2>;
@@ -138,8 +123,7 @@ extern template class Chains_in_place<3>;
 /// and nothing is by what certainly passes the interiors of facets.
 template <int D>
 bool may_be_in_place(const Body_state<D>& body, const Sweep_options& sweep, bool is_apart) {
-  return body.certificates.chains_in_place && sweep.certificates.same_chain &&
-         (sweep.touch == Touch::pass || is_apart);
+  return body.certificates.chains_in_place && sweep.certificates && (sweep.touch == Touch::pass || is_apart);
 }
 
 /// What was found out of a move that is not free by planes and edges in place alone.
@@ -148,9 +132,8 @@ struct Settled_move {
   /// The vertex at its target, if planes alone prove its way free: the facets crossed are in the scratch.
   std::optional<Particle<D>> to;
   std::size_t free_edges = 0;  ///< so many, the first ones, are free, and their chains are in the scratch
-  /// The next one passes a wall at the target, or meets one on the way, or it is neither in place nor
-  /// relinked, or nothing is known.
-  enum { passes_wall, meets_wall, changes, unknown } next_edge = unknown;
+  Relink_answer next_edge =
+      Relink_answer::open;  ///< of the next one, if planes prove the way of the vertex free
 };
 
 /// Moves a vertex if planes alone prove it free, and all its edges in place: so are most moves. Faces are

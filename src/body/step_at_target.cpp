@@ -208,20 +208,15 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
     moved.is_stale = is_inside && !body_.region.is_outside(corners[i].other);
     if (moved.is_stale) continue;
     body_.refresh_edge(corners[i].edge, counts_);
-    const auto known = i == settled.free_edges ? settled.next_edge : Settled_move<D>::unknown;
-    // What an edge meets on the way counts only where triangles are swept.
-    bool is_blocked =
-        known == Settled_move<D>::passes_wall || (known == Settled_move<D>::meets_wall && sweeps());
-    if (known == Settled_move<D>::unknown && may_confirm) {
+    const bool is_settled = settled.to && i == settled.free_edges;
+    Relink_answer relinked = is_settled ? settled.next_edge : Relink_answer::open;
+    if (may_confirm && !is_settled) {
       moved.is_in_place = in_place.confirms(corners[i]);
       if (moved.is_in_place) continue;
-      is_blocked = in_place.is_blocked(corners[i]);
-      if (!is_blocked) {
-        const Relinked relinked = in_place.relink(corners[i], path.from, Half_facet::none, moved);
-        if (relinked == Relinked::free) continue;
-        is_blocked = relinked == Relinked::blocked && sweeps();
-      }
+      relinked = in_place.relink(corners[i], path.from, Half_facet::none, moved);
+      if (relinked == Relink_answer::free) continue;
     }
+    const bool is_blocked = relinked == Relink_answer::blocked;
     if (meets_at_end(path, i, corners[i], is_blocked, moved, tried)) answer.edges |= std::uint64_t{1} << i;
   }
   in_place.add_to(counts_.edges);

@@ -70,15 +70,11 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
     moved.is_in_place = may_confirm && in_place.confirms(corner);
     std::optional<Contact<D>> met;
     if (may_relink && !moved.is_in_place) {
-      if (any && in_place.is_blocked(corner)) {
-        in_place.add_to(counts.edges);
-        return Contact<D>{};
-      }
-      const Relinked relinked = in_place.relink(corner, from, wall, moved);
-      moved.is_relinked = relinked == Relinked::free;
+      const Relink_answer relinked = in_place.relink(corner, from, wall, moved);
+      moved.is_relinked = relinked == Relink_answer::free;
       // What an edge meets on the way counts only where triangles are swept.
-      if (relinked == Relinked::blocked && body.particles[corner.other].dimension == D &&
-          (options.sweep != Sweep::three_segments || (!path.blocked && in_place.is_blocked(corner))))
+      if (relinked == Relink_answer::blocked && body.particles[corner.other].dimension == D &&
+          options.sweep != Sweep::three_segments)
         met = contact_at_ridge(snapshot, {from.position, target, body.particles[corner.other].position},
                                scratch.relink);
     }

@@ -15,10 +15,9 @@ struct Certificate_set {
   const char* name;
   bool clearance;
   detail::Body_certificates of_body;
-  Edge_certificates of_edges;
-  /// What is counted more often where they decide, or less often, than where there are none.
+  bool of_edges;
+  /// What is counted more often where they decide than where there are none.
   std::uint64_t (*counted)(const Body_counts&);
-  bool is_less_often = false;
 
   Body_options chosen(Body_options options) const {
     options.clearance = clearance;
@@ -32,10 +31,9 @@ struct Certificate_set {
 inline std::vector<Certificate_set> certificate_sets() {
   constexpr std::size_t any = 1, never = ~std::size_t{0};
   constexpr detail::Body_certificates no_others{false, false, false, false, never};
-  constexpr Edge_certificates none{false, false}, all{};
+  constexpr bool none = false, all = true;
   const auto in_region = [](const Body_counts& c) { return c.in_region; };
   const auto same_chain = [](const Body_counts& c) { return c.edges.same_chain; };
-  const auto event_sweeps = [](const Body_counts& c) { return c.edges.event_sweeps; };
   return {
       {"none", false, no_others, none, in_region},
       {"all", true, {}, all, in_region},
@@ -44,9 +42,8 @@ inline std::vector<Certificate_set> certificate_sets() {
       {"region of the body by clusters", true, {true, false, true, false, any, 0}, none, in_region},
       {"regions of stars", true, {false, true, false, false, any, 0}, none, in_region},
       {"regions of stars by clusters", true, {false, true, true, false, any, 0}, none, in_region},
-      {"chains in place", false, {false, false, false, true, never}, {true, false}, same_chain},
-      {"same chain", false, no_others, {true, false}, same_chain},
-      {"flood", false, no_others, {false, true}, event_sweeps, true},
+      {"chains in place", false, {false, false, false, true, never}, all, same_chain},
+      {"same chain", false, no_others, all, same_chain},
   };
 }
 

@@ -43,8 +43,7 @@ struct Rejected_seen {
     add("blocked vertices", by_vertex), add("by edges", by_edges), add("edges gone round", gone_round);
     add("by touch alone", only_touch), add("starts on walls", along_walls);
     add("in one cell", e.same_cell), add("of the same chain", e.same_chain);
-    add("floods", e.floods), add("clear", e.clear), add("pierced", e.pierced),
-        add("by events", e.event_sweeps);
+    add("relinked", e.relinked), add("by events", e.event_sweeps);
     return text;
   }
 };
@@ -262,8 +261,7 @@ void expect_rejections(Touch touch, bool is_coarse) {
   EXPECT_GT(edges.changed, 200u);
   EXPECT_GT(seen.with_faces, D == 3 ? 50 : -1);
   if (is_coarse) {
-    EXPECT_GT(edges.clear, 200u);
-    EXPECT_GT(edges.pierced, D == 3 ? 10u : 0u);
+    EXPECT_GT(edges.relinked, 200u);
     EXPECT_GT(seen.only_touch, 2000);
     EXPECT_GT(seen.along_walls, 1000);
     EXPECT_GT(edges.event_sweeps, 50u);

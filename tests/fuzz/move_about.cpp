@@ -116,7 +116,7 @@ class Mover {
     const std::uint8_t certificates = in.byte();
     Sweep_options options;
     // The bits that these have had in inputs found so far.
-    options.certificates = {certificates / 4 % 2 == 0, certificates / 8 % 2 == 0};
+    options.certificates = certificates / 4 % 2 == 0;
     judge_triangle(p, to, q, edge.chain, options.certificates);
     options.sweep = in.flag() ? Sweep::triangle : Sweep::three_segments;
     options.touch = in.flag() ? Touch::stop : Touch::pass;
@@ -133,7 +133,7 @@ class Mover {
 
   /// The complete sweep against the oracle of chains.
   void judge_triangle(const Particle<D>& from, const Point<D>& target, const Particle<D>& q,
-                      const Chain& before, const Edge_certificates& certificates) {
+                      const Chain& before, bool certificates) {
     Edge_counts counts;
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;

@@ -107,8 +107,8 @@ void expect_flights_are_sound(const Snapshot<D>& snapshot, const Body_soup<D>& s
   std::cout << c.moves << " moves, " << c.in_region << " in regions (" << c.regions << ", " << c.no_region
             << " not found), " << flown.contacts << " contacts, " << flown.edge_contacts << " by edges, "
             << c.stop_tries << " tries to stop, " << c.held << " held; edges " << c.edges.edges
-            << ": same cell " << c.edges.same_cell << ", same chain " << c.edges.same_chain << ", clear "
-            << c.edges.clear << ", events " << c.edges.event_sweeps << "; " << flown.stuck << " stuck\n";
+            << ": same cell " << c.edges.same_cell << ", same chain " << c.edges.same_chain << ", relinked "
+            << c.edges.relinked << ", events " << c.edges.event_sweeps << "; " << flown.stuck << " stuck\n";
   EXPECT_EQ(flown.differing, 0u) << "clearance changes what happens";
   EXPECT_EQ(flown.stuck, 0u);
   EXPECT_GT(flown.contacts, 100u);

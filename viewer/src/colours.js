@@ -8,7 +8,7 @@ export const decisions = {
   region: { title: 'region free of walls', colour: '#2a9d63' },
   same_cell: { title: 'same cell', colour: '#4ab3c9' },
   same_chain: { title: 'same chain', colour: '#7a55c7' },
-  clear: { title: 'clear of walls', colour: '#d9a400' },
+  relinked: { title: 'round ridges', colour: '#d9a400' },
   events: { title: 'events', colour: '#e8731a' },
   contact: { title: 'contact', colour: '#d02746' },
 };

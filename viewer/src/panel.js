@@ -73,7 +73,7 @@ export class Panel {
       const shares = counts.shares;
       table('run', [['Moves of vertices', number(counts.moves)], ['in regions free of walls', percent(shares.in_region), decisions.region.colour],
         ['Edges checked', number(counts.edges.checked)],
-        ...[['same_cell'], ['same_chain'], ['clear'], ['events', 'event_sweeps']].map(([name, share = name]) =>
+        ...[['same_cell'], ['same_chain'], ['relinked'], ['events', 'event_sweeps']].map(([name, share = name]) =>
           [decisions[name].title, percent(shares[share]), decisions[name].colour])]);
     }
     if (report.catheter)

@@ -45,7 +45,7 @@ class Library_replay : public Peer {
     counts.signs = edges.walk.predicates.orientations;
     counts.fallbacks = edges.walk.predicates.fallbacks;
     counts.clear_moves = body.in_region;
-    counts.certified_edges = edges.same_cell + edges.same_chain + edges.clear;
+    counts.certified_edges = edges.same_cell + edges.same_chain + edges.relinked;
     return counts;
   }
 

@@ -24,12 +24,11 @@ struct Edge_counts {
   std::uint64_t same_cell = 0;      ///< proved by both ends being in one cell, without a sign
   std::uint64_t same_chain = 0;     ///< proved by the new edge crossing the old chain
   std::uint64_t chain_facets = 0;   ///< facets examined for that
-  std::uint64_t clear = 0;          ///< proved to meet no wall
+  std::uint64_t relinked = 0;       ///< proved by leading the chain round the ridges that the edge meets
   std::uint64_t event_sweeps = 0;   ///< swept triangles whose events were followed
   std::uint64_t changed = 0;        ///< the chain is different, or there is none
-  std::uint64_t floods = 0;         ///< swept triangles flooded
+  std::uint64_t floods = 0;         ///< swept triangles flooded by exhaustive searches, and for touches
   std::uint64_t flooded_cells = 0;  ///< cells visited by floods
-  std::uint64_t pierced = 0;        ///< proved to be pierced by a wall
   std::uint64_t searches = 0;       ///< contacts located by a dichotomic or exhaustive search
   std::uint64_t search_sweeps = 0;  ///< sweeps made by dichotomic searches
   std::uint64_t search_walks = 0;   ///< walks along the edge made by dichotomic searches of the segment
@@ -39,18 +38,12 @@ struct Edge_counts {
   std::uint64_t search_misses = 0;
   Walk_counts walk;  ///< of all walks and signs
 
-  static constexpr std::array<std::string_view, 15> names{
-      "checked",      "same_cell",     "same_chain",   "chain_facets",  "clear",
-      "event_sweeps", "changed",       "floods",       "flooded_cells", "pierced",
-      "searches",     "search_sweeps", "search_walks", "search_walls",  "search_misses"};
+  static constexpr std::array<std::string_view, 14> names{
+      "checked",       "same_cell",    "same_chain",   "chain_facets",  "relinked",
+      "event_sweeps",  "changed",      "floods",       "flooded_cells", "searches",
+      "search_sweeps", "search_walks", "search_walls", "search_misses"};
 };
 static_assert(names_all_before<Edge_counts>(offsetof(Edge_counts, walk)));
-
-/// The certificates that a sweep tries before it follows events. Each is sound by itself; disabling one only
-/// costs time.
-struct Edge_certificates {
-  bool same_chain = true, flood = true;
-};
 
 /// The chain of a segment, or the wall that blocks it.
 template <int D>

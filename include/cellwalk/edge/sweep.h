@@ -53,7 +53,7 @@ struct Sweep_options {
   /// Whether an exhaustive search skips obstacles that signs find outside the swept triangle, beyond the edge
   /// at its end (the paper's limit). The answer does not depend on it.
   bool below = true;
-  Edge_certificates certificates{};
+  bool certificates = true;    ///< false: events decide all; this costs time, and changes no answer
   double tolerance = 0x1p-20;  ///< of dichotomic searches: length of the final interval of time, in (0,1]
 };
 

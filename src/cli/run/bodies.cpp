@@ -102,7 +102,7 @@ ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
 ordered_json shares_json(const Edge_counts& c) {
   return {{"same_cell", share(c.same_cell, c.edges)},
           {"same_chain", share(c.same_chain, c.edges)},
-          {"clear", share(c.clear, c.edges)},
+          {"relinked", share(c.relinked, c.edges)},
           {"event_sweeps", share(c.event_sweeps, c.edges)}};
 }
 
@@ -129,8 +129,8 @@ std::string describe_moves(const Body_counts& c) {
 std::string describe_edges(const Edge_counts& e) {
   return fmt::format(
       "{} checked: {:.1f} % in one cell, {:.1f} % along the same "
-      "chain, {:.1f} % clear of walls, {:.1f} % by their events",
-      e.edges, percent(e.same_cell, e.edges), percent(e.same_chain, e.edges), percent(e.clear, e.edges),
+      "chain, {:.1f} % round ridges, {:.1f} % by their events",
+      e.edges, percent(e.same_cell, e.edges), percent(e.same_chain, e.edges), percent(e.relinked, e.edges),
       percent(e.event_sweeps, e.edges));
 }
 

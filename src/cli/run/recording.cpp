@@ -72,7 +72,7 @@ Decision decision(const Body_counts& before, const Body_counts& now) {
   const auto grew = [&](auto member) { return now.edges.*member > before.edges.*member; };
   if (now.contacts > before.contacts) return Decision::contact;
   if (grew(&Edge_counts::event_sweeps)) return Decision::events;
-  if (grew(&Edge_counts::clear)) return Decision::clear;
+  if (grew(&Edge_counts::relinked)) return Decision::relinked;
   if (grew(&Edge_counts::same_chain)) return Decision::same_chain;
   if (grew(&Edge_counts::same_cell)) return Decision::same_cell;
   const auto moves = now.moves - before.moves, in_region = now.in_region - before.in_region;

@@ -47,35 +47,37 @@ class Ridge_relink {
     all_.events.clear();
   }
 
-  Relinked run() {
-    if (!read_chain()) return Relinked::open;
+  Relink_answer run() {
+    if (!read_chain()) return Relink_answer::open;
     std::size_t next = 0;
     std::optional<Root_bounds> crossing;
     for (std::size_t turns = 0; turns <= most_turns;) {
       // In the plane of a facet an edge without a chain may have a wall.
-      if (all_.word.empty() && !edge_.has_inner_end) return Relinked::open;
+      if (all_.word.empty() && !edge_.has_inner_end) return Relink_answer::open;
       const bool crosses = next < edge_.crossed.size();
       if (!crossing && (crosses || edge_.wall != Half_facet::none)) {
         crossing = time_of_crossing(crosses ? edge_.crossed[next] : edge_.wall);
-        if (!crossing) return Relinked::open;
+        if (!crossing) return Relink_answer::open;
       }
       const Event* event = first_event();
-      if (event == nullptr && !crossing) return Relinked::free;
+      if (event == nullptr && !crossing) return Relink_answer::free;
       if (crossing && (event == nullptr || crossing->most < least_time_)) {
-        if (!crosses) return Relinked::free;
-        now_ = crossing->most;
-        if (!cross(edge_.crossed[next++])) return Relinked::open;
+        if (!crosses) return leads_forwards() ? Relink_answer::free : Relink_answer::open;
+        now_ =
+            crossing->most;  // it may be less than that of an earlier event, which came before all the same
+        if (!cross(edge_.crossed[next++])) return Relink_answer::open;
         crossing.reset();
         continue;
       }
       const double next_least = crossing ? std::min(crossing->least, others_least_) : others_least_;
-      if (!(event->most < next_least)) return Relinked::open;
+      if (!(event->most < next_least)) return Relink_answer::open;
       now_ = event->most;
       ++turns;
       const Event turned = *event;
-      if (const Relinked answer = turn_round({turned.u, turned.v}); answer != Relinked::free) return answer;
+      if (const Relink_answer answer = turn_round({turned.u, turned.v}); answer != Relink_answer::free)
+        return answer;
     }
-    return Relinked::open;
+    return Relink_answer::open;
   }
 
   void write(Chain& chain, std::vector<Facet_corners<D>>& corners) const {
@@ -157,13 +159,23 @@ class Ridge_relink {
     }
   }
 
-  std::optional<Root_bounds> time_of_crossing(Half_facet f) const {
+  /// Positive if a point lies on the inner side of a facet.
+  Rounded side_of(Half_facet f, const Point<D>& p) const {
     const auto corners = spanning_corners(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-    const auto height = [&](const Point<D>& p) {
-      return std::apply([&](const auto&... corner) { return rounded_orientation<D>(p, *corner...); },
-                        corners);
-    };
-    const Rounded before = height(edge_.from), after = height(edge_.to.from());
+    return std::apply([&](const auto&... corner) { return rounded_orientation<D>(p, *corner...); }, corners);
+  }
+
+  /// True proves that the chain passes no facet backwards, as it may at a vertex: then the signs of its ridges
+  /// are not negative before the move. If an edge is free to its end, this follows.
+  bool leads_forwards() const {
+    return std::ranges::all_of(edge_.chain, [&](Half_facet f) {
+      const Rounded side = side_of(f, edge_.other);
+      return edge_.is_reversed ? side.is_positive() : side.is_negative();
+    });
+  }
+
+  std::optional<Root_bounds> time_of_crossing(Half_facet f) const {
+    const Rounded before = side_of(f, edge_.from), after = side_of(f, edge_.to.from());
     const bool is_certain =
         before.is_positive() ? after.is_negative() : before.is_negative() && after.is_positive();
     return is_certain ? std::optional(Root_bounds(before, after)) : std::nullopt;
@@ -225,14 +237,14 @@ class Ridge_relink {
   }
 
   /// Exchanges the facets at a ridge for those on the other way round it.
-  Relinked turn_round(const Ridge& ridge) {
+  Relink_answer turn_round(const Ridge& ridge) {
     auto& word = all_.word;
     const auto has_ridge = [&](const Passed_facet& f) {
       return std::ranges::any_of(events_of(f), [&](const Event& e) { return is_at(e, ridge); });
     };
     const auto first = std::ranges::find_if(word, has_ridge);
     const auto rest = std::find_if_not(first, word.end(), has_ridge);
-    if (std::any_of(rest, word.end(), has_ridge)) return Relinked::open;
+    if (std::any_of(rest, word.end(), has_ridge)) return Relink_answer::open;
     auto& exchanged = all_.exchanged;
     exchanged.clear();
     bool is_at_wall = false;
@@ -245,13 +257,14 @@ class Ridge_relink {
                                      return passed.has_value();
                                    });
     if (is_at_wall) {
+      if (!leads_forwards()) return Relink_answer::open;
       note_wall(ridge, first->facet, std::prev(rest)->facet);
-      return Relinked::blocked;
+      return Relink_answer::blocked;
     }
-    if (!is_round) return Relinked::open;
+    if (!is_round) return Relink_answer::open;
     const auto place = word.erase(first, rest);
     word.insert(place, exchanged.begin(), exchanged.end());
-    return Relinked::free;
+    return Relink_answer::free;
   }
 
   /// The first wall round a ridge seen from the vertex, which one of the walls there blocks.
@@ -279,11 +292,12 @@ class Ridge_relink {
 }  // namespace
 
 template <int D>
-Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
-                          Chain& chain, std::vector<Facet_corners<D>>& its_corners) {
+Relink_answer relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge,
+                               Relink_scratch<D>& scratch, Chain& chain,
+                               std::vector<Facet_corners<D>>& its_corners) {
   Ridge_relink<D> relink(snapshot, edge, scratch);
-  const Relinked answer = relink.run();
-  if (answer == Relinked::free) relink.write(chain, its_corners);
+  const Relink_answer answer = relink.run();
+  if (answer == Relink_answer::free) relink.write(chain, its_corners);
   return answer;
 }
 
@@ -293,11 +307,11 @@ Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>
   return edge_contact(snapshot, triangle, blocked.wall, Ridge{blocked.u, blocked.v});
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                             \
-  template Contact<D> contact_at_ridge(const Snapshot<D>&, const Swept_triangle<D>&,                        \
-                                       const Relink_scratch<D>&);                                           \
-  template Relinked relink_at_ridges(const Snapshot<D>&, const Moving_edge<D>&, Relink_scratch<D>&, Chain&, \
-                                     std::vector<Facet_corners<D>>&);
+#define CELLWALK_INSTANTIATE(D)                                                                          \
+  template Contact<D> contact_at_ridge(const Snapshot<D>&, const Swept_triangle<D>&,                     \
+                                       const Relink_scratch<D>&);                                        \
+  template Relink_answer relink_at_ridges(const Snapshot<D>&, const Moving_edge<D>&, Relink_scratch<D>&, \
+                                          Chain&, std::vector<Facet_corners<D>>&);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -37,8 +37,8 @@ bool may_have_choice(const Snapshot<2>&, const Swept_triangle<2>&, Cell, const C
 
 template <int D>
 bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                           const Chain& before, const Edge_certificates& certificates,
-                           Chain_result<D>& result, Edge_counts& counts) {
+                           const Chain& before, bool has_certificates, Chain_result<D>& result,
+                           Edge_counts& counts) {
   ++counts.edges;
   const Particle<D>& p = path.to;
   const Cell end = path.blocked ? path.visited.back() : p.cell;
@@ -50,7 +50,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   };
   // A triangle with a corner in the interior of a cell lies in the plane of no facet of it.
   const bool has_inner_corner = (!path.blocked && p.dimension == D) || q.dimension == D;
-  if (certificates.same_chain && chain.empty() && (has_inner_corner || has_no_choice())) {
+  if (has_certificates && chain.empty() && (has_inner_corner || has_no_choice())) {
     ++counts.same_cell;
     result = {};
     return true;
@@ -58,7 +58,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   counts.chain_facets += chain.size();
   if (path.blocked) {
     // If the edge passes the chain at the target, beyond the wall, then also where p stops: V is convex.
-    if (!certificates.same_chain || !passes(snapshot, chain, p.position, q.position, counts.walk) ||
+    if (!has_certificates || !passes(snapshot, chain, p.position, q.position, counts.walk) ||
         !has_no_choice())
       return false;
     ++counts.same_chain;
@@ -69,7 +69,7 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
   // A walk is faster than the signs of passes(), but may find another chain if several are valid.
   bool on_planes = false;
   result = chain_of_walk(snapshot, p, q, counts.walk, on_planes);
-  if (!certificates.same_chain) return false;
+  if (!has_certificates) return false;
   const bool is_same = !result.contact && result.chain == chain;
   if (!is_same && !passes(snapshot, chain, p.position, q.position, counts.walk)) return false;
   if (!(is_same && !on_planes) && !has_no_choice()) return false;
@@ -80,10 +80,8 @@ bool detail::confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
 }
 
 template bool detail::confirm_chain<2>(const Snapshot<2>&, const Vertex_path<2>&, const Particle<2>&,
-                                       const Chain&, const Edge_certificates&, Chain_result<2>&,
-                                       Edge_counts&);
+                                       const Chain&, bool, Chain_result<2>&, Edge_counts&);
 template bool detail::confirm_chain<3>(const Snapshot<3>&, const Vertex_path<3>&, const Particle<3>&,
-                                       const Chain&, const Edge_certificates&, Chain_result<3>&,
-                                       Edge_counts&);
+                                       const Chain&, bool, Chain_result<3>&, Edge_counts&);
 
 }  // namespace cellwalk

@@ -15,8 +15,7 @@ namespace cellwalk::detail {
 /// nothing is proved. If p is blocked, the triangle is that of the motion until then, and there is no walk.
 template <int D>
 bool confirm_chain(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                   const Chain& before, const Edge_certificates& certificates, Chain_result<D>& result,
-                   Edge_counts& counts);
+                   const Chain& before, bool has_certificates, Chain_result<D>& result, Edge_counts& counts);
 
 }  // namespace cellwalk::detail
 

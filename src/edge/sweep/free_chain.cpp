@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/sweep.h>
-#include <cellwalk/internal/edge/may_intersect.h>
 
 #include "confirm_chain.h"
-#include "edge/flood/pierced.h"
 #include "events.h"
+#include "round_ridges.h"
 
 namespace cellwalk {
 namespace {
@@ -16,31 +15,6 @@ std::optional<Free_chain> chain_by_events(const Snapshot<D>& snapshot, const Ver
   Sweep_result<D> result = detail::follow_events(snapshot, path, q, before, counts.walk);
   if (result.contact) return {};
   return Free_chain{std::move(result.chain)};
-}
-
-/// The conclusion from the walls near a swept triangle.
-enum class Triangle_verdict { free, blocked, undecided };
-
-template <int D>
-Triangle_verdict classify_triangle(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& triangle,
-                                   Edge_counts& counts) {
-  detail::Flooded found;
-  bool is_met = false, is_pierced = false;
-  const auto on_wall = [&](Half_facet f) {
-    is_met = true;
-    const Cell_view<D> cell = snapshot.view(snapshot.cell_of(f));
-    is_pierced = detail::is_pierced(cell, snapshot.facet_of(f), triangle, counts.walk);
-    return !is_pierced;
-  };
-  const bool is_whole =
-      detail::flood(snapshot, start, triangle, counts, detail::most_flooded, found, on_wall);
-  if (is_pierced) {
-    ++counts.pierced;
-    return Triangle_verdict::blocked;
-  }
-  if (!is_whole || is_met) return Triangle_verdict::undecided;
-  ++counts.clear;
-  return Triangle_verdict::free;
 }
 
 }  // namespace
@@ -67,20 +41,15 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
   const bool is_crossed =
       result.contact && result.contact->kind == Contact_kind::facet && result.contact->time < 1;
   if (is_crossed) return {};
-  if (options.sweep == Sweep::three_segments)
-    return result.contact || result.has_choice ? chain_by_events(snapshot, path, q, before, counts)
-                                               : Free_chain{result.chain};
-  if (options.certificates.flood) {
-    const Swept_triangle<D> triangle{path.from.position, path.to.position, q.position};
-    switch (classify_triangle(snapshot, path.from.cell, triangle, counts)) {
-      case Triangle_verdict::blocked:
-        return {};
-      case Triangle_verdict::free:
-        if (!result.contact) return Free_chain{result.chain, true};
-        break;
-      case Triangle_verdict::undecided:
-        break;
-    }
+  if (options.sweep == Sweep::three_segments && !result.contact && !result.has_choice)
+    return Free_chain{result.chain};
+  if (options.sweep != Sweep::three_segments && options.certificates) {
+    detail::Relink_scratch<D> scratch;
+    Free_chain free;
+    const detail::Relink_answer answer =
+        detail::lead_round_ridges(snapshot, path, q, before, scratch, free.chain, counts);
+    if (answer == detail::Relink_answer::free) return free;
+    if (answer == detail::Relink_answer::blocked) return {};
   }
   return chain_by_events(snapshot, path, q, before, counts);
 }

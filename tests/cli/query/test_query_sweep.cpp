@@ -222,7 +222,7 @@ TEST_F(QuerySweepRandom, ThreadsGiveTheSameAnswers) {
   const auto report = nlohmann::json::parse(text("counts.json"));
   EXPECT_EQ(report.at("motions"), 1500);
   for (const char* s : {"free", "contact", "outside"}) EXPECT_GT(report.at("status").at(s), 100) << s;
-  for (const char* count : {"same_cell", "same_chain", "event_sweeps", "clear"})
+  for (const char* count : {"same_cell", "same_chain", "event_sweeps", "relinked"})
     EXPECT_GT(report.at("counts").at(count), 10) << count;
   EXPECT_GT(report.at("counts").at("walk").at("star_searches"), 100);
   int by_vertex = 0, by_edge = 0;

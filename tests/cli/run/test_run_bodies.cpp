@@ -110,7 +110,7 @@ TEST_F(RunBodies, WritesWhatTheyMet) {
   const double moves = counts["moves"], edges = counts["edges"]["checked"];
   EXPECT_EQ(counts["shares"]["in_region"].get<double>(), counts["in_region"].get<double>() / moves);
   double decided = 0;
-  for (const char* key : {"same_cell", "same_chain", "clear", "event_sweeps"}) {
+  for (const char* key : {"same_cell", "same_chain", "relinked", "event_sweeps"}) {
     EXPECT_EQ(counts["shares"][key].get<double>(), counts["edges"][key].get<double>() / edges);
     decided += counts["shares"][key].get<double>();
   }

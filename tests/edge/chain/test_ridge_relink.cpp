@@ -25,7 +25,7 @@ namespace cellwalk::test {
 namespace {
 
 using detail::Facet_corners;
-using detail::Relinked;
+using detail::Relink_answer;
 
 struct Relinks_seen {
   int moves = 0;           ///< in which the edge crosses facets
@@ -78,14 +78,14 @@ bool are_same(const std::vector<Facet_corners<D>>& a, const std::vector<Facet_co
 /// What relinking says of an edge.
 /// \param chain set to that of a free edge, as it is seen from p
 template <int D>
-Relinked relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved, const Particle<D>& other,
-                const Chain& before, bool is_reversed, bool is_from_behind,
-                detail::Relink_scratch<D>& scratch, Chain& chain) {
+Relink_answer relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved, const Particle<D>& other,
+                     const Chain& before, bool is_reversed, bool is_from_behind,
+                     detail::Relink_scratch<D>& scratch, Chain& chain) {
   const Point<D>&p = moved.from.position, &t = moved.to.position, &q = other.position;
   const bool has_inner_end = (!moved.contact && moved.to.dimension == D) || other.dimension == D;
   const Half_facet wall = moved.contact ? moved.contact->facet : Half_facet::none;
   Float_point<D> mapped;
-  if (!snapshot.frame().map(t, mapped)) return Relinked::open;
+  if (!snapshot.frame().map(t, mapped)) return Relink_answer::open;
   detail::Certain_line<D> to(snapshot.frame(), t, mapped);
   to.lead_to(q, is_reversed);
   const Chain word = is_reversed ? reversed(snapshot, before) : before;
@@ -97,11 +97,11 @@ Relinked relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved, const Pa
   else
     its_corners = corners_of(snapshot, {word.data(), word.size()});
   std::vector<Facet_corners<D>> corners;
-  const Relinked answer = detail::relink_at_ridges<D>(
+  const Relink_answer answer = detail::relink_at_ridges<D>(
       snapshot,
       {p, q, to, is_reversed, has_inner_end, moved.crossed, wall, {word.data(), word.size()}, its_corners},
       scratch, chain, corners);
-  if (answer == Relinked::free && !is_from_behind) {
+  if (answer == Relink_answer::free && !is_from_behind) {
     EXPECT_TRUE(are_same(corners, corners_of(snapshot, {chain.data(), chain.size()})));
   }
   if (is_reversed) chain = reversed(snapshot, chain);
@@ -140,13 +140,13 @@ class Relink_trial {
     const Chain word = word_of<D>(w_.snapshot, moved.crossed, before);
     ++seen_.moves;
     Chain chain;
-    const Relinked answer =
+    const Relink_answer answer =
         relink<D>(w_.snapshot, moved, q, before, seen_.moves % 2 == 0, seen_.moves % 4 < 2, scratch_, chain);
-    if (answer == Relinked::blocked) {
+    if (answer == Relink_answer::blocked) {
       ++seen_.blocked;
       judge_blocked(moved, q, before);
     }
-    if (answer != Relinked::free) return {};
+    if (answer != Relink_answer::free) return {};
     if (moved.contact) {
       ++seen_.stopped;
       judge_stopped(moved, q, before);
@@ -194,8 +194,7 @@ class Relink_trial {
     if (fault != Sweep_fault::none)
       seen_.note(seen_.wrong, name + fault_names[static_cast<std::size_t>(fault)]);
     Edge_counts counts;
-    const Sweep_result<D> swept =
-        sweep_triangle<D>(w_.snapshot, path, q, before, counts, Edge_certificates{false, false});
+    const Sweep_result<D> swept = sweep_triangle<D>(w_.snapshot, path, q, before, counts, false);
     if (swept.contact) return seen_.note(seen_.not_free, name + "the exact sweep meets a wall");
     if (swept.chain == chain) return;
     ++seen_.other_chains;
@@ -210,16 +209,14 @@ class Relink_trial {
   /// An edge that is free until its end is stopped at a wall.
   void judge_stopped(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
     Edge_counts counts;
-    if (sweep_triangle<D>(w_.snapshot, moved.path(), q, before, counts, Edge_certificates{false, false})
-            .contact)
+    if (sweep_triangle<D>(w_.snapshot, moved.path(), q, before, counts, false).contact)
       seen_.note(seen_.not_free, w_.world.name + ": the exact sweep meets a wall before the end is stopped");
   }
 
   void judge_blocked(const Moved_end<D>& moved, const Particle<D>& q, const Chain& before) {
     const Vertex_path<D> path = moved.path();
     Edge_counts counts;
-    const Sweep_result<D> swept =
-        sweep_triangle<D>(w_.snapshot, path, q, before, counts, Edge_certificates{false, false});
+    const Sweep_result<D> swept = sweep_triangle<D>(w_.snapshot, path, q, before, counts, false);
     if (!swept.contact) return seen_.note(seen_.not_blocked, w_.world.name + ": the exact sweep is free");
     if (seen_.blocked % judged_in_place == 0) judge_by_oracle(moved, q, before, swept);
     compare_contacts(moved, q, *swept.contact);

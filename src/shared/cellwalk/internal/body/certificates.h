@@ -11,7 +11,7 @@
 namespace cellwalk::detail {
 
 /// Each is sound by itself; without one, only the cost is different. Those of an edge are chosen with the
-/// sweep, see Edge_certificates; without Body_options::clearance there are no regions at all.
+/// sweep, see Sweep_options::certificates; without Body_options::clearance there are no regions at all.
 struct Body_certificates {
   bool body_region = true;      ///< one region for the whole body
   bool star_regions = true;     ///< a pool of regions, each about a star

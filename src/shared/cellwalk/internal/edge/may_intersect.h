@@ -33,9 +33,6 @@ bool may_meet_ridge(const Cell_view<3>& cell, std::size_t i, std::size_t k, cons
 template <int D>
 bool may_overlap(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D>& t, Walk_counts& counts);
 
-/// A flood of more cells than this costs more than the events it saves.
-constexpr std::size_t most_flooded = 64;
-
 /// Cells of a flood.
 using Flooded = boost::container::small_vector<Cell, 64>;
 

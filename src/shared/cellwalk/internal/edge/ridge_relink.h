@@ -29,7 +29,7 @@ struct Moving_edge {
   std::span<const Facet_corners<D>> corners;  ///< of the chain
 };
 
-enum class Relinked { free, blocked, open };
+enum class Relink_answer { free, blocked, open };
 
 /// Memory of relinks, kept from one to the next.
 template <int D>
@@ -61,8 +61,9 @@ struct Relink_scratch {
 /// Cost: some 30 operations on lanes a facet of the chain, 100 operations a ridge that the edge meets, and
 /// reading the corners of the facets round those.
 template <int D>
-Relinked relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge, Relink_scratch<D>& scratch,
-                          Chain& chain, std::vector<Facet_corners<D>>& its_corners);
+Relink_answer relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge,
+                               Relink_scratch<D>& scratch, Chain& chain,
+                               std::vector<Facet_corners<D>>& its_corners);
 
 /// The first contact of an edge that relink_at_ridges() found blocked, with the normal of the wall.
 /// \pre the other end lies in the interior of its cell; else there may be others at the same time

@@ -22,7 +22,7 @@ namespace cellwalk {
 template <int D>
 Chain_result<D> check_third_segment(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
                                     const Particle<D>& q, const Chain& before, Edge_counts& counts,
-                                    const Edge_certificates& certificates = {});
+                                    bool has_certificates = true);
 
 }  // namespace cellwalk
 

@@ -18,9 +18,9 @@ namespace cellwalk {
 /// Sweeps the edge pq while p moves along its path and q stands still. Returns the chain of the edge after
 /// the move, or the first contact: its normal is that of the wall.
 ///
-/// The certificates are tried in this order: the ends share a cell; the edge still crosses its old chain; no
-/// wall meets the swept triangle; then the events are followed exactly. Touching a wall is no contact. If p
-/// is blocked, only contacts of the edge before that time count (at equal times p's own comes first), and the
+/// The certificates are tried in this order: the ends share a cell; the edge still crosses its old chain; that
+/// can be led round ridges; then the events are followed exactly. Touching a wall is no contact. If p is
+/// blocked, only contacts of the edge before that time count (at equal times p's own comes first), and the
 /// returned chain is the last one.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
@@ -32,8 +32,7 @@ namespace cellwalk {
 /// that touch or hit a wall.
 template <int D>
 Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                               const Chain& before, Edge_counts& counts,
-                               const Edge_certificates& certificates = {});
+                               const Chain& before, Edge_counts& counts, bool has_certificates = true);
 
 namespace detail {
 

@@ -21,13 +21,13 @@ enum class Decision : std::uint8_t {
   region,      ///< in a region free of walls, without a test
   same_cell,   ///< both ends of every edge in one cell; bodies without edges: by walking
   same_chain,  ///< an edge crossed the same facets before and after
-  clear,       ///< no wall meets the triangle that an edge swept
+  relinked,    ///< the chain of an edge was led round ridges
   events,      ///< by events, or by three segments
   contact      ///< with a contact
 };
 
-inline constexpr std::array decision_names{"none",  "region", "same_cell", "same_chain",
-                                           "clear", "events", "contact"};
+inline constexpr std::array decision_names{"none",     "region", "same_cell", "same_chain",
+                                           "relinked", "events", "contact"};
 
 struct Recording_body {
   bool is_catheter = false;
