@@ -20,17 +20,14 @@
 namespace cellwalk::detail {
 namespace {
 
-/// When an affine function has its root, if its values at 0 and 1 certainly have different signs.
+/// When an affine function has its root, if its values at 0 and 1 have different signs.
 struct Root_bounds {
-  Root_bounds(const Rounded& at_0, const Rounded& at_1) {
-    const double x_0 = std::abs(at_0.value), x_1 = std::abs(at_1.value);
-    const double least_0 = x_0 - at_0.error, most_0 = x_0 + at_0.error;
-    // The roundings of these lines are far below the factor.
-    constexpr double slack = 0x1p-48;
-    least = least_0 / (least_0 + (x_1 + at_1.error)) * (1 - slack);
-    most = most_0 / (most_0 + (x_1 - at_1.error)) * (1 + slack);
-  }
+  Root_bounds(const Signed_size& at_0, const Signed_size& at_1)
+      : least(at_0.least / (at_0.least + at_1.most) * (1 - slack)),
+        most(at_0.most / (at_0.most + at_1.least) * (1 + slack)) {}
 
+  /// The roundings of these lines are far below it.
+  static constexpr double slack = 0x1p-48;
   double least, most;
 };
 
@@ -125,12 +122,12 @@ class Ridge_relink {
       for (; open != 0; open &= open - 1) {
         const std::size_t k = part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(open));
         const Ridge ridge = ridge_of(cell, snapshot_.facet_of(f), k);
-        const Rounded after = turn(cell, ridge, k, edge_.to.from());
-        if (after.is_positive()) continue;
-        const Rounded before = turn(cell, ridge, k, edge_.from);
-        if (!before.is_positive() || !after.is_negative()) return {};
+        const Signed_size after = turn(cell, ridge, k, edge_.to.from());
+        if (after.sign > 0) continue;
+        const Signed_size before = turn(cell, ridge, k, edge_.from);
+        if (before.sign <= 0 || after.sign == 0) return {};
         const Root_bounds time(before, after);
-        if (!(now_ < time.least)) return {};
+        if (!(now_ <= time.least)) return {};
         all_.events.push_back(
             {std::min(ridge.u, ridge.v), std::max(ridge.u, ridge.v), time.least, time.most});
       }
@@ -141,44 +138,42 @@ class Ridge_relink {
 
   /// The sign of ridge k of a facet, positive if the line from a point to the other end of the edge passes on
   /// its inner side.
-  Rounded turn(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k, const Point<D>& start) const {
-    Rounded turned = turn_of_line(cell, ridge, k, start, edge_.other);
-    if (edge_.is_reversed) turned.value = -turned.value;
+  Signed_size turn(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k, const Point<D>& start) const {
+    Signed_size turned = turn_of_line(cell, ridge, k, start, edge_.other);
+    if (edge_.is_reversed) turned.sign = -turned.sign;
     return turned;
   }
   /// The same for the line to any point, as facets are seen from the cells before them.
-  static Rounded turn_of_line(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k,
-                              const Point<D>& start, const Point<D>& end) {
+  static Signed_size turn_of_line(const Cell_view<D>& cell, const Ridge& ridge, std::size_t k,
+                                  const Point<D>& start, const Point<D>& end) {
     const Point<D>& u = cell.points[ridge.u];
     if constexpr (D == 3) {
-      return rounded_orientation<D>(start, end, u, cell.points[ridge.v]);
+      return signed_orientation<D>(start, end, u, cell.points[ridge.v]);
     } else {
-      Rounded turned = rounded_orientation<D>(start, end, u);
-      if (k == 0) turned.value = -turned.value;
+      Signed_size turned = signed_orientation<D>(start, end, u);
+      if (k == 0) turned.sign = -turned.sign;
       return turned;
     }
   }
 
   /// Positive if a point lies on the inner side of a facet.
-  Rounded side_of(Half_facet f, const Point<D>& p) const {
+  Signed_size side_of(Half_facet f, const Point<D>& p) const {
     const auto corners = spanning_corners(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-    return std::apply([&](const auto&... corner) { return rounded_orientation<D>(p, *corner...); }, corners);
+    return std::apply([&](const auto&... corner) { return signed_orientation<D>(p, *corner...); }, corners);
   }
 
   /// True proves that the chain passes no facet backwards, as it may at a vertex: then the signs of its ridges
   /// are not negative before the move. If an edge is free to its end, this follows.
   bool leads_forwards() const {
     return std::ranges::all_of(edge_.chain, [&](Half_facet f) {
-      const Rounded side = side_of(f, edge_.other);
-      return edge_.is_reversed ? side.is_positive() : side.is_negative();
+      const int side = side_of(f, edge_.other).sign;
+      return edge_.is_reversed ? side > 0 : side < 0;
     });
   }
 
   std::optional<Root_bounds> time_of_crossing(Half_facet f) const {
-    const Rounded before = side_of(f, edge_.from), after = side_of(f, edge_.to.from());
-    const bool is_certain =
-        before.is_positive() ? after.is_negative() : before.is_negative() && after.is_positive();
-    return is_certain ? std::optional(Root_bounds(before, after)) : std::nullopt;
+    const Signed_size before = side_of(f, edge_.from), after = side_of(f, edge_.to.from());
+    return before.sign * after.sign < 0 ? std::optional(Root_bounds(before, after)) : std::nullopt;
   }
 
   /// The vertex crosses a facet: the first one of the chain seen from it, or another one.
@@ -197,15 +192,15 @@ class Ridge_relink {
     word.insert(edge_.is_reversed ? word.end() : word.begin(), *passed);
     return true;
   }
-  /// True if the vertex certainly crosses the interior of a facet, in either direction.
+  /// True if the vertex crosses the interior of a facet, in either direction.
   bool is_crossed_inside(const Passed_facet& f) const {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f.facet));
     const std::size_t i = snapshot_.facet_of(f.facet), ridges = cell.loop(i).size();
     std::size_t inner = 0, outer = 0;
     for (std::size_t k = 0; k < ridges; ++k) {
-      const Rounded turned = turn_of_line(cell, ridge_of(cell, i, k), k, edge_.from, edge_.to.from());
-      inner += turned.is_positive();
-      outer += turned.is_negative();
+      const Signed_size turned = turn_of_line(cell, ridge_of(cell, i, k), k, edge_.from, edge_.to.from());
+      inner += turned.sign > 0;
+      outer += turned.sign < 0;
     }
     return inner == ridges || outer == ridges;
   }

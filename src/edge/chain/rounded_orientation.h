@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to edge: determinants in doubles, with a bound of their error.
+// Private to edge: determinants in doubles, with a bound of their error, and with exact signs.
 #ifndef CELLWALK_EDGE_CHAIN_ROUNDED_ORIENTATION_H
 #define CELLWALK_EDGE_CHAIN_ROUNDED_ORIENTATION_H
 
 #include <cellwalk/kernel/point.h>
+#include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
 #include <array>
@@ -46,19 +47,23 @@ double det_error(double size) {
   return error > 0x1p-900 && error < 0x1p900 ? error : std::numeric_limits<double>::infinity();
 }
 
-/// A value in doubles, and a bound of its error.
-struct Rounded {
-  double value, error;
-
-  bool is_positive() const { return value > error; }
-  bool is_negative() const { return -value > error; }
+/// The sign of a determinant, and bounds of its size.
+struct Signed_size {
+  int sign;
+  double least, most;
 };
 
-/// The determinant of D points seen from p.
+/// The determinant of D points seen from p, which is their orientation after p.
+/// Cost: some 50 operations, and an exact sign where they leave it open.
 template <int D, class... Points>
-Rounded rounded_orientation(const Point<D>& p, const Points&... x) {
-  const double size = std::max({largest_size(rounded_difference<D>(x, p))...});
-  return {rounded_det(rounded_difference<D>(x, p)...), det_error<D>(size)};
+Signed_size signed_orientation(const Point<D>& p, const Points&... x) {
+  const double value = rounded_det(rounded_difference<D>(x, p)...),
+               error = det_error<D>(std::max({largest_size(rounded_difference<D>(x, p))...})),
+               size = std::abs(value);
+  if (size > error) [[likely]]
+    return {value > 0 ? 1 : -1, size - error, size + error};
+  Predicate_counts uncounted;
+  return {Exact::orientation(uncounted, p, x...), 0, size + error};
 }
 
 }  // namespace cellwalk::detail

@@ -52,8 +52,8 @@ struct Relink_scratch {
   Half_facet wall = Half_facet::none;
 };
 
-/// Follows an edge in general position from ridge to ridge, all signs and times being certain in lanes or in
-/// doubles.
+/// Follows an edge in general position from ridge to ridge, by signs in lanes, in doubles or exact, and by
+/// bounds of times.
 /// free: the edge is free until the vertex is at its target or stopped, and `chain` is set to the chain then,
 /// `its_corners` to those of its facets. blocked: the edge meets a wall at a ridge before. open: it is not
 /// certain.
