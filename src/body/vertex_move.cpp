@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "vertex_move.h"
 
+#include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/furthest_move.h>
 
 #include <utility>
@@ -68,15 +69,11 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
     Moved_chain<D>& moved = scratch.chains[i];
     moved.is_stale = moved.is_relinked = false;
     moved.is_in_place = may_confirm && in_place.confirms(corner);
-    std::optional<Contact<D>> met;
+    bool meets_wall = false;
     if (may_relink && !moved.is_in_place) {
       const Relink_answer relinked = in_place.relink(corner, from, wall, moved);
       moved.is_relinked = relinked == Relink_answer::free;
-      // What an edge meets on the way counts only where triangles are swept.
-      if (relinked == Relink_answer::blocked && body.particles[corner.other].dimension == D &&
-          options.sweep != Sweep::three_segments)
-        met = contact_at_ridge(snapshot, {from.position, target, body.particles[corner.other].position},
-                               scratch.relink);
+      meets_wall = relinked == Relink_answer::blocked;
     }
     moved.is_free = moved.is_in_place || moved.is_relinked;
     if (moved.is_free) {
@@ -85,7 +82,9 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      auto free = met ? std::nullopt
+      // What an edge meets on the way counts only where triangles are swept.
+      auto free = meets_wall && options.sweep != Sweep::three_segments
+                      ? std::nullopt
                       : free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner),
                                    options, counts.edges);
       if (!free) {
@@ -96,6 +95,10 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       moved.is_free = true;
       continue;
     }
+    std::optional<Contact<D>> met;
+    if (meets_wall && body.particles[corner.other].dimension == D)
+      met = contact_at_ridge<D>(snapshot, {from.position, target, body.particles[corner.other].position},
+                                scratch.relink);
     Sweep_result<D> swept = sweep_edge_along(snapshot, path, body.particles[corner.other],
                                              body.seen_from(corner), options, counts.edges, met);
     if (swept.contact && (!first || meets_before(*swept.contact, *first))) {

@@ -112,7 +112,7 @@ struct Point_calls {
       case 16:
         return void(sweep_edge(snapshot, particle, x, other, chain, {}, counts));
       case 17:
-        return void(sweep_edge(snapshot, other, near, bad, chain, {}, counts));
+        return void(sweep_edge(snapshot, other, near, bad, reversed(snapshot, chain), {}, counts));
       case 18:
         return void(answer_move(snapshot, locator, x, there, {}, counts));
       case 19:

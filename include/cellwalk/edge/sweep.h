@@ -86,7 +86,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 /// Touch::stop those of p as well. The result's p and cells are not set.
 /// \param path the path of p
 /// \param before the chain of the edge before the move
-/// \param met the first contact of the edge, if it is known: then only the rest of the contact is found
+/// \param met the first contact of the complete sweep, if it is known: it is not looked for again
 /// \pre if the path is blocked, path.visited holds the cells of the walk
 template <int D>
 Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<D>& path,

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "edge/contact/edge_contact.h"
 #include "ridge.h"
 #include "rounded_orientation.h"
 
@@ -158,12 +157,13 @@ class Ridge_relink {
 
   /// Positive if a point lies on the inner side of a facet.
   Signed_size side_of(Half_facet f, const Point<D>& p) const {
-    const auto corners = spanning_corners(snapshot_.view(snapshot_.cell_of(f)), snapshot_.facet_of(f));
-    return std::apply([&](const auto&... corner) { return signed_orientation<D>(p, *corner...); }, corners);
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
+    const auto seen_from_p = [&](const auto&... corner) { return signed_orientation<D>(p, *corner...); };
+    return std::apply(seen_from_p, spanning_corners(cell, snapshot_.facet_of(f)));
   }
 
-  /// True proves that the chain passes no facet backwards, as it may at a vertex: then the signs of its ridges
-  /// are not negative before the move. If an edge is free to its end, this follows.
+  /// True proves that the chain passes no facet backwards, as it may at a vertex: then the signs of its
+  /// ridges are not negative before the move. If an edge is free to its end, this follows.
   bool leads_forwards() const {
     return std::ranges::all_of(edge_.chain, [&](Half_facet f) {
       const int side = side_of(f, edge_.other).sign;
@@ -296,15 +296,7 @@ Relink_answer relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>
   return answer;
 }
 
-template <int D>
-Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
-                            const Relink_scratch<D>& blocked) {
-  return edge_contact(snapshot, triangle, blocked.wall, Ridge{blocked.u, blocked.v});
-}
-
 #define CELLWALK_INSTANTIATE(D)                                                                          \
-  template Contact<D> contact_at_ridge(const Snapshot<D>&, const Swept_triangle<D>&,                     \
-                                       const Relink_scratch<D>&);                                        \
   template Relink_answer relink_at_ridges(const Snapshot<D>&, const Moving_edge<D>&, Relink_scratch<D>&, \
                                           Chain&, std::vector<Facet_corners<D>>&);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge_contact.h"
 
+#include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/star.h>
@@ -64,11 +65,21 @@ Contact<D> edge_contact(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   return contact;
 }
 
+template <int D>
+Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
+                            const Relink_scratch<D>& blocked) {
+  return edge_contact(snapshot, triangle, blocked.wall, Ridge{blocked.u, blocked.v});
+}
+
 template Contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet);
 template Contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet);
 template Contact<2> edge_contact<2>(const Snapshot<2>&, const Exact_time&, Half_facet, const Exact_point<2>&);
 template Contact<3> edge_contact<3>(const Snapshot<3>&, const Exact_time&, Half_facet, const Exact_point<3>&);
 template Contact<2> edge_contact<2>(const Snapshot<2>&, const Swept_triangle<2>&, Half_facet, const Ridge&);
 template Contact<3> edge_contact<3>(const Snapshot<3>&, const Swept_triangle<3>&, Half_facet, const Ridge&);
+template Contact<2> contact_at_ridge<2>(const Snapshot<2>&, const Swept_triangle<2>&,
+                                        const Relink_scratch<2>&);
+template Contact<3> contact_at_ridge<3>(const Snapshot<3>&, const Swept_triangle<3>&,
+                                        const Relink_scratch<3>&);
 
 }  // namespace cellwalk::detail

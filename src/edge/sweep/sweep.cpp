@@ -56,7 +56,8 @@ bool is_free_where_blocked(const Snapshot<D>& snapshot, const Vertex_path<D>& pa
 /// The first contact of the edge, or its chain: by the paper's segments or by the complete sweep.
 template <int D>
 Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
-                       const Chain& before, const Sweep_options& options, Edge_counts& counts) {
+                       const Chain& before, const Sweep_options& options, Edge_counts& counts,
+                       const std::optional<Contact<D>>& met) {
   if (options.sweep != Sweep::three_segments)
     return sweep_triangle(snapshot, path, q, before, counts, options.certificates);
   if (path.blocked) {
@@ -75,6 +76,7 @@ Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, 
   }
   // The segments find a contact of the edge at its end only. The events determine its time, and the sides of
   // walls on which an edge that lies in them continues.
+  if (met) return {met, {}};
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, path, q, before, counts.walk);
 }
@@ -145,12 +147,12 @@ Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<
                                  const Particle<D>& q, const Chain& before, const Sweep_options& options,
                                  Edge_counts& counts, const std::optional<Contact<D>>& met) {
   Sweep_result<D> result;
-  if (met) {
+  if (met && options.sweep != Sweep::three_segments) {
     ++counts.edges;
     ++counts.changed;
     result.contact = met;
   } else {
-    result = detect(snapshot, path, q, before, options, counts);
+    result = detect(snapshot, path, q, before, options, counts, met);
   }
   if (result.contact) result.contact = locate(snapshot, path, q, before, *result.contact, options, counts);
   if (options.touch == Touch::stop)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/triangle.h>
 
 #include <utility>
@@ -23,14 +24,15 @@ Sweep_result<D> sweep_triangle(const Snapshot<D>& snapshot, const Vertex_path<D>
   ++counts.changed;
   if (has_certificates && !path.blocked) {
     detail::Relink_scratch<D> scratch;
-    Chain chain;
+    Sweep_result<D> result;
     const detail::Relink_answer answer =
-        detail::lead_round_ridges(snapshot, path, q, before, scratch, chain, counts);
-    if (answer == detail::Relink_answer::free) return {{}, std::move(chain)};
-    if (answer == detail::Relink_answer::blocked && q.dimension == D)
-      return {
-          detail::contact_at_ridge<D>(snapshot, {path.from.position, path.to.position, q.position}, scratch),
-          {}};
+        detail::lead_round_ridges(snapshot, path, q, before, scratch, result.chain, counts);
+    if (answer == detail::Relink_answer::free) return result;
+    if (answer == detail::Relink_answer::blocked && q.dimension == D) {
+      result.contact =
+          detail::contact_at_ridge<D>(snapshot, {path.from.position, path.to.position, q.position}, scratch);
+      return result;
+    }
   }
   ++counts.event_sweeps;
   return detail::follow_events(snapshot, path, q, before, counts.walk);

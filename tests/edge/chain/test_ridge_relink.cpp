@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Chains in place, and chains led round ridges: what is found free must be free for the oracle that follows
 // the definition of chains, with a chain that it accepts, and for the exact sweep, with an equal one.
+#include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/walk/signs.h>

@@ -5,8 +5,6 @@
 #define CELLWALK_INTERNAL_EDGE_RIDGE_RELINK_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
-#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/certain_line.h>
 
 #include <cstddef>
@@ -64,13 +62,6 @@ template <int D>
 Relink_answer relink_at_ridges(const Snapshot<D>& snapshot, const Moving_edge<D>& edge,
                                Relink_scratch<D>& scratch, Chain& chain,
                                std::vector<Facet_corners<D>>& its_corners);
-
-/// The first contact of an edge that relink_at_ridges() found blocked, with the normal of the wall.
-/// \pre the other end lies in the interior of its cell; else there may be others at the same time
-/// Cost: some 3,000 instructions
-template <int D>
-Contact<D> contact_at_ridge(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
-                            const Relink_scratch<D>& blocked);
 
 }  // namespace cellwalk::detail
 

@@ -18,8 +18,8 @@ namespace cellwalk {
 /// Sweeps the edge pq while p moves along its path and q stands still. Returns the chain of the edge after
 /// the move, or the first contact: its normal is that of the wall.
 ///
-/// The certificates are tried in this order: the ends share a cell; the edge still crosses its old chain; that
-/// can be led round ridges; then the events are followed exactly. Touching a wall is no contact. If p is
+/// The certificates are tried in this order: the ends share a cell; the edge still crosses its old chain;
+/// that can be led round ridges; then the events are followed exactly. Touching a wall is no contact. If p is
 /// blocked, only contacts of the edge before that time count (at equal times p's own comes first), and the
 /// returned chain is the last one.
 /// \param path the path of p
