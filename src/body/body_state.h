@@ -45,7 +45,6 @@ struct Move_scratch {
   std::vector<Half_facet> word;    ///< that of an edge, see Edge_words
   /// Of the facets crossed, in order, and from the other sides, from the last to the first; or empty.
   std::vector<Facet_corners<D>> corners_ahead, corners_behind;
-  std::vector<Facet_corners<D>> corners;  ///< of a facet
   Relink_scratch<D> relink;
 
   /// Room for the chains of so many edges.

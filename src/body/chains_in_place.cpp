@@ -2,9 +2,6 @@
 #include "chains_in_place.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <utility>
 
 namespace cellwalk::detail {
 namespace {

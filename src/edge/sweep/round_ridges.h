@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The second test of every sweep: whether the chain can be led round ridges.
+// The second test of a complete sweep: whether the chain can be led round ridges.
 #ifndef CELLWALK_EDGE_SWEEP_ROUND_RIDGES_H
 #define CELLWALK_EDGE_SWEEP_ROUND_RIDGES_H
 

@@ -153,7 +153,7 @@ TEST_F(RunBodies, ThreeSegmentsAreTheOtherSweep) {
   const auto events = [&](const std::string& run) {
     return report(run)["body_counts"]["edges"]["event_sweeps"].get<int>();
   };
-  EXPECT_GT(events("triangle"), events("paper")) << "looks at no swept triangle";
+  EXPECT_GT(events("triangle"), events("paper") + 5) << "looks at no swept triangle";
   // In the plane there are no faces to sweep.
   succeed({"run", "flat.json", "-o", "faces", "--sweep", "faces"});
   EXPECT_EQ(text("faces/contacts.csv"), text("triangle/contacts.csv"));

@@ -138,14 +138,14 @@ void test_worlds() {
     for (std::uint64_t number = 0; number < worlds; ++number) {
       Edge_world<D> w(first_world + number, generic);
       beside += walls_beside_ways(w.snapshot);
-      sweep(w, D == 2 ? 60 : 40, seen);
+      sweep(w, D == 2 ? 60 : 44, seen);
     }
     report(std::to_string(D) + (generic ? "D, generic" : "D, degenerate"), seen);
     if (worlds < 6 * oracle::world_kinds) continue;  // too few to meet everything
     EXPECT_GT(seen.judged, 4'000);
     EXPECT_GT(seen.must_block, 300);
     EXPECT_GT(seen.p_blocked, 1'500);
-    EXPECT_GT(seen.counts.event_sweeps, 700u);
+    EXPECT_GT(seen.counts.event_sweeps, 800u);
     EXPECT_GT(misses(seen.faults_of_third_side), 5);
     if (generic) continue;
     EXPECT_GT(beside, 15);
