@@ -117,8 +117,7 @@ class Ridge_relink {
     const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
     for (std::size_t part = 0; corners + part < corners_end; ++part) {
       const Facet_corners<D>& some = all_.corners[corners + part];
-      unsigned open = ~(edge_.to.sides(some).inner | some.ignored) & Certain_line<D>::all_lanes;
-      for (; open != 0; open &= open - 1) {
+      for (unsigned open = edge_.to.open_ridges(some); open != 0; open &= open - 1) {
         const std::size_t k = part * ridges_a_part + static_cast<std::size_t>(std::countr_zero(open));
         const Ridge ridge = ridge_of(cell, snapshot_.facet_of(f), k);
         const Signed_size after = turn(cell, ridge, k, edge_.to.from());

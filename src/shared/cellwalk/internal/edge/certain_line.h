@@ -58,8 +58,6 @@ class Certain_line {
   Certain_line(const Plane_frame<D>& frame, const Point<D>& from, const Float_point<D>& mapped)
       : scale_(frame.scale), from_(from), start_(spread<D>(mapped)) {}
 
-  static constexpr unsigned all_lanes = 15;
-
   const Point<D>& from() const { return from_; }
   /// The start in the frame, in all lanes.
   const Spread_point<D>& start() const { return start_; }
@@ -80,26 +78,16 @@ class Certain_line {
     error_ = Float4{error, error, error, error};
   }
 
-  /// False: nothing is certain of the line.
-  bool is_certain() const { return error_[0] < most_length; }
-
   /// True proves that the line leads through the interior of a facet, out of the cell from which its corners
   /// are seen. False is inconclusive.
   /// \param corners some of its corners: the facet is passed if this is true of all
   /// \pre the line was led to a point
   /// Cost: some 30 operations on lanes.
-  bool passes(const Facet_corners<D>& corners) const {
+  bool passes(const Facet_corners<D>& corners) const { return open_ridges(corners) == 0; }
+  /// The ridges on whose inner sides the line does not certainly pass, as a bit mask.
+  unsigned open_ridges(const Facet_corners<D>& corners) const {
     const Turn turned = turn(corners);
-    return (lane_mask(turned.sign > turned.bound) | corners.ignored) == all_lanes;
-  }
-  /// The ridges round which the line certainly turns in one direction, and in the other, as bit masks.
-  struct Sides {
-    unsigned inner, outer;
-  };
-  Sides sides(const Facet_corners<D>& corners) const {
-    const Turn turned = turn(corners);
-    return {lane_mask(turned.sign > turned.bound) & ~corners.ignored,
-            lane_mask(-turned.sign > turned.bound) & ~corners.ignored};
+    return ~(lane_mask(turned.sign > turned.bound) | corners.ignored) & all_lanes;
   }
 
   /// The sign of each ridge, positive if the line passes on its inner side. It is an affine function of the
@@ -127,6 +115,7 @@ class Certain_line {
   }
 
  private:
+  static constexpr unsigned all_lanes = 15;
   static constexpr float unit = 0x1p-24F, part = unit * Part::num / Part::den;
   /// In the frame. What underflows in shorter lines may exceed the bound.
   static constexpr float least_length = 0x1p-60F, most_length = 0x1p60F;

@@ -5,14 +5,11 @@
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/swept_triangle.h>
-#include <cellwalk/internal/edge/certain_triangle.h>
 
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace cellwalk::detail {
 
@@ -36,44 +33,6 @@ bool may_overlap(const Cell_view<D>& cell, std::size_t i, const Swept_triangle<D
 /// Cells of a flood.
 using Flooded = boost::container::small_vector<Cell, 64>;
 
-/// The facets that a triangle meets, of one cell after the other.
-template <int D>
-class Met_facets {
- public:
-  Met_facets(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, Walk_counts& counts)
-      : snapshot_(snapshot), triangle_(snapshot.frame(), triangle), exact_(triangle), counts_(counts) {}
-
-  /// As may_intersect(): lanes decide first.
-  bool may_intersect(const Cell_view<D>& cell, std::size_t facet, Half_facet f) {
-    const Certain_meeting meeting =
-        triangle_.is_certain() ? this->meeting(cell, facet, f) : Certain_meeting::open;
-    if (meeting != Certain_meeting::open) return meeting == Certain_meeting::met;
-    return detail::may_intersect(cell, facet, exact_, counts_);
-  }
-
- private:
-  Certain_meeting meeting(const Cell_view<D>& cell, std::size_t facet, Half_facet f) {
-    const std::uint32_t lane = to_index(f) % 4;
-    if (block_ != to_index(f) / 4) {
-      block_ = to_index(f) / 4;
-      planes_ = triangle_.sides(*snapshot_.blocks(Cell{block_}));
-    }
-    if ((planes_.missed() >> lane & 1) != 0) return Certain_meeting::missed;
-    if constexpr (D == 2) return Certain_meeting::open;
-    corners_.clear();
-    append_corners<D>(snapshot_.frame(), cell, facet, corners_);
-    return triangle_.meeting(corners_, planes_, lane);
-  }
-
-  const Snapshot<D>& snapshot_;
-  Certain_triangle<D> triangle_;
-  const Swept_triangle<D>& exact_;
-  Walk_counts& counts_;
-  std::uint32_t block_ = to_index(Cell::none);
-  typename Certain_triangle<D>::Plane_sides planes_{};
-  std::vector<Facet_corners<D>> corners_;
-};
-
 /// Finds the cells that the triangle meets, from `start` through passable facets, and calls on_wall(facet)
 /// for each of their walls that it may meet. Returns false if on_wall() does, or if there are more than
 /// `most_cells` cells.
@@ -82,7 +41,6 @@ bool flood(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& tri
            std::size_t most_cells, Flooded& found, On_wall on_wall) {
   ++counts.floods;
   found.assign(1, start);
-  Met_facets<D> met(snapshot, triangle, counts.walk);
   for (std::size_t head = 0; head < found.size(); ++head) {
     const Cell c = found[head];
     ++counts.flooded_cells;
@@ -92,7 +50,7 @@ bool flood(const Snapshot<D>& snapshot, Cell start, const Swept_triangle<D>& tri
       const bool is_wall = snapshot.is_impassable(f);
       const Cell next = snapshot.neighbour(f);
       if (!is_wall && std::find(found.begin(), found.end(), next) != found.end()) continue;
-      if (!met.may_intersect(cell, i, f)) continue;
+      if (!may_intersect(cell, i, triangle, counts.walk)) continue;
       if (is_wall) {
         if (!on_wall(f)) return false;
       } else {
