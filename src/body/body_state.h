@@ -39,6 +39,7 @@ template <int D>
 struct Move_scratch {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
+  bool crosses_inside = false;         ///< planes prove that the facets crossed are so in their interiors
   std::vector<Moved_chain<D>> chains;  ///< of the edges of the vertex, the first ones
   std::vector<std::pair<std::uint32_t, Supporting_walls>> supporting_walls;
   std::vector<Half_facet> behind;  ///< the facets crossed, seen from their other sides, as far as needed
@@ -58,6 +59,7 @@ struct Move_scratch {
   }
   void clear_walk() {
     visited.clear();
+    crosses_inside = false;
     if (crossed.empty()) return;
     crossed.clear();
     behind.clear();

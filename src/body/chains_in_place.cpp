@@ -151,6 +151,7 @@ Relink_answer Chains_in_place<D>::relink(const Corner& corner, const Particle<D>
                             corner.is_reversed,
                             has_inner_end_ || q.dimension == D,
                             body_.scratch.crossed,
+                            body_.scratch.crosses_inside,
                             wall,
                             {chain.data(), chain.size()},
                             body_.corners_of(corner.edge)};
@@ -191,6 +192,7 @@ bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>
     to.cell = certain_end(snapshot, from, target, counts.edges.walk, &scratch.crossed);
     to.aimed = 0;
     if (to.cell == Cell::none) return false;
+    scratch.crosses_inside = true;
   }
   settled.to = to;
   const bool is_inside = body.region.holds_way(vertex, target);

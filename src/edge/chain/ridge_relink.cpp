@@ -182,26 +182,23 @@ class Ridge_relink {
     const Half_facet undone = edge_.is_reversed ? behind : f;
     if (!word.empty() && (edge_.is_reversed ? word.back() : word.front()).facet == undone) {
       const auto place = edge_.is_reversed ? std::prev(word.end()) : word.begin();
-      const bool is_crossed = is_crossed_inside(*place);
+      const bool is_crossed = is_crossed_inside(f);
       word.erase(place);
       return is_crossed;
     }
     const auto passed = read(edge_.is_reversed ? f : behind);
-    if (!passed || !is_crossed_inside(*passed)) return false;
+    if (!passed || !is_crossed_inside(f)) return false;
     word.insert(edge_.is_reversed ? word.end() : word.begin(), *passed);
     return true;
   }
-  /// True if the vertex crosses the interior of a facet, in either direction.
-  bool is_crossed_inside(const Passed_facet& f) const {
-    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f.facet));
-    const std::size_t i = snapshot_.facet_of(f.facet), ridges = cell.loop(i).size();
-    std::size_t inner = 0, outer = 0;
-    for (std::size_t k = 0; k < ridges; ++k) {
-      const Signed_size turned = turn_of_line(cell, ridge_of(cell, i, k), k, edge_.from, edge_.to.from());
-      inner += turned.sign > 0;
-      outer += turned.sign < 0;
-    }
-    return inner == ridges || outer == ridges;
+  /// True if the vertex crosses the interior of a facet.
+  bool is_crossed_inside(Half_facet f) const {
+    if (edge_.crosses_inside) return true;
+    const Cell_view<D> cell = snapshot_.view(snapshot_.cell_of(f));
+    const std::size_t i = snapshot_.facet_of(f), ridges = cell.loop(i).size();
+    for (std::size_t k = 0; k < ridges; ++k)
+      if (turn_of_line(cell, ridge_of(cell, i, k), k, edge_.from, edge_.to.from()).sign <= 0) return false;
+    return true;
   }
 
   std::span<const Facet_corners<D>> corners_of(const Passed_facet& f) const {

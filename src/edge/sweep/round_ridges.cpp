@@ -22,6 +22,7 @@ Relink_answer lead_round_ridges(const Snapshot<D>& snapshot, const Vertex_path<D
                             false,
                             p.dimension == D || q.dimension == D,
                             path.crossed,
+                            false,
                             Half_facet::none,
                             {before.data(), before.size()},
                             corners};

@@ -58,6 +58,7 @@ TEST(RidgeRelink, AChainAllRoundAVertexIsNotBlocked) {
                                          false,
                                          true,
                                          {},
+                                         false,
                                          Half_facet::none,
                                          {round.data(), round.size()},
                                          corners},

@@ -98,10 +98,18 @@ Relink_answer relink(const Snapshot<D>& snapshot, const Moved_end<D>& moved, con
   else
     its_corners = corners_of(snapshot, {word.data(), word.size()});
   std::vector<Facet_corners<D>> corners;
-  const Relink_answer answer = detail::relink_at_ridges<D>(
-      snapshot,
-      {p, q, to, is_reversed, has_inner_end, moved.crossed, wall, {word.data(), word.size()}, its_corners},
-      scratch, chain, corners);
+  const Relink_answer answer = detail::relink_at_ridges<D>(snapshot,
+                                                           {p,
+                                                            q,
+                                                            to,
+                                                            is_reversed,
+                                                            has_inner_end,
+                                                            moved.crossed,
+                                                            false,
+                                                            wall,
+                                                            {word.data(), word.size()},
+                                                            its_corners},
+                                                           scratch, chain, corners);
   if (answer == Relink_answer::free && !is_from_behind) {
     EXPECT_TRUE(are_same(corners, corners_of(snapshot, {chain.data(), chain.size()})));
   }

@@ -22,6 +22,7 @@ struct Moving_edge {
   bool is_reversed;                           ///< the vertex is the second end, and the lines lead backwards
   bool has_inner_end;                         ///< one of its ends lies in the interior of its cell in the end
   std::span<const Half_facet> crossed;        ///< by the vertex
+  bool crosses_inside;                        ///< it is known to cross their interiors only
   Half_facet wall;                            ///< in whose interior the vertex is stopped, or none
   std::span<const Half_facet> chain;          ///< from the first end of the edge to the second
   std::span<const Facet_corners<D>> corners;  ///< of the chain
