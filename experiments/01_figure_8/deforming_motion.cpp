@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The motion of the paper's figure 8: the scene of `cellwalk run` without a scene, by the rule of traces.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/internal/simulation/trace_recorder.h>
 #include <cellwalk/io/scene.h>
 #include <cellwalk/simulation/world.h>

@@ -3,10 +3,10 @@
 // without each of them: hexahedra of side 0.3 bounce in a grid of hexahedral unit cells, 10 % of them solid,
 // by a fiftieth of a cell a step. Times include the response to contacts. Beside it, what the searches for a
 // contact cost where there is one.
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/rigid_body.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Cells that are replaced by others among bodies, and back: nanoseconds of processor time an operation, and
 // the memory after many of them.
-#include <cellwalk/body/generate.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>

@@ -2,8 +2,8 @@
 // What a second thread brings to many bodies: the scene of data/hexahedra.json, without files: 225
 // hexahedra bounce in a grid of 10^3 hexahedral cells, a tenth of them solid. The last argument is the
 // number of threads; time is that of the clock.
-#include <cellwalk/body/generate.h>
 #include <cellwalk/environment/gluing.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/simulation/body_replay.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>

@@ -6,12 +6,12 @@
 #define CELLWALK_CELLWALK_H
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/room.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/query/edge_cells.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Where the bodies of a scene start.
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/world.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Steps of bodies by hand: where they stop, what they report, and how they go on.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

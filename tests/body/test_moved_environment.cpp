@@ -2,13 +2,13 @@
 // Environments that are moved with all that lies in them: bodies, particles and locators go on as in one that
 // stays where it is.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
 #include <cellwalk/body/saved_body.h>
-#include <cellwalk/body/transform.h>
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/of_dimension.h>
 

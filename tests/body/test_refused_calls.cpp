@@ -2,9 +2,9 @@
 // Calls that are refused change nothing: targets that are not finite, too few or too many of them, vertices
 // that are not there. A twin that was not called goes on with the same bytes.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
 #include <cellwalk/body/saved_body.h>
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

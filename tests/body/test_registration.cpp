@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Single moves of walls among particles and bodies, by hand: a membrane at height 2 of a grid of unit cubes.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/reshape/reshaping.h>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_SIMULATION_LONG_FLIGHT_H
 #define CELLWALK_TESTS_SIMULATION_LONG_FLIGHT_H
 
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 
 #include "simulation/throws.h"
 #include "walk/oracle_trial.h"

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_SIMULATION_RECORDED_MOTIONS_H
 #define CELLWALK_TESTS_SIMULATION_RECORDED_MOTIONS_H
 
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Deformable bodies thrown around: nothing crosses a wall, no energy comes from nowhere, and under gravity
 // they come to rest.
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>

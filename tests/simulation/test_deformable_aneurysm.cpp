@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Deformable bodies and a catheter in a real vessel.
-#include <cellwalk/body/generate.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/io/surface_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/simulation/world.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies thrown around in generated environments: the invariants hold at any time, no certificate changes
 // anything, and nothing gets stuck.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/vessel.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Worlds that are saved and restored at any step go on as if they had never stopped.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/internal/simulation/saved_state.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies in a world: where they start, what they meet, and what never happens to them.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/world.h>

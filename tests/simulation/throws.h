@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_SIMULATION_THROWS_H
 #define CELLWALK_TESTS_SIMULATION_THROWS_H
 
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 #include <cellwalk/simulation/rigid_body.h>

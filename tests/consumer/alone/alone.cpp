@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Links one component by itself (ALONE_NAME), and uses the core as well, which each of them brings.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/generate.h>
-#include <cellwalk/body/transform.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #ifdef ALONE_io
 #include <cellwalk/io/mesh_file.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies that need no file. All but polylines have their centre at the origin. Coordinates are the same with
 // every compiler and on every machine.
-#ifndef CELLWALK_BODY_GENERATE_H
-#define CELLWALK_BODY_GENERATE_H
+#ifndef CELLWALK_GENERATORS_BODY_SHAPES_H
+#define CELLWALK_GENERATORS_BODY_SHAPES_H
 
 #include <cellwalk/records/body_shape.h>
 #include <cellwalk/records/body_soup.h>
@@ -66,4 +66,4 @@ extern template Body_soup<3> generate_body(const Polyline_shape<3>&);
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_BODY_GENERATE_H
+#endif  // CELLWALK_GENERATORS_BODY_SHAPES_H

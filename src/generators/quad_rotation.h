@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Private to body: cosine and sine of an angle in degrees, by an arithmetic of 113 binary digits that is the
 // same on every machine (the functions of the C library differ in their last digits).
-#ifndef CELLWALK_BODY_QUAD_ROTATION_H
-#define CELLWALK_BODY_QUAD_ROTATION_H
+#ifndef CELLWALK_GENERATORS_QUAD_ROTATION_H
+#define CELLWALK_GENERATORS_QUAD_ROTATION_H
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -39,4 +39,4 @@ inline double nearest(const Quad& value) { return value.convert_to<double>(); }
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_BODY_QUAD_ROTATION_H
+#endif  // CELLWALK_GENERATORS_QUAD_ROTATION_H

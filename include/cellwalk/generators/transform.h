@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies scaled, rotated and moved to where they start.
-#ifndef CELLWALK_BODY_TRANSFORM_H
-#define CELLWALK_BODY_TRANSFORM_H
+#ifndef CELLWALK_GENERATORS_TRANSFORM_H
+#define CELLWALK_GENERATORS_TRANSFORM_H
 
 #include <cellwalk/records/body_shape.h>
 #include <cellwalk/records/body_soup.h>
@@ -23,4 +23,4 @@ extern template Body_soup<3> transformed(Body_soup<3>, const Body_placement<3>&)
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_BODY_TRANSFORM_H
+#endif  // CELLWALK_GENERATORS_TRANSFORM_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Boxes and the hexahedron, which is the box of one cell along each axis.
-#include <cellwalk/body/generate.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/records/make_body.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/body/transform.h>
+#include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
