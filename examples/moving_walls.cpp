@@ -37,7 +37,7 @@ int main() {
     Reshaping<3> reshaping(environment, {.bodies = {&body}, .particles = {}},
                            {.at_contact = At_contact::push});
     const Move_report<3> report = reshaping.move(moves);
-    reshaping.close();
+    reshaping.finish();
     double lowest = 1;
     for (const Point<3>& x : body.positions()) lowest = std::min(lowest, x[2]);
     std::printf("floor at %.3f: %zu contacts, %zu points short of their targets, thread from %.3f on\n",

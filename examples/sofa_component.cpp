@@ -74,7 +74,7 @@ using namespace stand_in;
 /// tries the free motion, in which each vertex that meets a wall stays.
 std::vector<DetectionOutput> detect(const Body<3>& body, const VecCoord& free_position, Body_counts& counts) {
   Body_options options;
-  options.policy = Contact_policy::reject;
+  options.rule = Step_rule::reject;
   Step_report<3> report;
   Body<3> trial = body;
   trial.step(free_position, options, report, counts);

@@ -49,6 +49,6 @@ print("lowest vertex:", body.positions[:, 2].min())
 ## [body]
 
 ## [stay]
-blocked = body.step(body.positions - [0.0, 0.0, 0.25], policy="reject", edges="at_target", report="blocked")
+blocked = body.step(body.positions - [0.0, 0.0, 0.25], rule="reject_at_target", report="blocked")
 print("stay:", blocked["vertex"][blocked["stays"]], "z of the others:", numpy.delete(body.positions[:, 2], blocked["vertex"]))
 ## [stay]

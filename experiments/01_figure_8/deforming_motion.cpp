@@ -30,7 +30,7 @@ Scene<3> scene_of(const Trace_options& options) {
 /// The rule of traces, and contacts, which tell the bodies how to bounce.
 Body_options rule() {
   Body_options options = trace_options(Sweep::triangle);
-  options.reported = Reported::contacts;
+  options.reports_blocked = false;
   return options;
 }
 

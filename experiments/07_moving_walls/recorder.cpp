@@ -19,7 +19,7 @@ Recorded_step record_step(Scene& scene, const Walls& walls, double time) {
   Reshaping<3> reshaping(scene.environment(), scene.residents());
   for (const auto& [point, target] : targets) results.push_back(reshaping.move(point, target));
   const double moved = processor_seconds();
-  reshaping.close();
+  reshaping.finish();
   step.close_us = 1e6 * (processor_seconds() - moved);
   step.move_us = 1e6 * (moved - start);
   step.counts = reshaping.counts();

@@ -67,7 +67,7 @@ void cut(benchmark::State& state) {
           microseconds.push_back(1e6 * seconds / static_cast<double>(report.cells));
         cells += report.cells;
       }
-    reshaping.close();
+    reshaping.finish();
   }
   state.counters["cells"] = static_cast<double>(environment.snapshot().cell_count());
   state.counters["cuts"] = static_cast<double>(cuts);

@@ -38,7 +38,7 @@ class Step_clock {
       for (const auto& [point, target] : moves)
         short_ += reshaping.move(point, target).end != Move_end::reached;
     const double moved = experiments::processor_seconds();
-    reshaping.close();
+    reshaping.finish();
     const double closed = experiments::processor_seconds();
     moves_.push_back(share(moved - start));
     close_.push_back(share(closed - moved));

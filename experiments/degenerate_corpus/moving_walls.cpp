@@ -117,7 +117,7 @@ class Moving_wall_maker final : public Maker<D> {
   /// Walls of the boundary may not run into each other; of that nothing is made.
   bool keeps_boundary(const Move<D>& move) {
     Reshaping<D> reshaping(environment_, {}, {.at_contact = At_contact::hold});
-    const Move_end end = reshaping.ask(move.vertex, move.to).end;
+    const Move_end end = reshaping.test_move(move.vertex, move.to).end;
     if (end != Move_end::reached && end != Move_end::boundary)
       throw std::logic_error("a move of a vertex that cells contradict");
     return end == Move_end::reached;

@@ -35,7 +35,7 @@ std::vector<Point<3>> read_points(const char* path) {
 }
 
 /// What a caller keeps of each move.
-struct Outcome {
+struct Move_outcome {
   std::vector<Walk_status> status;
   std::vector<double> time;
   std::vector<Cell> cell;
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     const Locator<3> locator(snapshot);
     for (std::size_t i = 0; i < n; ++i) particles.push_back(locator.particle_at(points[i]).value());
   }
-  Outcome outcome{std::vector<Walk_status>(n), std::vector<double>(n), std::vector<Cell>(n)};
+  Move_outcome outcome{std::vector<Walk_status>(n), std::vector<double>(n), std::vector<Cell>(n)};
   Walk_counts counts;
   std::uint64_t contacts = 0;
   std::string line;

@@ -125,7 +125,7 @@ py::array Any_body::step(const py::object& targets, const Body_options& options)
   return std::visit(
       [&]<int D>(Body<D>& body) -> py::array {
         const auto to = targets_of(body, targets);
-        if (options.edges == Edge_rule::at_target) need_few_edges(body);
+        if (options.rule == Step_rule::reject_at_target) need_few_edges(body);
         Step_report<D> report;
         std::vector<Body_contact_row<D>> contacts;
         std::vector<Rejected_row<D>> blocked;
@@ -136,8 +136,8 @@ py::array Any_body::step(const py::object& targets, const Body_options& options)
           for (const Rejected_move<D>& move : report.blocked)
             blocked.push_back(to_row(world.snapshot(), move));
         }
-        return options.reported == Reported::blocked ? py::array(to_array(std::move(blocked)))
-                                                     : py::array(to_array(std::move(contacts)));
+        return options.reports_blocked ? py::array(to_array(std::move(blocked)))
+                                       : py::array(to_array(std::move(contacts)));
       },
       body_);
 }

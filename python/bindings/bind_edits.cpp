@@ -238,10 +238,10 @@ void bind_replacements(py::class_<Edits>& edits) {
            "3D only.")
       .def("collapse", &Edits::collapse, py::arg("u"), py::arg("onto"),
            "Removes the point u by moving it along an edge into the other end.")
-      .def("merge", &Edits::merge, py::arg("point"), py::arg("onto"),
+      .def("merge_vertices", &Edits::merge_vertices, py::arg("point"), py::arg("onto"),
            "Merges a point of the walls of a gap with one across it, a stitch: the free cells that have both "
            "vanish. Refused if a cell would be flat, or if anything lies in the free cells around the point.")
-      .def("peel", &Edits::peel, py::arg("vertex"), py::arg("cells"), py::arg("target"),
+      .def("split_vertex", &Edits::split_vertex, py::arg("vertex"), py::arg("cells"), py::arg("target"),
            "Takes solid cells around a point back from it: they get a new point at the target, in their "
            "inside, and free cells fill the gap.")
       .def(

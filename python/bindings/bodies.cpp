@@ -13,19 +13,20 @@ namespace cellwalk::python {
 namespace {
 
 struct Step_words {
-  const std::string &policy, &edges, &report;
+  const std::string &rule, &report;
 };
 
-Body_options to_options(const Sweep_words& words, const Step_words& rule, bool clearance, int most_contacts) {
+Body_options to_options(const Sweep_words& words, const Step_words& step, bool clearance, int most_contacts) {
   Body_options options;
   options.sweep = to_sweep_options(words);
   options.clearance = clearance;
-  options.policy = choose<Contact_policy>(
-      rule.policy, "policy", {{"slide", Contact_policy::slide}, {"reject", Contact_policy::reject}});
-  options.edges = choose<Edge_rule>(rule.edges, "edges",
-                                    {{"swept", Edge_rule::swept}, {"at_target", Edge_rule::at_target}});
-  options.reported = choose<Reported>(rule.report, "report",
-                                      {{"contacts", Reported::contacts}, {"blocked", Reported::blocked}});
+  options.rule = choose<Step_rule>(step.rule, "rule",
+                                   {{"slide", Step_rule::slide},
+                                    {"reject", Step_rule::reject},
+                                    {"reject_at_target", Step_rule::reject_at_target}});
+  options.reports_blocked = choose<bool>(step.report, "report", {{"contacts", false}, {"blocked", true}});
+  if (options.reports_blocked && options.rule != Step_rule::reject_at_target)
+    throw Error(Error_code::usage, "report=\"blocked\" needs rule=\"reject_at_target\"");
   options.most_contacts = most_contacts;
   return options;
 }
@@ -67,26 +68,25 @@ void bind_bodies(py::module_& module) {
       .def(
           "step",
           [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
-             const std::string& search, double tolerance, const std::string& policy, const std::string& edges,
-             const std::string& report, bool clearance, int most_contacts) {
-            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance},
-                                                 {policy, edges, report}, clearance, most_contacts));
+             const std::string& search, double tolerance, const std::string& rule, const std::string& report,
+             bool clearance, int most_contacts) {
+            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, {rule, report},
+                                                 clearance, most_contacts));
           },
           py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
-          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("policy") = "slide",
-          py::arg("edges") = "swept", py::arg("report") = "contacts", py::arg("clearance") = true,
-          py::arg("most_contacts") = 4,
+          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("rule") = "slide",
+          py::arg("report") = "contacts", py::arg("clearance") = true, py::arg("most_contacts") = 4,
           "Moves the vertices one after the other to their targets, as far as walls allow. Returns the "
           "contacts as a structured array: vertex (that moved), feature (number of the vertex, edge or face "
           "that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
           "sweep: \"triangle\": nothing that an edge sweeps is missed; \"faces\": nor a face; "
           "\"three_segments\": the paper's.\n"
-          "policy: a vertex that meets a wall slides on along it, until it met most_contacts of them; or "
-          "\"reject\": it stays where it was.\n"
-          "edges: \"swept\": an edge that meets a wall while it sweeps is one that does. \"at_target\", with "
-          "policy=\"reject\": the rule of the paper and of traces: only one that meets a wall where its "
-          "vertex goes. Faces are not looked at then, and no vertex may have more than 64 edges.\n"
-          "report=\"blocked\", with edges=\"at_target\": returns what blocks instead, vertex by vertex, and "
+          "rule: \"slide\": a vertex that meets a wall, itself or by an edge that sweeps, slides along it, "
+          "until it met most_contacts of them. \"reject\": it stays where it was. \"reject_at_target\", "
+          "the rule of the paper and of traces: it stays if it meets a wall, or one of its edges does at "
+          "its target. Faces are left alone then, and no vertex may have more than 64 edges.\n"
+          "report=\"blocked\", with rule=\"reject_at_target\": returns what blocks instead, vertex by "
+          "vertex, and "
           "locates no contact of an edge on its way: vertex, stays, is_vertex_blocked, edges and swept_edges "
           "(bit i is for neighbours(vertex)[i]), time, point, normal, kind, cell, facet. A vertex without a "
           "row moved, and nothing was met. edges: a wall is in their way where the vertex would be. The wall "

@@ -93,7 +93,7 @@ void Edits::exit() {
   with_session([&](auto& session) {
     const py::gil_scoped_release released;
     const auto ended = std::exchange(session_, std::monostate{});
-    session.reshaping().close();
+    session.reshaping().finish();
   });
 }
 
@@ -115,7 +115,7 @@ void add_held(const Listed_residents<D>& residents, const std::vector<Resident>&
 /// Nothing is changed if an argument is wrong; names are looked up before.
 template <class Names, class Change>
 Changes Edits::change_all(const Names& names, const Change& change) {
-  std::vector<Change_result> results;
+  std::vector<Outcome> results;
   std::vector<Held_row> held;
   with_session([&]<int D>(Session<D>& session) {
     const py::gil_scoped_release released;
@@ -123,7 +123,7 @@ Changes Edits::change_all(const Names& names, const Change& change) {
     std::vector<Name> found;
     for (std::size_t i = 0; i < names.size(); ++i) found.push_back(names.find(session.snapshot(), i));
     for (const Name name : found) {
-      Change_result& result = results.emplace_back();
+      Outcome& result = results.emplace_back();
       if (name == Name::none) {
         result.reason = "it was replaced by others";
         continue;
@@ -211,14 +211,14 @@ Replaced Edits::collapse(std::uint32_t u, std::uint32_t onto) {
   });
 }
 
-Replaced Edits::merge(std::uint32_t point, std::uint32_t onto) {
+Replaced Edits::merge_vertices(std::uint32_t point, std::uint32_t onto) {
   return replace([&](auto& session) {
     const py::gil_scoped_release released;
-    return session.reshaping().merge(point, onto);
+    return session.reshaping().merge_vertices(point, onto);
   });
 }
 
-Replaced Edits::peel(std::uint32_t vertex, const py::object& cells, const py::object& target) {
+Replaced Edits::split_vertex(std::uint32_t vertex, const py::object& cells, const py::object& target) {
   const Named_cells names(cells, "cells");
   return replace([&]<int D>(Session<D>& session) {
     const Point<D> to = point_of<D>(target, "target");
@@ -229,7 +229,7 @@ Replaced Edits::peel(std::uint32_t vertex, const py::object& cells, const py::ob
       if (solid.back() == Cell::none)
         throw Error(Error_code::usage, fmt::format("cells[{}] was replaced by others: list them again", i));
     }
-    return session.reshaping().peel(vertex, solid, to);
+    return session.reshaping().split_vertex(vertex, solid, to);
   });
 }
 

@@ -103,8 +103,8 @@ class Edits {
   Replaced flip(const py::object& facet);
   Replaced remove_edge(std::uint32_t u, std::uint32_t v);
   Replaced collapse(std::uint32_t u, std::uint32_t onto);
-  Replaced merge(std::uint32_t point, std::uint32_t onto);
-  Replaced peel(std::uint32_t vertex, const py::object& cells, const py::object& target);
+  Replaced merge_vertices(std::uint32_t point, std::uint32_t onto);
+  Replaced split_vertex(std::uint32_t vertex, const py::object& cells, const py::object& target);
 
   Relax_report relax(const py::object& points, const Relax_options& options);
   Cut_made cut(const py::object& blade, const py::object& pieces, const py::object& sweep, double opening,

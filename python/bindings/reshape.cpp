@@ -40,7 +40,7 @@ struct Reshape_words {
 /// What a call asks for: moves, or what they would come to.
 struct Reshape_request {
   Reshape_options options;
-  bool only_asks = false;
+  bool only_tests = false;
 };
 
 void need_at_least(int least, int given, const char* name) {
@@ -51,12 +51,12 @@ void need_at_least(int least, int given, const char* name) {
 /// \throw UsageError for words and numbers that are none of the options
 Reshape_request to_request(const Reshape_words& words) {
   Reshape_request request;
-  request.only_asks = words.at_contact == "ask";
+  request.only_tests = words.at_contact == "test";
   request.options.at_contact = choose<At_contact>(words.at_contact, "at_contact",
                                                   {{"stop", At_contact::stop},
                                                    {"hold", At_contact::hold},
                                                    {"push", At_contact::push},
-                                                   {"ask", At_contact::hold}});
+                                                   {"test", At_contact::hold}});
   need_at_least(1, words.most_rounds, "most_rounds");
   need_at_least(0, words.most_pushes, "most_pushes");
   need_at_least(1, words.most_contacts, "most_contacts");
@@ -133,9 +133,9 @@ Wall_rows<D> work_off(World<D>& world, const Reshape_request& request,
     if (result.hit) residents.number(result.hit->resident);
     rows.set(result);
   };
-  if (request.only_asks) {
+  if (request.only_tests) {
     for (const Vertex_move<D>& move : moves) {
-      const Vertex_result<D> result = reshaping.ask(move.point, move.target);
+      const Vertex_result<D> result = reshaping.test_move(move.point, move.target);
       set(result);
       if (result.hit) add_hit(*result.hit);
     }
@@ -145,7 +145,7 @@ Wall_rows<D> work_off(World<D>& world, const Reshape_request& request,
     for (const Wall_hit<D>& hit : report.hits) add_hit(hit);
     rows.rounds = report.rounds;
   }
-  reshaping.close();
+  reshaping.finish();
   rows.counts = reshaping.counts();
   return rows;
 }
@@ -189,7 +189,7 @@ void bind_results(py::module_& module) {
       .def_readonly("point", &Wall_moves::point, "uint32 (N,): the points, as they were given.")
       .def_readonly("end", &Wall_moves::end, "uint8 (N,): codes of MoveEnd.")
       .def_readonly("position", &Wall_moves::position,
-                    "float64 (N, dimension): where the points are now; with at_contact=\"ask\", where they "
+                    "float64 (N, dimension): where the points are now; with at_contact=\"test\", where they "
                     "would be, each by itself.")
       .def_readonly("time", &Wall_moves::time,
                     "float64 (N,): the share of the way that was free when the point was last tried: 1 if it "
@@ -240,11 +240,11 @@ void bind_reshape(py::module_& module, Environment_class& environment) {
       "make the environment with simplicial=True.\n\n"
       "bodies, particles: all that lie in the environment. One that is not listed raises UsageError at its "
       "next "
-      "use, also after at_contact=\"ask\", until Body.register_again() or Particles.locate_again().\n"
+      "use, also after at_contact=\"test\", until Body.register_again() or Particles.locate_again().\n"
       "at_contact: what a point does whose walls meet one of them. \"stop\": it goes to a verified position, "
       "there or just before; \"hold\": it stays where it was; \"push\": what it meets is moved out of its "
       "way, "
-      "as far as walls allow, and else it stops; \"ask\": nothing moves, and each row says what \"hold\" "
+      "as far as walls allow, and else it stops; \"test\": nothing moves, and each row says what \"hold\" "
       "would "
       "do if it came first.\n"
       "most_rounds: points are tried so often, in order and backwards in turn; one that would make a cell "

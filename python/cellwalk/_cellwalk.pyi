@@ -163,8 +163,8 @@ class Edits:
     def flip(self, facet: _Facets) -> Replacement: ...
     def remove_edge(self, u: int, v: int) -> Replacement: ...
     def collapse(self, u: int, onto: int) -> Replacement: ...
-    def merge(self, point: int, onto: int) -> Replacement: ...
-    def peel(self, vertex: int, cells: _Cells, target: Sequence[float]) -> Replacement: ...
+    def merge_vertices(self, point: int, onto: int) -> Replacement: ...
+    def split_vertex(self, vertex: int, cells: _Cells, target: Sequence[float]) -> Replacement: ...
     def relax(
         self,
         points: Union[_Indices, Sequence[int]],
@@ -266,7 +266,7 @@ class Environment:
         *,
         bodies: Iterable[Body] = (),
         particles: Iterable[Particles] = (),
-        at_contact: Literal["stop", "hold", "push", "ask"] = "stop",
+        at_contact: Literal["stop", "hold", "push", "test"] = "stop",
         most_rounds: int = 8,
         most_pushes: int = 16,
         sweep: _Sweep = "triangle",
@@ -327,8 +327,7 @@ class Body:
         touch: _Touch = "pass",
         search: _Search = "exact",
         tolerance: float = ...,
-        policy: Literal["slide", "reject"] = "slide",
-        edges: Literal["swept", "at_target"] = "swept",
+        rule: Literal["slide", "reject", "reject_at_target"] = "slide",
         report: Literal["contacts", "blocked"] = "contacts",
         clearance: bool = True,
         most_contacts: int = 4,

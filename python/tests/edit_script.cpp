@@ -52,11 +52,11 @@ class Script {
       const auto u = number(in), v = number(in);
       say(word == "collapse" ? reshaping_->collapse(u, v) : reshaping_->remove_edge(u, v));
     }
-    if (word == "peel") {
+    if (word == "split_vertex") {
       const auto vertex = number(in);
       std::vector<Cell> cells(number(in));
       for (Cell& c : cells) c = cell(in);
-      say(reshaping_->peel(vertex, cells, point(in)));
+      say(reshaping_->split_vertex(vertex, cells, point(in)));
     }
     if (word == "relax") {
       std::vector<std::uint32_t> points(number(in));
@@ -71,7 +71,7 @@ class Script {
   }
 
   void end(const std::string& path) {
-    if (reshaping_) reshaping_->close();
+    if (reshaping_) reshaping_->finish();
     io::write_ovm(path, environment_.soup());
   }
 
@@ -108,7 +108,7 @@ class Script {
         &bodies_.emplace_back(snapshot(), locator_, make_body(std::move(parts)).body));
   }
 
-  void say(const Change_result& result) const {
+  void say(const Outcome& result) const {
     std::printf("%d '%s'", result.is_made, result.reason.c_str());
     for (const Resident& r : result.held_by)
       std::printf(" (%d %u %d %u)", r.is_particle, r.owner, static_cast<int>(r.feature), r.number);

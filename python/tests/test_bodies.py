@@ -12,7 +12,7 @@ from cellwalk import Feature
 
 TETRAHEDRON = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 FACES = numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-BY_RULE = {"policy": "reject", "edges": "at_target", "report": "blocked"}
+BY_RULE = {"rule": "reject_at_target", "report": "blocked"}
 
 
 class Bodies(unittest.TestCase):
@@ -155,12 +155,10 @@ class Bodies(unittest.TestCase):
             self.body.neighbours(9)
         with self.assertRaisesRegex(ValueError, "the target of vertex 2 is not finite"):
             self.body.step(targets, **BY_RULE)
-        with self.assertRaisesRegex(cellwalk.UsageError, "no contact to slide from"):
-            self.body.step(self.body.positions, edges="at_target")
-        with self.assertRaisesRegex(cellwalk.UsageError, "reports contacts only"):
+        with self.assertRaisesRegex(cellwalk.UsageError, "needs rule=.reject_at_target"):
             self.body.step(self.body.positions, report="blocked")
-        with self.assertRaisesRegex(cellwalk.UsageError, "policy.*stay"):
-            self.body.step(self.body.positions, policy="stay")
+        with self.assertRaisesRegex(cellwalk.UsageError, "rule.*stay"):
+            self.body.step(self.body.positions, rule="stay")
         angles = numpy.arange(66) / 10
         star = numpy.stack([2 + numpy.cos(angles), 2 + numpy.sin(angles), 1 + angles / 10], axis=1)
         star[0] = 2.0

@@ -82,7 +82,7 @@ class ByHand(unittest.TestCase):
             for row in inside:
                 again = edits.close([row])
                 self.assertTrue(again.made[0] or again.reasons == ["it was replaced by others"])
-            for call in (lambda: edits.insert_point(cells[7], cells["mean"][7]), lambda: edits.peel(0, cells[[7]], (1, 1, 1))):
+            for call in (lambda: edits.insert_point(cells[7], cells["mean"][7]), lambda: edits.split_vertex(0, cells[[7]], (1, 1, 1))):
                 with self.assertRaisesRegex(cellwalk.UsageError, "replaced by others: list them again"):
                     call()
 
@@ -163,15 +163,15 @@ class Replacing(unittest.TestCase):
         gap = cells[~cells["solid"] & (numpy.isin(cells["points"], pairs[0]).sum(axis=1) == 2)]
         particle = cellwalk.Particles(environment, gap["mean"][:1])
         with environment.editing(particles=[particle]) as edits:
-            held = edits.merge(*pairs[0])
+            held = edits.merge_vertices(*pairs[0])
             self.assertEqual((held.made, held.point), (False, None))
             self.assertIn("something lies", held.reason)
             self.assertEqual(held.held_by[["is_particle", "owner", "feature"]].tolist(), [(True, 0, 0)])
         with environment.editing() as edits:
-            merged = [edits.merge(*pair) for pair in pairs]
+            merged = [edits.merge_vertices(*pair) for pair in pairs]
             self.assertTrue(all(m.made and m.point == p and not len(m.held_by) for m, (p, _) in zip(merged, pairs)))
             with self.assertRaisesRegex(cellwalk.UsageError, "not with itself"):
-                edits.merge(0, 0)
+                edits.merge_vertices(0, 0)
         self.assertEqual(environment.certificate["free_volume"], 0)
 
     def test_slits(self):
@@ -215,11 +215,11 @@ class Refusals(unittest.TestCase):
 
     def test_positions_points_and_blades(self):
         self.refused(TypeError, "position must be a sequence of 3 numbers", lambda e: e.insert_point(0, (1, 1)))
-        self.refused(TypeError, "target must be a sequence of 3", lambda e: e.peel(0, [0], None))
+        self.refused(TypeError, "target must be a sequence of 3", lambda e: e.split_vertex(0, [0], None))
         self.refused(cellwalk.InputError, "not finite", lambda e: e.insert_point(0, (numpy.nan, 0, 0)))
         self.refused(cellwalk.UsageError, "there is no edge", lambda e: e.split_edge(0, 26, (1, 1, 1)))
         self.refused(cellwalk.UsageError, "there is no", lambda e: e.collapse(99, 0))
-        self.refused(cellwalk.UsageError, "cell 5 is no solid simplex with point 0", lambda e: e.peel(0, [5], (1, 1, 1)))
+        self.refused(cellwalk.UsageError, "cell 5 is no solid simplex with point 0", lambda e: e.split_vertex(0, [5], (1, 1, 1)))
         self.refused(ValueError, r"points\[1\] is 27: there are 27 points", lambda e: e.relax([0, 27]))
         blade = numpy.array([[1.5, -1, -1], [1.5, 4, -1], [1.5, 4, 4]])
         self.refused(cellwalk.UsageError, "pieces and sweep exclude", lambda e: e.cut(blade, pieces=numpy.array([[0, 1, 2]]), sweep=(0, 0, 1)))

@@ -76,7 +76,7 @@ class Recorder:
             u, v = self.edge()
             x = 0.5 * (self.environment.points[u] + self.environment.points[v])
             self.replaced(kind, f"{u} {v} {text(x)}", self.edits.split_edge(u, v, x))
-        elif kind == "peel":
+        elif kind == "split_vertex":
             cells = self.environment.cells()
             solid = cells[cells["solid"]]
             if len(solid) == 0:
@@ -84,7 +84,7 @@ class Recorder:
             row = self.pick(solid)
             vertex = int(self.rng.choice(row["points"]))
             x = 0.75 * self.environment.points[vertex] + 0.25 * row["mean"]
-            self.replaced(kind, f"{vertex} 1 {row['cell']} {text(x)}", self.edits.peel(vertex, [row], x))
+            self.replaced(kind, f"{vertex} 1 {row['cell']} {text(x)}", self.edits.split_vertex(vertex, [row], x))
         else:
             u, v = self.edge()
             self.replaced(kind, f"{u} {v}", getattr(self.edits, kind)(u, v))
@@ -128,7 +128,7 @@ class AsInCpp(unittest.TestCase):
         with environment.editing(bodies=placed, particles=swarms) as edits:
             recorder = Recorder(environment, edits, rng)
             recorder.assert_equal = self.assertEqual
-            replacements = ["insert_point", "flip", "split_edge", "collapse", "peel"] + ["remove_edge"] * (environment.dimension == 3)
+            replacements = ["insert_point", "flip", "split_edge", "collapse", "split_vertex"] + ["remove_edge"] * (environment.dimension == 3)
             for _ in range(steps):
                 kind = rng.integers(3)
                 if kind == 0:

@@ -11,7 +11,7 @@ import numpy
 import cellwalk
 from cellwalk import Feature, MoveEnd, Place, Status
 
-ALL = ("stop", "hold", "push", "ask")
+ALL = ("stop", "hold", "push", "test")
 
 
 def plane(**options):
@@ -87,7 +87,7 @@ class ByHand(unittest.TestCase):
                     self.assertTrue(0.5 - 1e-9 < height <= 0.5)
                 else:
                     self.assertEqual((moves.time[0], height), (2 / 3, 0))
-            self.assertEqual(moves.rounds == 0, at_contact == "ask")
+            self.assertEqual(moves.rounds == 0, at_contact == "test")
             up = particles.positions + [0, 0.125]
             self.assertEqual(particles.move(up).status.tolist(), [Status.OUTSIDE, Status.FREE, Status.FREE])
             self.assertEqual(particles.cells[0], -1)
@@ -147,7 +147,7 @@ class Environments(unittest.TestCase):
             moves = environment.reshape(floor, at_height(environment, floor, 0.25), at_contact=at_contact)
             self.assertTrue((moves.end == MoveEnd.REACHED).all())
             self.assertTrue((moves.position[:, 2] == 0.25).all())
-            if at_contact == "ask":
+            if at_contact == "test":
                 break
             self.assertFalse(numpy.array_equal(view, before))
             self.assertEqual(environment.locate(below).status[0], Place.OUTSIDE)
@@ -185,7 +185,7 @@ class Environments(unittest.TestCase):
     def test_simplicial(self):
         for made in (plane(), room(), cellwalk.Environment(*CUBE, simplicial=True)):
             corners = made.dimension + 1
-            moves = made.reshape(numpy.arange(corners), made.points[:corners] * 0.5 + 0.25, at_contact="ask")
+            moves = made.reshape(numpy.arange(corners), made.points[:corners] * 0.5 + 0.25, at_contact="test")
             self.assertEqual(len(moves), corners)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "cube.ovm"
@@ -237,11 +237,11 @@ class Listing(unittest.TestCase):
         self.assertEqual((self.particles.cells >= 0).tolist(), [True, True])
 
     def test_asking_changes_nothing_for_what_is_not_listed(self):
-        moves = self.raise_floor(at_contact="ask", bodies=[self.body])
+        moves = self.raise_floor(at_contact="test", bodies=[self.body])
         self.assertIn(MoveEnd.REACHED, moves.end)
         self.assertTrue((self.particles.move(self.particles.positions + 0.125).status == Status.FREE).all())
         self.body.validate()
-        self.raise_floor(at_contact="ask")
+        self.raise_floor(at_contact="test")
         self.body.validate()
         self.body.step(self.body.positions + [0, 0, 0.125])
 
@@ -309,7 +309,7 @@ class Refusals(unittest.TestCase):
 
     def test_words_and_numbers(self):
         empty = numpy.zeros(0, int), numpy.zeros((0, 3))
-        self.refused(cellwalk.UsageError, "at_contact takes stop, hold, push, ask, not bounce", *empty, at_contact="bounce")
+        self.refused(cellwalk.UsageError, "at_contact takes stop, hold, push, test, not bounce", *empty, at_contact="bounce")
         self.refused(cellwalk.UsageError, "sweep takes three_segments, triangle, faces, not all", *empty, sweep="all")
         self.refused(cellwalk.UsageError, "most_rounds takes a number from 1, not 0", *empty, most_rounds=0)
         self.refused(cellwalk.UsageError, "most_pushes takes a number from 0, not -1", *empty, most_pushes=-1)

@@ -28,7 +28,7 @@ class AsTheProgram(unittest.TestCase):
         rows = [",".join([str(p), *map(repr, x.tolist())]) for p, x in zip(points, targets)]
         (self.folder / "moves.csv").write_text("\n".join([names, *rows, ""]))
         command = [PROGRAM, "deform", "before.ovm", "moves.csv", "--report", "report.csv", "--at-contact", at_contact]
-        command += ["-o", "after.ovm"] if at_contact != "ask" else []
+        command += ["-o", "after.ovm"] if at_contact != "test" else []
         for body in bodies:
             command += ["--body", body]
         subprocess.run(command, cwd=self.folder, check=True, capture_output=True, timeout=120)
@@ -47,7 +47,7 @@ class AsTheProgram(unittest.TestCase):
         self.assertNotIn("cell", {row["status"] for row in rows})
         moves = environment.reshape(points, targets, bodies=bodies, at_contact=at_contact, most_rounds=1)
         self.assertEqual([MoveEnd(end).name.lower() for end in moves.end], [row["status"] for row in rows])
-        after = cellwalk.Environment.load(self.folder / ("before.ovm" if at_contact == "ask" else "after.ovm"))
+        after = cellwalk.Environment.load(self.folder / ("before.ovm" if at_contact == "test" else "after.ovm"))
         self.assertEqual(after.points.tobytes(), environment.points.tobytes())
         told = {row["row"]: row for row in moves.contacts}
         for i, row in enumerate(rows):
@@ -73,7 +73,7 @@ class AsTheProgram(unittest.TestCase):
             "x,y,z\n0.2,0.2,0.1\n2.1,0.1,0.15\n3.8,1.8,0.1\n0.4,1.85,1.8\n0.15,0.2,1.9\n3.7,0.15,1.85\n3.9,1.9,0.2\n")
         (self.folder / "tetrahedron.off").write_text(
             "OFF\n4 4 0\n0.2 0.2 1.2\n0.9 0.3 1.8\n0.3 1.8 1.7\n0.2 1.1 1.9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
-        for at_contact in ("stop", "hold", "push", "ask"):
+        for at_contact in ("stop", "hold", "push", "test"):
             environment = cellwalk.Environment.generate("hexes", cells=(4, 2, 2), simplicial=True)
             ends = self.compare(environment, ["wire.csv", "tetrahedron.off"], at_contact, numpy.random.default_rng(7))
             self.assertGreater(ends.count("contact"), 5 if at_contact != "push" else -1)
@@ -81,7 +81,7 @@ class AsTheProgram(unittest.TestCase):
 
     def test_in_2d(self):
         (self.folder / "bar.csv").write_text("x,y\n0.2,0.2\n3.8,0.15\n3.8,3.8\n0.15,3.85\n")
-        for at_contact in ("stop", "hold", "push", "ask"):
+        for at_contact in ("stop", "hold", "push", "test"):
             environment = cellwalk.Environment.generate("squares", cells=(4, 4), simplicial=True)
             ends = self.compare(environment, ["bar.csv"], at_contact, numpy.random.default_rng(3))
             self.assertGreater(ends.count("contact"), 5 if at_contact != "push" else -1)

@@ -23,22 +23,13 @@ namespace {
 /// Bits in the sets of a Rejected_move.
 constexpr std::size_t most_reported_edges = 64;
 
-[[noreturn, gnu::noinline]] void refuse_rule(const Body_options& options) {
-  if (options.edges == Edge_rule::at_target && options.policy == Contact_policy::reject)
-    throw Error(Error_code::usage, "a vertex of this body has more than 64 edges: use Edge_rule::swept");
-  throw Error(Error_code::usage,
-              options.edges == Edge_rule::at_target
-                  ? "a step that looks at edges where their vertex goes has no contact to slide "
-                    "from: use Contact_policy::reject with Edge_rule::at_target"
-                  : "a step that sweeps edges reports contacts only: use Edge_rule::at_target "
-                    "to have what blocks reported");
+[[noreturn, gnu::noinline]] void refuse_rule() {
+  throw Error(Error_code::usage, "a vertex of this body has more than 64 edges: use Step_rule::reject");
 }
 
 void check_rule(const Body_options& options, const detail::Body_topology& topology) {
-  const bool is_at_target = options.edges == Edge_rule::at_target;
-  if (is_at_target ? options.policy != Contact_policy::reject || topology.max_degree() > most_reported_edges
-                   : options.reported != Reported::contacts)
-    refuse_rule(options);
+  if (options.rule == Step_rule::reject_at_target && topology.max_degree() > most_reported_edges)
+    refuse_rule();
 }
 
 [[noreturn, gnu::noinline]] void refuse_number(const char* what, std::size_t number, std::size_t count) {
@@ -70,8 +61,8 @@ template <int D>
     detail::check_search(options.sweep);
   counts.moves += targets.size();
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
-  if (options.edges == Edge_rule::at_target)
-    detail::Target_step<D>(body, options.sweep, counts).move_each(targets, options.reported, report);
+  if (options.rule == Step_rule::reject_at_target)
+    detail::Target_step<D>(body, options.sweep, counts).move_each(targets, options.reports_blocked, report);
   else
     detail::move_each(body, targets, options, report.contacts, counts);
 }

@@ -49,7 +49,7 @@ void move_along_walls(Body_state<D>& body, std::uint32_t vertex, const Point<D>&
     if (!contact) return;
     ++counts.contacts;
     contacts.push_back(*contact);
-    if (options.policy == Contact_policy::reject) {
+    if (options.rule == Step_rule::reject) {
       ++counts.held;
       return;
     }

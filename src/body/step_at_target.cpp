@@ -13,7 +13,7 @@ namespace cellwalk::detail {
 
 /// Moves vertex by vertex. Not to be inlined: the step before is short.
 template <int D>
-[[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, Reported reported,
+[[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, bool reports_blocked,
                                                  Step_report<D>& report) {
   find_out_if_apart();
   const bool in_place = may_be_in_place(body_, sweep_, body_.is_apart);
@@ -31,7 +31,7 @@ template <int D>
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
-    if (reported == Reported::contacts) {
+    if (!reports_blocked) {
       if (answer.stays()) report.contacts.push_back(first_contact(answer, targets[v]));
       continue;
     }

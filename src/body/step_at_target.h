@@ -42,7 +42,7 @@ class Target_step {
   Target_step(Body_state<D>& body, const Sweep_options& sweep, Body_counts& counts)
       : body_(body), sweep_(sweep), counts_(counts) {}
 
-  void move_each(std::span<const Point<D>> targets, Reported reported, Step_report<D>& report);
+  void move_each(std::span<const Point<D>> targets, bool reports_blocked, Step_report<D>& report);
 
  private:
   const Snapshot<D>& snapshot() const { return *body_.snapshot; }

@@ -26,12 +26,12 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scr
                                        const Point<D>& target, const Sweep_options& options,
                                        Body_counts& counts, bool any, Particle<D>& to);
 
-/// Moves a vertex towards a target by Edge_rule::swept: it stops at walls, and goes on along them.
+/// Moves a vertex towards a target by Step_rule::slide or reject: it stops at walls, and goes on along them.
 template <int D>
 void move_along_walls(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
                       const Body_options& options, std::vector<Contact<D>>& contacts, Body_counts& counts);
 
-/// Moves vertex by vertex by Edge_rule::swept, those that the region holds without a test.
+/// Moves vertex by vertex by these rules, those that the region holds without a test.
 template <int D>
 void move_each(Body_state<D>& body, std::span<const Point<D>> targets, const Body_options& options,
                std::vector<Contact<D>>& contacts, Body_counts& counts);

@@ -23,7 +23,7 @@ Reshaping<D>::Reshaping(Environment<D>& environment, const Residents<D>& residen
 template <int D>
 Reshaping<D>::~Reshaping() {
   try {
-    if (state_) state_->close();
+    if (state_) state_->finish();
   } catch (...) {  // memory: certificates stay withdrawn, and bodies refuse to go on
   }
 }
@@ -80,27 +80,27 @@ Move_report<D> Reshaping<D>::move(std::span<const Vertex_move<D>> moves) {
 }
 
 template <int D>
-Vertex_result<D> Reshaping<D>::ask(std::uint32_t point, const Point<D>& target) {
+Vertex_result<D> Reshaping<D>::test_move(std::uint32_t point, const Point<D>& target) {
   return state_->attempt(point, target, detail::Reshaping_state<D>::Attempt::nothing, true);
 }
 
 template <int D>
-Change_result Reshaping<D>::open(Half_facet facet) {
+Outcome Reshaping<D>::open(Half_facet facet) {
   return state_->restored_toggle().open(facet);
 }
 
 template <int D>
-Change_result Reshaping<D>::close(Half_facet facet) {
+Outcome Reshaping<D>::close(Half_facet facet) {
   return state_->restored_toggle().close(facet);
 }
 
 template <int D>
-Change_result Reshaping<D>::excavate(Cell cell) {
+Outcome Reshaping<D>::excavate(Cell cell) {
   return state_->restored_toggle().excavate(cell);
 }
 
 template <int D>
-Change_result Reshaping<D>::fill(Cell cell) {
+Outcome Reshaping<D>::fill(Cell cell) {
   return state_->restored_toggle().fill(cell);
 }
 
@@ -135,7 +135,8 @@ Replacement Reshaping<D>::collapse(std::uint32_t u, std::uint32_t onto) {
 }
 
 template <int D>
-Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target) {
+Replacement Reshaping<D>::split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
+                                       const Point<D>& target) {
   detail::Tissue_patch<D>& tissue = state_->restored_tissue();
   const Snapshot<D>& snapshot = state_->environment.snapshot();
   if (!is_finite(target))
@@ -153,7 +154,7 @@ Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid
                                          " is named twice: name each cell that is taken back once");
   if (solid.empty()) throw Error(Error_code::usage, "no cells are to be taken back: name those in front");
   Replacement result;
-  const auto point = tissue.peel(vertex, solid, target, result.reason);
+  const auto point = tissue.split_vertex(vertex, solid, target, result.reason);
   result.is_made = point.has_value();
   if (!point) return result;
   result.point = *point;
@@ -162,11 +163,11 @@ Replacement Reshaping<D>::peel(std::uint32_t vertex, std::span<const Cell> solid
 }
 
 template <int D>
-Replacement Reshaping<D>::merge(std::uint32_t point, std::uint32_t onto) {
+Replacement Reshaping<D>::merge_vertices(std::uint32_t point, std::uint32_t onto) {
   state_->restored_tissue();
   state_->replacer.check_points(std::array{point, onto});
   if (point == onto) throw Error(Error_code::usage, "a point is merged with another, not with itself");
-  return state_->merger.merge(point, onto);
+  return state_->merger.merge_vertices(point, onto);
 }
 
 template <int D>
@@ -195,8 +196,8 @@ Relax_report Reshaping<D>::relax(std::span<const std::uint32_t> points, const Re
 }
 
 template <int D>
-void Reshaping<D>::close() {
-  state_->close();
+void Reshaping<D>::finish() {
+  state_->finish();
 }
 
 template <int D>

@@ -163,7 +163,7 @@ void Reshaping_state<D>::check_open() const {
 }
 
 template <int D>
-void Reshaping_state<D>::close() {
+void Reshaping_state<D>::finish() {
   if (!std::exchange(is_open, false)) return;
   mover.restore();
   if (!replacer.is_broken() && !tissue.is_broken() && !merger.is_broken()) groups.follow_epoch();

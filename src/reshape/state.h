@@ -44,7 +44,7 @@ struct Reshaping_state {
   Toggle<D>& restored_toggle();
   Tissue_patch<D>& restored_tissue();
   void check_open() const;
-  void close();
+  void finish();
 
   Environment<D>& environment;
   Reshape_options options;

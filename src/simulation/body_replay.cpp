@@ -12,9 +12,8 @@ namespace cellwalk {
 Body_options body_trace_options(Sweep sweep) {
   Body_options options;
   options.sweep.sweep = sweep;
-  options.policy = Contact_policy::reject;
-  options.edges = Edge_rule::at_target;
-  options.reported = Reported::blocked;
+  options.rule = Step_rule::reject_at_target;
+  options.reports_blocked = true;
   return options;
 }
 

@@ -193,7 +193,7 @@ void Change_schedule<D>::sew(const Snapshot<D>& snapshot, Reshaping<D>& reshapin
     if (!lies_in(*planned.suture, x + 0.5 * (snapshot.point(stitch.point) - x))) continue;
     Change_outcome& outcome = *note();
     outcome.stitch = stitch;
-    Replacement made = reshaping.merge(stitch.point, stitch.onto);
+    Replacement made = reshaping.merge_vertices(stitch.point, stitch.onto);
     outcome.result = {made.is_made, std::move(made.reason), std::move(made.held_by)};
     if (!made.is_made) continue;
     stitches_.erase(stitches_.begin() + static_cast<std::ptrdiff_t>(i));

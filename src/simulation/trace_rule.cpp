@@ -24,9 +24,8 @@ Body_options trace_options(Sweep sweep) {
   Body_options options;
   options.sweep.sweep = sweep;
   options.sweep.touch = Touch::stop;
-  options.policy = Contact_policy::reject;
-  options.edges = Edge_rule::at_target;
-  options.reported = Reported::blocked;
+  options.rule = Step_rule::reject_at_target;
+  options.reports_blocked = true;
   return options;
 }
 

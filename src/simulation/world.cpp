@@ -55,7 +55,7 @@ auto World<D>::reshape(Environment<D>& environment, Reshape_options options, Res
   options.body = conditions_.body;
   Reshaping<D> reshaping(environment, residents, options);
   auto result = use(reshaping);
-  reshaping.close();
+  reshaping.finish();
   epoch_ = snapshot_->epoch();
   counts += reshaping.counts();
   return result;

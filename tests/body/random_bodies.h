@@ -114,15 +114,14 @@ class Random_bodies {
     options.sweep.sweep = sweep == 0                 ? Sweep::three_segments
                           : sweep == 1 || has_slits_ ? Sweep::triangle  // no faces are swept among slits
                                                      : Sweep::faces;
-    if (random().below(3) == 0) options.policy = Contact_policy::reject;
+    if (random().below(3) == 0) options.rule = Step_rule::reject;
     if (random().below(4) == 0) options.sweep.touch = Touch::stop;
     if (random().below(6) == 0)
       options.sweep.search = random().below(2) == 0 ? Contact_search::dichotomic : Contact_search::exhaustive;
     options.most_contacts = 1 + static_cast<int>(random().below(4));
     if (call.kind == Call<D>::Kind::step_at_target) {
-      options.policy = Contact_policy::reject;
-      options.edges = Edge_rule::at_target;
-      options.reported = number % 2 == 0 ? Reported::contacts : Reported::blocked;
+      options.rule = Step_rule::reject_at_target;
+      options.reports_blocked = number % 2 != 0;
     }
     return call;
   }

@@ -17,9 +17,8 @@ inline Body_options rejecting(Sweep sweep, Touch touch, bool clearance) {
   options.sweep.sweep = sweep;
   options.sweep.touch = touch;
   options.clearance = clearance;
-  options.policy = Contact_policy::reject;
-  options.edges = Edge_rule::at_target;
-  options.reported = Reported::blocked;
+  options.rule = Step_rule::reject_at_target;
+  options.reports_blocked = true;
   return options;
 }
 
@@ -30,7 +29,7 @@ Step_report<D> reject(Body<D>& body, std::span<const Point<D>> targets, const Bo
   Step_report<D> report;
   Body<D> copy = body;
   Body_options with_contacts = options;
-  with_contacts.reported = Reported::contacts;
+  with_contacts.reports_blocked = false;
   Body_counts of_copy;
   copy.step(targets, with_contacts, report, of_copy);
   body.step(targets, options, report, counts);

@@ -120,8 +120,7 @@ void expect_edits_noticed() {
       Body_counts counts;
       Step_report<D> report;
       Body_options options, at_target;
-      at_target.policy = Contact_policy::reject;
-      at_target.edges = Edge_rule::at_target;
+      at_target.rule = Step_rule::reject_at_target;
       options.clearance = has_region;
       std::vector<Point<D>> targets(body.positions().begin(), body.positions().end());
       for (Point<D>& x : targets) x[0] += 0x1p-6;

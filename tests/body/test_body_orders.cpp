@@ -123,11 +123,8 @@ class Body_in_orders {
                             : sweep == 1 || has_slits_ ? Sweep::triangle
                                                        : Sweep::faces;
       const bool rejects = random().below(2) == 0;
-      if (rejects || by_rule) options.policy = Contact_policy::reject;
-      if (by_rule) {
-        options.edges = Edge_rule::at_target;
-        options.reported = seen_.steps % 2 == 0 ? Reported::contacts : Reported::blocked;
-      }
+      options.rule = by_rule ? Step_rule::reject_at_target : rejects ? Step_rule::reject : Step_rule::slide;
+      options.reports_blocked = seen_.steps % 2 != 0;
       options.clearance = random().below(2) == 0;
       ++seen_.steps;
       Step_report<D> first;

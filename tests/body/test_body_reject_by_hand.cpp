@@ -196,14 +196,11 @@ TEST(BodyReject, RefusesRulesThatDoNotGoTogetherOrNotWithTheBody) {
     const Body_options at_target = rejecting(Sweep::triangle, Touch::pass, clearance);
     EXPECT_FALSE(refuses(64, at_target));
     EXPECT_TRUE(refuses(65, at_target));
-    Body_options swept = at_target;
-    swept.edges = Edge_rule::swept;
-    EXPECT_TRUE(refuses(3, swept)) << "what blocks is not known";
-    swept.reported = Reported::contacts;
-    EXPECT_FALSE(refuses(65, swept));
-    Body_options sliding = at_target;
-    sliding.policy = Contact_policy::slide;
-    EXPECT_TRUE(refuses(3, sliding));
+    for (const Step_rule rule : {Step_rule::reject, Step_rule::slide}) {
+      Body_options swept = at_target;
+      swept.rule = rule;
+      EXPECT_FALSE(refuses(65, swept));
+    }
   }
 }
 
@@ -214,8 +211,7 @@ TEST(BodyReject, WhatCameToTouchIsNotTakenToBeApart) {
     SCOPED_TRACE(clearance);
     Body<2> body(snapshot, Locator<2>(snapshot), {{{0.5, 0.5}, {0.75, 0.5}}, {{0, 1}}, {}});
     Body_options options;
-    options.policy = Contact_policy::reject;
-    options.edges = Edge_rule::at_target;
+    options.rule = Step_rule::reject_at_target;
     options.sweep.touch = Touch::pass;
     options.clearance = clearance;
     Step_report<2> report;

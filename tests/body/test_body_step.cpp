@@ -56,7 +56,7 @@ TEST(BodyStep, RejectsMovesThatMeetWalls) {
   const std::vector<Point<3>> before(body.positions().begin(), body.positions().end());
   const std::vector<Point<3>> targets = shifted<3>(body, {-0.75, 0.125, 0});
   Body_options options;
-  options.policy = Contact_policy::reject;
+  options.rule = Step_rule::reject;
   Step_report<3> report;
   Body_counts counts;
   body.step(targets, options, report, counts);

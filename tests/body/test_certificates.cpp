@@ -171,8 +171,7 @@ TEST(BodyCertificates, LeaveAnEdgeThatStandsOnItsSide2) {
       Body_counts counts;
       detail::use_certificates(body, set.of_body, counts);
       Body_options swept = set.chosen({}), standing = swept;
-      standing.policy = Contact_policy::reject;
-      standing.edges = Edge_rule::at_target;
+      standing.rule = Step_rule::reject_at_target;
       standing.sweep.sweep = Sweep::three_segments;
       Step_report<2> report;
       body.step(there, swept, report, counts);

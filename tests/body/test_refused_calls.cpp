@@ -46,10 +46,9 @@ std::vector<Body_options> ways_to_step() {
   ways[1].clearance = false;
   ways[2].sweep.sweep = Sweep::three_segments;
   ways[3].sweep.sweep = Sweep::faces;
-  ways[4].policy = Contact_policy::reject;
-  ways[4].edges = Edge_rule::at_target;
+  ways[4].rule = Step_rule::reject_at_target;
   ways[5] = ways[4];
-  ways[5].reported = Reported::blocked;
+  ways[5].reports_blocked = true;
   ways[5].sweep.touch = Touch::stop;
   return ways;
 }

@@ -254,8 +254,7 @@ TEST(Sides, ABoxSlidesUnderAShelfAndOverIt) {
                    << ", axes " << testing::PrintToString(in_picture.axis) << ", reversed "
                    << testing::PrintToString(in_picture.is_reversed));
       ASSERT_EQ(slide_along_shelf(in_picture, is_below, 0, 4, options), 0u);
-      options.policy = Contact_policy::reject;
-      options.edges = Edge_rule::at_target;
+      options.rule = Step_rule::reject_at_target;
       ASSERT_EQ(slide_along_shelf(in_picture, is_below, 0, 4, options), 0u) << "at the target";
     }
   EXPECT_EQ(slid, 48u * 2);

@@ -261,7 +261,7 @@ TEST_F(Deform, KeepsSlits) {
 
 TEST_F(Deform, RefusesWhatIsNotThere) {
   make_plane();
-  refuse(2, "point,x,y\n", {"--at-contact: takes stop|hold|push|ask, not pull"}, {"--at-contact", "pull"});
+  refuse(2, "point,x,y\n", {"--at-contact: takes stop|hold|push|test, not pull"}, {"--at-contact", "pull"});
   expect_failure(2, {"deform", "env.ovm", "-o", "out.ovm"}, {"moves is required"});
   expect_failure(2, {"deform", "env.ovm", "moves.csv"}, {"--output is required"});
 }

@@ -51,7 +51,7 @@ TEST_F(Deform, AskMovesNothing) {
   // The second does not see the first; nor is the last done.
   write("moves.csv", "point,x,y\n6,1.25,1\n6,1.75,1\n7,1.75,1\n");
   const std::vector<std::string> ask{"deform",       "env.ovm",     "moves.csv", "--body",  "rod.csv",
-                                     "--at-contact", "ask",         "--report",  "ask.csv", "--json",
+                                     "--at-contact", "test",        "--report",  "ask.csv", "--json",
                                      "ask.json",     "--positions", "rods.csv"};
   const std::string said = succeed(ask);
   EXPECT_TRUE(said.starts_with("env.ovm: certified, 2D\n")) << said;
@@ -67,7 +67,7 @@ TEST_F(Deform, AskMovesNothing) {
   std::filesystem::remove(path("ask.csv"));
   std::filesystem::remove(path("ask.json"));
   std::filesystem::remove(path("rods.csv"));
-  expect_failure(2, both, {"--at-contact ask moves nothing, so that there is no environment to write"});
+  expect_failure(2, both, {"--at-contact test moves nothing, so that there is no environment to write"});
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST_F(Usage, ShellsCompleteCommandsOptionsAndChoices) {
   EXPECT_EQ(answer("generate hexes --so"), "--solid\n");
   EXPECT_EQ(answer("query env.ovm q.csv --mode s"), "sweep\n");
   EXPECT_EQ(answer("import --mesher ''"), "tetgen mesh3\n");
-  EXPECT_EQ(answer("deform env.ovm m.csv --at-contact ''"), "stop hold push ask\n");
+  EXPECT_EQ(answer("deform env.ovm m.csv --at-contact ''"), "stop hold push test\n");
   EXPECT_EQ(answer("deform env.ovm m.csv --b"), "--body\n");
   EXPECT_EQ(answer("--version --j"), "--json\n");
   EXPECT_EQ(answer("check data/x"), "\n") << "files are for the shell";

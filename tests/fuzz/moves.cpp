@@ -156,7 +156,7 @@ class Moving {
         move(reshaping, vertex, target);
       demand(tally_.wrong() == 0, fault());
     }
-    reshaping.close();
+    reshaping.finish();
     totals.pushed += reshaping.counts().pushes;
     count();
   }
@@ -165,7 +165,7 @@ class Moving {
   void move(Reshaping<D>& reshaping, std::uint32_t vertex, const Point<D>& target) {
     const Point<D> from = world_.snapshot.point(vertex);
     judge_.judge(reshaping, vertex, target, true);
-    const Vertex_result<D> asked = reshaping.ask(vertex, target);
+    const Vertex_result<D> asked = reshaping.test_move(vertex, target);
     const Vertex_result<D> result = reshaping.move(vertex, target);
     demand(world_.snapshot.point(vertex) == result.position, "a vertex is not where its result says");
     demand(asked.end != Move_end::reached || result.end == Move_end::reached,

@@ -134,8 +134,8 @@ class Use {
       Body_options options;
       options.sweep = sweep_options();
       options.clearance = in_.flag();
-      options.policy = in_.flag() ? Contact_policy::reject : Contact_policy::slide;
-      options.edges = in_.flag() ? Edge_rule::at_target : Edge_rule::swept;
+      options.rule = in_.flag() ? Step_rule::reject : Step_rule::slide;
+      if (in_.flag()) options.rule = Step_rule::reject_at_target;
       Step_report<D> report;
       Body_counts counts;
       body->step(targets, options, report, counts);
@@ -158,7 +158,7 @@ class Use {
         change(reshaping);
         ++totals.changes;
       });
-    reshaping.close();
+    reshaping.finish();
   }
 
   std::uint32_t point() { return static_cast<std::uint32_t>(in_.below(snapshot_.points().size())); }
@@ -206,7 +206,7 @@ class Use {
       }
       case 11: {
         const std::array solid{c};
-        return static_cast<void>(reshaping.peel(u, solid, middle_of(c)));
+        return static_cast<void>(reshaping.split_vertex(u, solid, middle_of(c)));
       }
       default:
         return cut(reshaping);

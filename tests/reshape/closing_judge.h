@@ -64,7 +64,7 @@ class Closing_judge {
     for (const Particle<D>& p : particles) particles_.emplace_back(*this, p, p, Chain{});
   }
 
-  void judge(const Change_result& result, const Bodies& bodies, std::span<const Particle<D>> particles,
+  void judge(const Outcome& result, const Bodies& bodies, std::span<const Particle<D>> particles,
              Closing_tally& tally) {
     ++tally.changes;
     ++(result.is_made ? tally.made : tally.refused);

@@ -95,7 +95,7 @@ class Operations {
       expect_sound();
       if (testing::Test::HasFailure()) return;
     }
-    reshaping.close();
+    reshaping.finish();
     for (const auto& body : world_.bodies) ASSERT_NO_THROW(body->validate());
     if (random_.chance(0.5)) world_.step_bodies();
   }
@@ -191,7 +191,7 @@ class Operations {
     Point<D> target = from + (random_.real(0, 1) / static_cast<double>(solid.size())) * into;
     if (random_.chance(0.1)) target = from;
     const bool expected = Replacement_judge<D>(snapshot_).may_be_taken_back(vertex, solid, target);
-    const Replacement result = reshaping.peel(vertex, solid, target);
+    const Replacement result = reshaping.split_vertex(vertex, solid, target);
     ++tally_.peels;
     tally_.peeled += result.is_made;
     EXPECT_EQ(result.is_made, expected) << result.reason;
@@ -211,7 +211,7 @@ class Operations {
     const std::vector<Cell> star = world_.environment.cells_around(pair[0]);
     const bool may_be = Replacement_judge<D>(snapshot_).may_be_merged(pair[0], pair[1]);
     const bool is_empty = !has_any(star, false), has_inside = has_any(star, true);
-    const Replacement result = reshaping.merge(pair[0], pair[1]);
+    const Replacement result = reshaping.merge_vertices(pair[0], pair[1]);
     ++tally_.merges;
     tally_.merged += result.is_made;
     tally_.merges_held += !result.held_by.empty();

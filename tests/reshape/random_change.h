@@ -61,17 +61,17 @@ struct Random_change {
       case 4:
         return by.flip(facet).is_made;
       case 6:
-        return by.peel(u, std::array{cell}, target).is_made;
+        return by.split_vertex(u, std::array{cell}, target).is_made;
       case 7:
         return by.remove_edge(u, v).is_made;
       case 8:
         return by.collapse(u, v).is_made;
       case 9:
-        return by.merge(u, v).is_made;
+        return by.merge_vertices(u, v).is_made;
       case 10:
         return by.move(u, target).end == Move_end::reached;
       case 11:
-        return by.ask(u, target).end == Move_end::reached && false;
+        return by.test_move(u, target).end == Move_end::reached && false;
       case 12:
         return by.insert_point(cell, target).is_made;
       default:

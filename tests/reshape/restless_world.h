@@ -57,7 +57,7 @@ class Restless_world : public Reshape_world<D> {
       if (random.chance(0.4)) continue;
       Body_options options;
       options.sweep.sweep = D == 3 && !body->faces().empty() ? Sweep::faces : Sweep::triangle;
-      options.policy = random.chance(0.5) ? Contact_policy::slide : Contact_policy::reject;
+      options.rule = random.chance(0.5) ? Step_rule::slide : Step_rule::reject;
       options.clearance = random.chance(0.8);
       const double unit = std::ldexp(Base::unit_, static_cast<int>(random.below(6)));
       const std::size_t steps = 1 + random.below(3);

@@ -103,9 +103,9 @@ class Star_scene {
     typename Wall_judge<D, Star_scene>::Tally tally;
     Wall_judge<D, Star_scene> judge(*this, tally);
     Reshaping<D> reshaping(environment, residents(), {.at_contact = At_contact::hold});
-    reshaping.ask(vertex, target);
+    reshaping.test_move(vertex, target);
     Vertex_result<D> result = judge.judge(reshaping, vertex, target);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_EQ(tally.wrong(), 0) << "missed " << tally.missed << " and " << tally.fates.missed
                                 << ", false blocks " << tally.false_blocks << " and "
                                 << tally.fates.false_blocks << ", wrong times " << tally.wrong_times

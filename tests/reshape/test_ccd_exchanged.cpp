@@ -104,14 +104,14 @@ bool move_tip(const Point<3>& tip, const Point<3>& target, const Point<3>& base,
   }
   Query_world world(*membrane, target, soup);
   Reshaping<3> reshaping(world.environment, world.residents(), {.at_contact = At_contact::hold});
-  const Vertex_result<3> result = reshaping.ask(0, target);
+  const Vertex_result<3> result = reshaping.test_move(0, target);
   EXPECT_NE(result.end, Move_end::boundary);
   if (result.end == Move_end::cell) {  // it turns by a right angle or more
     ++seen.wide;
     return meets_set;
   }
   Judge(world, seen.tally).judge(reshaping, 0, target);
-  reshaping.close();
+  reshaping.finish();
   world.bodies[0]->validate();
   EXPECT_TRUE(meets_set || result.end == Move_end::reached);
   seen.contacts += result.end != Move_end::reached;

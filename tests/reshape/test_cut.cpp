@@ -29,7 +29,7 @@ Cut_report cut(Environment<D>& environment, const Blade<D>& blade, const Residen
   const std::vector<Point<D>> places = test::free_places(environment.snapshot(), 50, 10);
   Reshaping<D> reshaping(environment, residents);
   const Cut_report report = reshaping.cut(blade, {.opening = opening});
-  reshaping.close();
+  reshaping.finish();
   const Certificate after = environment.certify();
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
   EXPECT_GE(after.free_volume, before.free_volume * (1 - 1e-12));
@@ -153,7 +153,7 @@ TEST(Cut, OpensAndLetsAParticleIn) {
       moves.push_back({made.point, snapshot.point(made.point) + Vector<2>{0.25, 0}});
   EXPECT_GT(moves.size(), 3u);
   EXPECT_TRUE(reshaping.move(moves).short_of_target.empty());
-  reshaping.close();
+  reshaping.finish();
   environment.certify();
   Walk_counts counts;
   const Point<2> goal{4.05, 3.5};

@@ -45,7 +45,7 @@ void expect_refused(Environment<D>& environment, const Blade<D>& by, const Cut_o
     EXPECT_EQ(e.code(), code);
     EXPECT_EQ(e.what(), message);
   }
-  reshaping.close();
+  reshaping.finish();
   EXPECT_EQ(environment.snapshot().epoch(), epoch) << message;
   EXPECT_EQ(environment.snapshot().points().size(), points) << message;
 }
@@ -83,7 +83,7 @@ void cut_by_long_blades() {
     }
     Reshaping<D> reshaping(environment, {});
     const Cut_report report = reshaping.cut(by);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(environment.certify());
     EXPECT_EQ(report.refused(), 0u) << more;
     EXPECT_EQ(report.held, 0u) << more;
@@ -108,7 +108,7 @@ TEST(CutBlades, MayBeTiny) {
     const Cut_report report = reshaping.cut(blade<2>({{-size, 1.25}, {size, 1.25}}));
     EXPECT_LE(report.edges, 1u) << size;
     EXPECT_EQ(report.opened, 0u) << size;
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(environment.certify());
   }
 }
@@ -136,7 +136,7 @@ void cut_at_any_scale() {
     by.points[0][0] += 0.3 * scale;  // in space its two triangles bend
     Reshaping<D> reshaping(environment, {});
     const Cut_report report = reshaping.cut(by, {.opening = 0.02 * scale});
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(environment.certify());
     if (exponent == 0) first = report;
     EXPECT_GT(report.opened, 0u);
@@ -159,7 +159,7 @@ void open_at_any_width() {
     Reshaping<D> reshaping(environment, {});
     const double before = environment.certify().free_volume;
     const Cut_report report = reshaping.cut(blade<D>(straight_blade<D>()), {.opening = opening});
-    reshaping.close();
+    reshaping.finish();
     Certificate after;
     ASSERT_NO_THROW(after = environment.certify()) << opening;
     if (opened == 0) opened = report.opened;

@@ -36,7 +36,7 @@ TEST(CutResidents, AFaceRestsOnTheBoundary) {
         reshaping.cut(test::blade<3>({{2.4, -1, 3}, {2.4, 5, 3}, {2.4, 5, -1}, {2.4, -1, -1}}));
     EXPECT_GT(report.split, 5u);
     EXPECT_GT(report.refused(), 0u) << "that on which it rests";
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(environment.certify());
     expect_valid(body, soup.points);
   }
@@ -53,7 +53,7 @@ TEST(CutResidents, AFaceRestsOnTheTissue) {
       reshaping.cut(test::blade<3>({{2.4, -1, 3}, {2.4, 5, 3}, {2.4, 5, -1}, {2.4, -1, -1}}));
   EXPECT_GT(report.split, 5u);
   EXPECT_GT(report.refused(), 0u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(environment.certify());
   expect_valid(body, soup.points);
   // It may go up, and not down.
@@ -109,7 +109,7 @@ void cut_below_things(std::size_t worlds) {
       const Cut_report report = reshaping.cut(test::blade<D>(points), {.opening = 0.1});
       split += report.split;
       opened += report.opened;
-      reshaping.close();
+      reshaping.finish();
       ASSERT_NO_THROW(environment.certify());
       for (std::size_t b = 0; b < bodies.size(); ++b) expect_valid(*bodies[b], before[b]);
       for (const Particle<D>& p : particles) {

@@ -57,7 +57,7 @@ Cut_report sound_cut(Environment<D>& environment, const Blade<D>& by, double ope
   const Certificate before = environment.certify();
   Reshaping<D> reshaping(environment, {});
   const Cut_report report = reshaping.cut(by, {.opening = opening});
-  reshaping.close();
+  reshaping.finish();
   Certificate after;
   EXPECT_NO_THROW(after = environment.certify());
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
@@ -209,7 +209,7 @@ void cut_by_many_shapes(std::size_t count) {
       ASSERT_EQ(e.code(), Error_code::input) << e.what();  // points in line
       continue;
     }
-    reshaping.close();
+    reshaping.finish();
     ASSERT_NO_THROW(environment.certify());
     split += report.split;
     snapped += report.snapped;
@@ -312,7 +312,7 @@ TEST(CutShapes, LeavePinchedEdgesOfTheBoundaryWhole) {
     EXPECT_FALSE(reshaping.collapse(u, v).is_made);
     const Cut_report report =
         reshaping.cut(test::blade<3>({{-1, -1, 0.4}, {3, -1, 0.4}, {3, 3, 0.4}, {-1, 3, 0.4}}));
-    reshaping.close();
+    reshaping.finish();
     Certificate after;
     ASSERT_NO_THROW(after = environment.certify());
     EXPECT_NEAR(after.volume, before.volume, 1e-12);
@@ -334,7 +334,7 @@ TEST(CutShapes, LeaveEdgesBetweenTwoFreeCornersWhole) {
   Reshaping<3> reshaping(environment, {{}, {std::span(particles)}});
   const Cut_report report =
       reshaping.cut(test::blade<3>({{-1, -1, 0.4}, {3, -1, 0.4}, {3, 3, 0.4}, {-1, 3, 0.4}}));
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(environment.certify());
   EXPECT_GT(report.split, 10u);
   EXPECT_EQ(report.refused(), 1u);

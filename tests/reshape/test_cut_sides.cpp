@@ -79,7 +79,7 @@ void cut_through(const Straight_cut& with) {
               {with.at - with.lean, -2, -2}};
   Reshaping<D> reshaping(environment, {});
   const Cut_report report = reshaping.cut(test::blade<D>(points), {.opening = with.opening});
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(environment.certify());
   EXPECT_EQ(report.held, 0u);
   EXPECT_EQ(report.refused(), 0u);
@@ -117,7 +117,7 @@ TEST(CutSides, HoldTogetherBeyondTheEnd) {
     const test::Cut_judge<2> judge(snapshot);
     Reshaping<2> reshaping(environment, {});
     const Cut_report report = reshaping.cut(test::blade<2>({{3.1, 6}, {3.1, 1.5}}));
-    reshaping.close();
+    reshaping.finish();
     EXPECT_EQ(report.rim, 1u);
     const test::Cut_findings found =
         judge.judge({{{3.1, 6}, {3.1, 1.5}}}, [](std::uint32_t) { return false; });

@@ -49,7 +49,7 @@ Reshape_counts disturb(Environment<D>& environment, std::uint64_t seed) {
     else
       reshaping.open(facet);
   }
-  reshaping.close();
+  reshaping.finish();
   return reshaping.counts();
 }
 

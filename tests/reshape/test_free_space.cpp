@@ -66,7 +66,7 @@ void cut_many(std::size_t worlds) {
     Reshaping<D> reshaping(environment, {});
     const Cut_report report = reshaping.cut(
         blade_along<D>(blade), {.opening = std::ldexp(0.25, -static_cast<int>(random.below(8)))});
-    reshaping.close();
+    reshaping.finish();
     ASSERT_NO_THROW(environment.certify());
     for (const Cut_point& point : report.points) fixed += held.contains(point.between);
     split += report.split;

@@ -54,7 +54,7 @@ TEST(LatestTime, IsThatOfTheSideThatGoesOn) {
     const Point<3> from = s.point(3), target{1, 0.75, 0};
     Reshaping<3> reshaping(environment, {{&body}, {}}, {.at_contact = at});
     for (int k = 1; k <= 16; ++k) {
-      const auto part = reshaping.ask(3, from + (k / 16.0) * (target - from));
+      const auto part = reshaping.test_move(3, from + (k / 16.0) * (target - from));
       EXPECT_EQ(part.end, k < 16 * 8 / 11.0 ? Move_end::reached : Move_end::contact) << k;
       if (part.hit) {
         EXPECT_DOUBLE_EQ(part.hit->time.rounded(), 16 * 8 / 11.0 / k);
@@ -68,7 +68,7 @@ TEST(LatestTime, IsThatOfTheSideThatGoesOn) {
     if (at == At_contact::push) {
       EXPECT_GE(from[1] - result.position[1], 8 / 11.0 * (from[1] - target[1]) - 1e-12);
     }
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(body.validate());
   }
 }
@@ -82,7 +82,7 @@ template <int D, class World>
 void ask_parts(World& world, Reshaping<D>& reshaping, Latest_tally& tally) {
   const std::uint32_t v = world.vertex();
   const Point<D> from = world.snapshot.point(v), target = world.target(v);
-  const auto whole = reshaping.ask(v, target);
+  const auto whole = reshaping.test_move(v, target);
   ++tally.moves;
   tally.contacts += whole.end == Move_end::contact;
   tally.touches += whole.end == Move_end::touch;
@@ -99,7 +99,7 @@ void ask_parts(World& world, Reshaping<D>& reshaping, Latest_tally& tally) {
     // Rounded times are compared off themselves only.
     if (!is_exact || std::abs(share - time) < 1e-9) continue;
     ++tally.parts;
-    const auto part = reshaping.ask(v, there);
+    const auto part = reshaping.test_move(v, there);
     if (share < time && part.end != Move_end::reached) ++tally.not_free;
     if (share > time && part.end == Move_end::reached) ++tally.free_beyond;
   }

@@ -120,7 +120,7 @@ void ask_both(std::uint64_t first, std::uint64_t worlds) {
     for (int i = 0; i < moves; ++i) {
       const std::uint32_t v = twins.one.vertex();
       const Point<D> target = twins.one.target(v);
-      const auto a = here.ask(v, target), b = there.ask(twins.point_there(v), target);
+      const auto a = here.test_move(v, target), b = there.test_move(twins.point_there(v), target);
       ++asked;
       reached += a.end == Move_end::reached;
       const bool is_same =

@@ -94,10 +94,10 @@ void change_somewhere(test::Listing_twins<D>& twins, Reshaping<D>& here, Reshapi
   const std::uint32_t u = points[random.below(D + 1)];
   std::uint32_t v = u;
   while (v == u) v = points[random.below(D + 1)];
-  const auto as_change = [](const Replacement& r) { return Change_result{r.is_made, r.reason, r.held_by}; };
+  const auto as_change = [](const Replacement& r) { return Outcome{r.is_made, r.reason, r.held_by}; };
   const std::size_t kind = random.below(4);
   change_both(twins, here, there, tally,
-              [&](test::Listed_world<D>& world, Reshaping<D>& by) -> std::optional<Change_result> {
+              [&](test::Listed_world<D>& world, Reshaping<D>& by) -> std::optional<Outcome> {
                 const auto own = world.find(points);
                 if (!own) return {};
                 const Half_facet facet = world.facet_off(*own, u);
@@ -107,7 +107,7 @@ void change_somewhere(test::Listing_twins<D>& twins, Reshaping<D>& here, Reshapi
                   case 1:
                     return world.snapshot().is_solid(*own) ? by.excavate(*own) : by.fill(*own);
                   case 2:
-                    return as_change(by.merge(u, v));
+                    return as_change(by.merge_vertices(u, v));
                   default: {
                     const Point<D>& x = world.snapshot().point(u);
                     return as_change(by.split_edge(u, v, x + 0.5 * (world.snapshot().point(v) - x)));
@@ -168,8 +168,8 @@ void compare(test::Listing listing, std::size_t worlds) {
       ASSERT_NO_FATAL_FAILURE(cut_both<D>(here, there, listing, random, tally));
     else
       ASSERT_NO_FATAL_FAILURE(change_somewhere(twins, here, there, random, tally));
-    here.close();
-    there.close();
+    here.finish();
+    there.finish();
     for (const auto& body : twins.one.bodies) ASSERT_NO_THROW(body->validate());
     for (const auto& body : twins.other.bodies) ASSERT_NO_THROW(body->validate());
   }

@@ -70,7 +70,7 @@ class Beating_vessel {
             reshaping.move(std::span(moves).subspan(first, std::min(grain, moves.size() - first)));
         fell_short += report.short_of_target.size();
         hits += report.hits.size();
-        reshaping.close();
+        reshaping.finish();
         counts += reshaping.counts();
       }
       for (const auto& body : bodies) EXPECT_NO_THROW(body->validate());

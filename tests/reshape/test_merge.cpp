@@ -55,13 +55,13 @@ void sew(Environment<D> environment, const Blade<D>& blade) {
   const auto pairs = stitches(report);
   ASSERT_GE(pairs.size(), 4u);
   for (const auto& [point, onto] : pairs) {
-    const Replacement merged = reshaping.merge(point, onto);
+    const Replacement merged = reshaping.merge_vertices(point, onto);
     ASSERT_TRUE(merged.is_made) << merged.reason;
     EXPECT_EQ(merged.point, point);
     EXPECT_FALSE(snapshot.is_point(point));
     EXPECT_TRUE(merged.held_by.empty());
   }
-  reshaping.close();
+  reshaping.finish();
   const Certificate after = environment.certify();
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
   EXPECT_NEAR(after.free_volume, before.free_volume, 1e-9 * before.volume);
@@ -106,7 +106,7 @@ TEST(Merge, IsRefusedWhileSomethingLiesInTheGap) {
   Particle<3> particle = *Locator<3>(snapshot).particle_at(inside);
   {
     Reshaping<3> reshaping(environment, {{}, {std::span(&particle, 1)}});
-    const Replacement held = reshaping.merge(pair[0], pair[1]);
+    const Replacement held = reshaping.merge_vertices(pair[0], pair[1]);
     EXPECT_FALSE(held.is_made);
     EXPECT_EQ(held.reason, "something lies in the free cells around the point");
     ASSERT_EQ(held.held_by.size(), 1u);
@@ -116,8 +116,8 @@ TEST(Merge, IsRefusedWhileSomethingLiesInTheGap) {
   environment.certify();
   particle = *Locator<3>(snapshot).particle_at({4.5, 4.5, 4.8});
   Reshaping<3> reshaping(environment, {{}, {std::span(&particle, 1)}});
-  EXPECT_TRUE(reshaping.merge(pair[0], pair[1]).is_made);
-  reshaping.close();
+  EXPECT_TRUE(reshaping.merge_vertices(pair[0], pair[1]).is_made);
+  reshaping.finish();
   environment.certify();
 }
 
@@ -142,11 +142,11 @@ TEST(Merge, IsRefusedForWhatLiesBesideTheGap) {
   Particle<2> far = *Locator<2>(environment.snapshot()).particle_at({3, 5.5});
   for (Particle<2>* p : {&particle, &far}) {
     Reshaping<2> reshaping(environment, {{}, {std::span(p, 1)}});
-    EXPECT_EQ(reshaping.merge(0, 1).held_by.size(), 1u);
+    EXPECT_EQ(reshaping.merge_vertices(0, 1).held_by.size(), 1u);
   }
   Reshaping<2> reshaping(environment, {});
-  EXPECT_TRUE(reshaping.merge(0, 1).is_made);
-  reshaping.close();
+  EXPECT_TRUE(reshaping.merge_vertices(0, 1).is_made);
+  reshaping.finish();
   environment.certify();
   EXPECT_NE(Locator<2>(environment.snapshot()).locate({-3, 2}).status, Location_status::free) << "swept";
 }
@@ -178,12 +178,12 @@ TEST(Merge, IsRefusedForABodyWithFaces) {
   Step_report<3> report;
   body.step(soup.points, {.sweep = Sweep::faces}, report, counts);
   Reshaping<3> reshaping(environment, {{&body}, {}});
-  const Replacement held = reshaping.merge((*pair)[0], (*pair)[1]);
+  const Replacement held = reshaping.merge_vertices((*pair)[0], (*pair)[1]);
   EXPECT_FALSE(held.is_made);
   for (const auto feature : {Body_feature::vertex, Body_feature::edge, Body_feature::face})
     EXPECT_TRUE(std::ranges::any_of(held.held_by, [&](const Resident& r) { return r.feature == feature; }));
   EXPECT_TRUE(std::ranges::is_sorted(held.held_by));
-  reshaping.close();
+  reshaping.finish();
   environment.certify();
 }
 
@@ -194,9 +194,10 @@ TEST(Merge, KeepsMembranes) {
     const std::uint32_t low = point_at<3>(environment, {2, 2, 2}), high = point_at<3>(environment, {2, 2, 3});
     EXPECT_EQ(environment.certify().components, 2u);
     Reshaping<3> reshaping(environment, {});
-    const Replacement merged = of_the_membrane ? reshaping.merge(low, high) : reshaping.merge(high, low);
+    const Replacement merged =
+        of_the_membrane ? reshaping.merge_vertices(low, high) : reshaping.merge_vertices(high, low);
     EXPECT_TRUE(merged.is_made) << merged.reason;
-    reshaping.close();
+    reshaping.finish();
     EXPECT_EQ(environment.certify().components, 2u);
     const Locator<3> locator(environment.snapshot());
     Particle<3> particle = *locator.particle_at({2.1, 2.15, 3.8});
@@ -211,18 +212,18 @@ TEST(Merge, RefusesWhatIsNoGap) {
   auto environment = tissue<2>(4, 2, 0);
   const auto at = [&](double x, double y) { return point_at<2>(environment, {x, y}); };
   Reshaping<2> reshaping(environment, {});
-  EXPECT_EQ(reshaping.merge(at(2, 1), at(3, 1)).reason, "a solid cell has both points");
-  EXPECT_EQ(reshaping.merge(at(2, 3), at(2, 1)).reason, "no free cell has both points");
-  EXPECT_EQ(reshaping.merge(at(0, 3), at(1, 3)).reason, "the boundary has the point");
-  EXPECT_EQ(reshaping.merge(at(2, 3), at(2, 3) + 1).is_made, true);
-  EXPECT_THROW(reshaping.merge(at(1, 3), at(1, 3)), Error);
-  EXPECT_THROW(reshaping.merge(1000, at(1, 3)), Error);
-  EXPECT_THROW(reshaping.merge(at(1, 3), 1000), Error);
-  reshaping.close();
-  EXPECT_THROW(reshaping.merge(at(1, 3), at(2, 2)), Error);
+  EXPECT_EQ(reshaping.merge_vertices(at(2, 1), at(3, 1)).reason, "a solid cell has both points");
+  EXPECT_EQ(reshaping.merge_vertices(at(2, 3), at(2, 1)).reason, "no free cell has both points");
+  EXPECT_EQ(reshaping.merge_vertices(at(0, 3), at(1, 3)).reason, "the boundary has the point");
+  EXPECT_EQ(reshaping.merge_vertices(at(2, 3), at(2, 3) + 1).is_made, true);
+  EXPECT_THROW(reshaping.merge_vertices(at(1, 3), at(1, 3)), Error);
+  EXPECT_THROW(reshaping.merge_vertices(1000, at(1, 3)), Error);
+  EXPECT_THROW(reshaping.merge_vertices(at(1, 3), 1000), Error);
+  reshaping.finish();
+  EXPECT_THROW(reshaping.merge_vertices(at(1, 3), at(2, 2)), Error);
   auto frozen = simplex_grid<2>(3, {.keep_map = false});
   Reshaping<2> of_frozen(frozen, {});
-  EXPECT_THROW(of_frozen.merge(5, 6), Error);
+  EXPECT_THROW(of_frozen.merge_vertices(5, 6), Error);
 }
 
 TEST(Merge, RefusesFlatCells) {
@@ -230,17 +231,17 @@ TEST(Merge, RefusesFlatCells) {
   Reshaping<2> reshaping(environment, {});
   // One step further, a point would pass over cells that stay.
   const std::uint32_t u = point_at<2>(environment, {1, 3}), onto = point_at<2>(environment, {2, 3});
-  ASSERT_TRUE(reshaping.merge(u, onto).is_made);
+  ASSERT_TRUE(reshaping.merge_vertices(u, onto).is_made);
   std::size_t flat = 0;
   for (const double x : {0, 3, 4})
     for (const double y : {2, 4}) {
-      const Replacement merged = reshaping.merge(onto, point_at<2>(environment, {x, y}));
+      const Replacement merged = reshaping.merge_vertices(onto, point_at<2>(environment, {x, y}));
       if (merged.is_made) break;
       flat += merged.reason == "a cell would be flat or inverted";
       EXPECT_TRUE(merged.cells.empty());
     }
   EXPECT_GT(flat, 0u);
-  reshaping.close();
+  reshaping.finish();
   environment.certify();
 }
 
@@ -284,8 +285,8 @@ void merge_at_random(std::uint64_t seed, std::size_t& made, std::size_t& held) {
     scatter();
     const std::size_t k = random.below(pairs.size());
     Reshaping<D> reshaping(environment, {{}, {particles}});
-    const Replacement merged = reshaping.merge(pairs[k][0], pairs[k][1]);
-    reshaping.close();
+    const Replacement merged = reshaping.merge_vertices(pairs[k][0], pairs[k][1]);
+    reshaping.finish();
     made += merged.is_made;
     held += !merged.held_by.empty();
     if (merged.held_by.empty()) pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(k));

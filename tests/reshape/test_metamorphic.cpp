@@ -115,8 +115,8 @@ void swap_order(bool generic, std::size_t worlds) {
       Reshaping<D> second(other.environment, other.residents(), hold);
       const auto u_first = first.move(u, u_to), v_second = first.move(v, v_to);
       const auto v_first = second.move(v, v_to), u_second = second.move(u, u_to);
-      first.close();
-      second.close();
+      first.finish();
+      second.finish();
       // The boundary may come near itself by both.
       if (u_first.end == Move_end::boundary || v_first.end == Move_end::boundary ||
           u_second.end == Move_end::boundary || v_second.end == Move_end::boundary)
@@ -185,7 +185,8 @@ void ask_in_images(bool generic, std::size_t worlds, const Map& map, double shar
     for (int i = 0; i < 40; ++i) {
       const std::uint32_t v = static_cast<std::uint32_t>(world.random.below(world.snapshot.points().size()));
       const Point<D> target = world.target(v);
-      const auto answer = here.ask(v, target), in_image = there.ask(image.new_point[v], image.place(target));
+      const auto answer = here.test_move(v, target),
+                 in_image = there.test_move(image.new_point[v], image.place(target));
       ++asked;
       contacts += answer.end == Move_end::contact;
       different += !is_same(answer, in_image);

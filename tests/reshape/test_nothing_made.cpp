@@ -49,7 +49,7 @@ void ask_only(std::uint64_t number, bool generic) {
     for (int i = 0; i < 30; ++i) {
       const std::uint32_t v = world.vertex();
       const Point<D> target = world.target(v);
-      if (reshaping.ask(v, target).end != Move_end::reached) reshaping.move(v, target);
+      if (reshaping.test_move(v, target).end != Move_end::reached) reshaping.move(v, target);
     }
     EXPECT_GT(reshaping.counts().moves, 30u);
     EXPECT_EQ(reshaping.counts().made, 0u);
@@ -67,7 +67,7 @@ void ask_only(std::uint64_t number, bool generic) {
     const std::uint32_t v = world.vertex();
     reshaping.move(v, world.target(v));
   }
-  reshaping.close();
+  reshaping.finish();
   EXPECT_GT(world.snapshot.epoch(), epoch);
   EXPECT_THROW(locator.particles_at(world.particles[0].position), Error);
 }
@@ -95,13 +95,13 @@ TEST(NothingMade, LetsABodyGoOnThatIsNotListed) {
     other.step(std::vector<Point<3>>{{1.5, 2.125, height}, {2.5, 2.125, height}}, {}, report, counts);
   };
   Reshaping<3> reshaping(environment, {{&listed}, {}}, {.at_contact = At_contact::hold});
-  EXPECT_EQ(reshaping.ask(vertex, {2, 2, 2.0625}).end, Move_end::reached);
+  EXPECT_EQ(reshaping.test_move(vertex, {2, 2, 2.0625}).end, Move_end::reached);
   EXPECT_EQ(reshaping.move(vertex, {2, 2, 2.5}).end, Move_end::contact);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(step(2.5));
   Reshaping<3> again(environment, {{&listed}, {}}, {.at_contact = At_contact::hold});
   EXPECT_EQ(again.move(vertex, {2, 2, 2.0625}).end, Move_end::reached);
-  again.close();
+  again.finish();
   EXPECT_THROW(step(2.25), Error);
 }
 

@@ -61,7 +61,7 @@ void run_out(std::size_t worlds) {
         const test::Random_change<D> change(world);
         if (!is_of_walls(change.kind)) continue;
         ++changes;
-        EXPECT_THROW(reshaping.merge(change.u, change.u), Error);  // restores certificates
+        EXPECT_THROW(reshaping.merge_vertices(change.u, change.u), Error);  // restores certificates
         const auto residents = world.residents();
         const std::string before = test::digest(world.environment, residents);
         for (long n = 0;; ++n) {
@@ -73,7 +73,7 @@ void run_out(std::size_t worlds) {
             has_failed = true;
           }
           allocations_left = -1;
-          EXPECT_THROW(reshaping.merge(change.u, change.u), Error);
+          EXPECT_THROW(reshaping.merge_vertices(change.u, change.u), Error);
           if (!has_failed) {
             made += is_made;
             break;
@@ -86,14 +86,14 @@ void run_out(std::size_t worlds) {
           // It was made, but for what it returns: then nothing is left to be done.
           const std::string after = test::digest(world.environment, residents);
           ASSERT_TRUE(change.make(reshaping)) << change.names[change.kind] << " " << n;
-          EXPECT_THROW(reshaping.merge(change.u, change.u), Error);
+          EXPECT_THROW(reshaping.merge_vertices(change.u, change.u), Error);
           ASSERT_EQ(test::digest(world.environment, residents) == after, true)
               << change.names[change.kind] << " in between, at allocation " << n;
           break;
         }
         ASSERT_NO_THROW(world.environment.certify()) << change.names[change.kind];
       }
-      reshaping.close();
+      reshaping.finish();
       for (const auto& body : world.bodies) ASSERT_NO_THROW(body->validate());
       world.step_bodies();
     }
@@ -150,7 +150,7 @@ void push_out() {
     moved += has_failed && (pushed[0].position != start[0] || pushed[1].position != start[1]);
     EXPECT_EQ(reshaping.move(low, all(1.03125)).end, Move_end::reached);
     for (const double height : {2.25, 2.5, 2.75}) reshaping.move(middle, at(height));
-    reshaping.close();
+    reshaping.finish();
     for (Particle<D>& particle : pushed) {
       Vector<D> up{};
       up[D - 1] = 3.9375 - particle.position[D - 1];

@@ -74,7 +74,7 @@ TYPED_TEST(PushTest, AnEdgeIsPushedAsFarAsTheWallNeeds) {
   EXPECT_EQ(room.snapshot().point(room.vertex), target);
   EXPECT_FALSE(result.hit.has_value());
   EXPECT_EQ(reshaping.counts().pushes, 1u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
   for (const Point<D>& x : body.positions()) {
     EXPECT_GT(x[D - 1], D == 2 ? 2.5 : 2.25) << "the wall is below";
@@ -137,7 +137,7 @@ TYPED_TEST(PushTest, WhatIsSqueezedStopsTheWall) {
   EXPECT_GT(result.position[D - 1], 2.74);
   EXPECT_LT(result.position[D - 1], 2.9765625);
   EXPECT_EQ(room.snapshot().point(room.vertex), result.position);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
   EXPECT_NO_THROW(room.environment.certify());
 }
@@ -151,7 +151,7 @@ TYPED_TEST(PushTest, ParticlesArePushed) {
   ASSERT_FALSE(particles.empty());
   Reshaping<D> reshaping(room.environment, {{}, {particles}}, push);
   EXPECT_EQ(reshaping.move(room.vertex, room.at(2, 2.5)).end, Move_end::reached);
-  reshaping.close();
+  reshaping.finish();
   for (const Particle<D>& p : particles) {
     EXPECT_TRUE(in_closure(room.snapshot(), p.cell, p.position));
     EXPECT_GT(p.position[D - 1], 2.4);
@@ -163,8 +163,8 @@ TYPED_TEST(PushTest, FirstAttemptsAreCountedOnce) {
   Room<D> room;
   Body<D> body = room.body({room.beside(1.5, 2.125), room.beside(2.5, 2.125)}, {{0, 1}});
   Reshaping<D> asking(room.environment, {{&body}, {}}, push);
-  ASSERT_EQ(asking.ask(room.vertex, room.at(2, 2.5)).end, Move_end::contact);
-  asking.close();
+  ASSERT_EQ(asking.test_move(room.vertex, room.at(2, 2.5)).end, Move_end::contact);
+  asking.finish();
   const Reshape_counts asked = asking.counts();
   EXPECT_EQ(asked.near, asked.vertices + asked.edges);
   EXPECT_EQ(asked.certified, asked.same_cell + asked.same_chain + asked.apart);
@@ -184,21 +184,21 @@ TYPED_TEST(PushTest, NothingMovesWhereOneOnlyAsks) {
   const std::vector<Point<D>> before(body.positions().begin(), body.positions().end());
   Reshaping<D> reshaping(room.environment, {{&body}, {}}, push);
   const Point<D> from = room.snapshot().point(room.vertex);
-  const auto free = reshaping.ask(room.vertex, room.at(2, 2.0625));
+  const auto free = reshaping.test_move(room.vertex, room.at(2, 2.0625));
   EXPECT_EQ(free.end, Move_end::reached);
   EXPECT_EQ(free.position, room.at(2, 2.0625));
-  const auto blocked = reshaping.ask(room.vertex, room.at(2, 2.5));
+  const auto blocked = reshaping.test_move(room.vertex, room.at(2, 2.5));
   EXPECT_EQ(blocked.end, Move_end::contact);
   ASSERT_TRUE(blocked.hit.has_value());
   EXPECT_GT(blocked.hit->time, Exact_time());
   EXPECT_EQ(blocked.position, from);
-  EXPECT_EQ(reshaping.ask(room.vertex, room.at(2, 3.5)).end, Move_end::cell);
+  EXPECT_EQ(reshaping.test_move(room.vertex, room.at(2, 3.5)).end, Move_end::cell);
   EXPECT_EQ(room.snapshot().point(room.vertex), from);
   EXPECT_EQ(reshaping.counts().made, 0u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_TRUE(std::ranges::equal(before, body.positions()));
   EXPECT_NO_THROW(body.validate());
-  EXPECT_THROW(reshaping.ask(room.vertex, from), Error);
+  EXPECT_THROW(reshaping.test_move(room.vertex, from), Error);
 }
 
 // The union of two cells is convex until the tip between them comes in. An edge that is pushed in one of them
@@ -216,7 +216,7 @@ TYPED_TEST(PushTest, ATipThatCameInBetweenTwoCellsIsNotPassed) {
   ASSERT_EQ(reshaping.counts().pushes, 0u);
   reshaping.move(2, test::at<D>(0, -1.25));
   EXPECT_GT(reshaping.counts().pushes, 0u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
   const auto x = body.positions();
   const double share = -x[0][0] / (x[1][0] - x[0][0]);
@@ -236,12 +236,12 @@ TEST(PushFaces, AFaceIsPushedAndKeptFree) {
   body.step(targets, faces, report, counts);
   Reshaping<3> reshaping(room.environment, {{&body}, {}}, push);
   EXPECT_EQ(reshaping.move(room.vertex, {2, 2, 2.5}).end, Move_end::reached);
-  const auto through = reshaping.ask(room.vertex, {2, 2, 2.625});
+  const auto through = reshaping.test_move(room.vertex, {2, 2, 2.625});
   EXPECT_EQ(through.end, Move_end::contact) << "it is still one whose faces nothing may pierce";
   if (through.hit) {
     EXPECT_EQ(through.hit->resident.feature, Body_feature::face);
   }
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
   double height = 0;
   for (const Point<3>& x : body.positions()) height += x[2] / 3;
@@ -274,20 +274,20 @@ void push_about(bool generic, std::size_t worlds) {
       for (int i = 0; i < 60; ++i) {
         const std::uint32_t v = world.vertex();
         asked.emplace_back(v, world.target(v));
-        answers.push_back(reshaping.ask(v, asked.back().second));
+        answers.push_back(reshaping.test_move(v, asked.back().second));
       }
-      reshaping.close();
+      reshaping.finish();
       counts += reshaping.counts();
       Reshaping<D> again(world.environment, world.residents(), push);
       for (std::size_t i = 0; i < asked.size(); ++i) {
-        const Vertex_result<D> answer = again.ask(asked[i].first, asked[i].second);
+        const Vertex_result<D> answer = again.test_move(asked[i].first, asked[i].second);
         EXPECT_EQ(answer.end, answers[i].end) << world.name();
         EXPECT_EQ(answer.hit.has_value(), answers[i].hit.has_value()) << world.name();
         if (answer.hit && answers[i].hit) {
           EXPECT_EQ(answer.hit->time, answers[i].hit->time) << world.name();
         }
       }
-      again.close();
+      again.finish();
       for (const auto& body : world.bodies) EXPECT_NO_THROW(body->validate()) << world.name();
       for (const Particle<D>& p : world.particles)
         EXPECT_TRUE(in_closure(world.snapshot, p.cell, p.position)) << world.name();

@@ -19,7 +19,7 @@ namespace {
 /// Certificates that moves withdrew, made or not, are made anew before other changes, also one that is none.
 template <int D>
 void restore(Reshaping<D>& reshaping, std::uint32_t point) {
-  EXPECT_THROW(reshaping.merge(point, point), Error);
+  EXPECT_THROW(reshaping.merge_vertices(point, point), Error);
 }
 
 template <int D>
@@ -50,7 +50,7 @@ void refuse_many(std::size_t worlds) {
               << change.names[change.kind];
         }
       }
-      reshaping.close();
+      reshaping.finish();
       ASSERT_NO_THROW(world.environment.certify());
       for (const auto& body : world.bodies) ASSERT_NO_THROW(body->validate());
       world.step_bodies();
@@ -85,9 +85,9 @@ TEST(Refusals, LetABodyGoOnThatIsNotListed) {
       refused += !reshaping.close(f).is_made;
       refused += !reshaping.fill(s.cell_of(f)).is_made;
       const auto loop = s.loop(f);
-      refused += !reshaping.merge(loop[0], loop[1]).is_made;
+      refused += !reshaping.merge_vertices(loop[0], loop[1]).is_made;
       refused += !reshaping.split_edge(loop[0], loop[1], s.point(loop[0])).is_made;
-      EXPECT_THROW(reshaping.peel(loop[0], std::array{s.cell_of(f)}, s.point(loop[1])), Error);
+      EXPECT_THROW(reshaping.split_vertex(loop[0], std::array{s.cell_of(f)}, s.point(loop[1])), Error);
     }
     EXPECT_EQ(s.epoch(), epoch);
     EXPECT_NO_THROW(other.refresh(counts));

@@ -106,7 +106,7 @@ void expect_moves_are_refused() {
         ++refused;
       }
       EXPECT_THROW(reshaping.move(moves[bad].point, moves[bad].target), Error);
-      EXPECT_THROW(reshaping.ask(moves[bad].point, moves[bad].target), Error);
+      EXPECT_THROW(reshaping.test_move(moves[bad].point, moves[bad].target), Error);
     }
   EXPECT_EQ(refused, 64);
   EXPECT_TRUE(std::ranges::equal(snapshot.points(), before));

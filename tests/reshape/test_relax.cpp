@@ -60,7 +60,7 @@ void relax_all(double least_wanted) {
     Reshaping<D> reshaping(bad.environment, {{&body}, {}});
     Relax_report& report = reports[turn];
     report = reshaping.relax(bad.points);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(body.validate());
     const Certificate after = bad.environment.certify();
     EXPECT_NEAR(after.volume, before.volume, 1e-12 * before.volume);

@@ -63,7 +63,7 @@ struct Things {
     residents.particles = {std::span(particles)};
     Reshaping<D> reshaping(environment, residents);
     const Replacement result = edit(reshaping);
-    reshaping.close();
+    reshaping.finish();
     check();
     return result;
   }
@@ -251,7 +251,7 @@ TEST(Replacement, SaysWhyNot) {
   EXPECT_EQ(code([&](auto& r) { return r.remove_edge(3, 3); }), Error_code::usage);
   EXPECT_EQ(code([&](auto& r) { return r.collapse(99, 0); }), Error_code::usage);
   EXPECT_EQ(code([&](auto& r) {
-              r.close();
+              r.finish();
               return r.flip(facet_between<3>(snapshot));
             }),
             Error_code::usage);
@@ -284,7 +284,7 @@ TEST(Replacement, KeepsSidesOfAMembrane) {
     test::replace_at(reshaping, snapshot, before[random.below(2)], random, 500, tally);
     for (std::size_t i = 0; i < 2; ++i) renamed += particles[i].cell != before[i];
   }
-  reshaping.close();
+  reshaping.finish();
   EXPECT_GT(renamed, 40);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(is_above(particles[k]), above[k]);
   EXPECT_NO_THROW(environment.certify());
@@ -310,7 +310,7 @@ void split_a_membrane() {
   Reshaping<D> busy(environment, {{}, {particles}});
   EXPECT_EQ(busy.split_edge(from, to, middle).reason,
             "a wall has the edge, and something lies in the cells around it");
-  busy.close();
+  busy.finish();
   EXPECT_EQ(environment.certify().cells, before.cells);
   std::vector<Particle<D>> aside = Locator<D>(snapshot).particles_at(far);
   Reshaping<D> reshaping(environment, {{}, {aside}});
@@ -322,7 +322,7 @@ void split_a_membrane() {
   const Replacement split = reshaping.split_edge(from, to, middle);
   ASSERT_TRUE(split.is_made) << split.reason;
   EXPECT_EQ(split.cells.size(), D == 2 ? 4u : 12u);
-  reshaping.close();
+  reshaping.finish();
   const Certificate after = environment.certify();
   EXPECT_EQ(after.membranes, before.membranes + (D == 2 ? 1 : 2));
   EXPECT_EQ(after.components, before.components);

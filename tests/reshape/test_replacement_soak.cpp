@@ -65,7 +65,7 @@ void soak(bool generic, std::size_t worlds) {
           moved += reshaping.move(v, world.target(v)).end == Move_end::reached;
         }
       }
-      reshaping.close();
+      reshaping.finish();
       expect_valid(world);
       if (testing::Test::HasFatalFailure()) return;
       world.step_bodies();
@@ -100,7 +100,7 @@ TEST(ReplacementSoak, AtTheLevelOfAMembrane) {
       for (int k = 0; k < 8; ++k)
         test::replace_at(reshaping, world.snapshot, test::cell_near_residents(world, random), random, 600,
                          tally);
-      reshaping.close();
+      reshaping.finish();
       expect_valid(world);
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -159,7 +159,7 @@ void compare(World& one, World& other, const std::vector<std::pair<std::uint32_t
       if (!other.snapshot.is_point(v) || one.snapshot.point(v) != other.snapshot.point(v)) continue;
       const auto followed = [&] { return here.counts().followed + there.counts().followed; };
       const std::uint64_t before = followed();
-      const auto x = here.ask(v, target), y = there.ask(v, target);
+      const auto x = here.test_move(v, target), y = there.test_move(v, target);
       // Where something is touched, there may be a choice.
       if (!is_about_residents(x) || !is_about_residents(y) || (!generic && followed() != before)) continue;
       ++twins.asked;

@@ -88,7 +88,7 @@ TEST(Reshaping, AWallStopsJustBefore) {
   const auto again = reshaping.move(room.vertex, {2, 2, 2.5});
   EXPECT_EQ(again.end, Move_end::contact);
   EXPECT_NEAR(again.position[2], 2 + 1.0 / 3, 1e-12);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_TRUE(in_closure(room.snapshot(), particles[0].cell, particles[0].position));
   EXPECT_NO_THROW(room.environment.certify());
 }
@@ -111,7 +111,7 @@ TEST(Reshaping, AParticleInAWallStaysOnItsSide) {
         << "in its own plane, while the particle stays in its cell";
     EXPECT_EQ(particles[0].position, x);
     // On the other side, nothing of it was lost: it can leave on its own side only.
-    reshaping.close();
+    reshaping.finish();
     Walk_counts counts;
     Particle<3> moved = particles[0];
     EXPECT_EQ(move(room.snapshot(), moved, {2.25, 2.125, 2 - 0.5 * side}, counts).status,
@@ -131,7 +131,7 @@ TEST(Reshaping, AWallLeavesAtOnceWhatLiesInIt) {
   EXPECT_GT(reshaping.counts().left, 2u);
   EXPECT_EQ(reshaping.counts().touches, 0u);
   EXPECT_EQ(particles[0].dimension, 3);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(above.validate());
 
   // From below it is met.
@@ -180,7 +180,7 @@ TEST(Reshaping, AnEdgeIsMetByAnEdge) {
   EXPECT_GT(result.hit->normal[2], 0.5);
   EXPECT_NEAR(dot(result.hit->normal, Vector<3>{0, 0.75, 0.1875}), 0, 1e-12) << "perpendicular to both";
   EXPECT_NEAR(dot(result.hit->normal, Vector<3>{1, 0, -0.5}), 0, 1e-12);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
 }
 
@@ -195,7 +195,7 @@ TEST(Reshaping, AFaceIsMetByTheVertexThatMoves) {
   EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
   EXPECT_EQ(result.hit->resident.feature, Body_feature::face);
   EXPECT_EQ(result.hit->normal, (Vector<3>{0, 0, 1}));
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
 }
 
@@ -301,7 +301,7 @@ TEST(Reshaping, ErrorsChangeNothing) {
   particles[0].position[0] = 0.1;
   EXPECT_THROW(reshaping.move(room.vertex, {2, 2, 2.125}), Error) << "not in its cell";
   EXPECT_EQ(room.snapshot().point(room.vertex), (Point<3>{2, 2, 2}));
-  reshaping.close();
+  reshaping.finish();
   EXPECT_THROW(reshaping.move(room.vertex, {2, 2, 2.125}), Error);
 
   Room other;
@@ -331,7 +331,7 @@ TEST(Reshaping, TheSameInThePlane) {
   EXPECT_EQ(result.hit->resident.feature, Body_feature::edge);
   EXPECT_EQ(reshaping.move(vertex, {2, 2.25}).end, Move_end::reached);
   EXPECT_EQ(reshaping.move(vertex, {2, 1.5}).end, Move_end::reached);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
 }
 

@@ -34,7 +34,7 @@ typename test::Wall_judge<D, World>::Tally run(const char* kind, std::size_t wor
           const std::uint32_t v = world.vertex();
           judge.judge(reshaping, v, world.target(v));
         }
-        reshaping.close();
+        reshaping.finish();
         counts += reshaping.counts();
       }
       for (const auto& body : world.bodies) EXPECT_NO_THROW(body->validate()) << world.name();

@@ -50,7 +50,7 @@ struct Tent {
   Vertex_result<3> move(Body<3>& body, const Point<3>& target) {
     Reshaping<3> reshaping(environment, {{&body}, {}}, hold);
     auto result = reshaping.move(vertex, target);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(body.validate());
     EXPECT_NO_THROW(environment.certify());
     return result;
@@ -186,7 +186,7 @@ TEST(RestingFaces, ASlitThatLandsOnAFaceLeavesItOnItsSide) {
       EXPECT_EQ(through.hit->time, Exact_time());
       EXPECT_EQ(reshaping.move(vertex, {0, side, 0}).end, Move_end::reached) << "back where it came from";
     }
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(body.validate());
   }
 }
@@ -208,7 +208,7 @@ TEST(RestingFaces, ABodyAtRestDoesNotHoldAWallThatBeats) {
     EXPECT_NE(reshaping.move(vertex, {2, 2, 2.25}).end, Move_end::reached) << "the body is there";
   }
   EXPECT_GT(reshaping.counts().rested, 0u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
 }
 

@@ -29,10 +29,10 @@ void judge_phase(test::Restless_world<D>& world, typename Judge<D>::Tally& tally
     const std::uint32_t v = world.vertex();
     const Point<D> target = world.target(v);
     // This also registers what bodies left to whoever asks first.
-    reshaping.ask(v, target);
+    reshaping.test_move(v, target);
     judge.judge(reshaping, v, target);
   }
-  reshaping.close();
+  reshaping.finish();
   counts += reshaping.counts();
 }
 

@@ -50,7 +50,7 @@ struct Flap {
   Vertex_result<3> move(const Point<3>& from, const Point<3>& to, At_contact at_contact = At_contact::hold) {
     Reshaping<3> reshaping(environment, {{&body}, {}}, {.at_contact = at_contact});
     const auto result = reshaping.move(test::point_at<3>(environment, from), to);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_NO_THROW(body.validate());
     EXPECT_EQ(reshaping.counts().touches, 0u);
     return result;

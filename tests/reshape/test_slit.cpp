@@ -30,7 +30,7 @@ Cut_report cut(Environment<D>& environment, const Blade<D>& blade, double openin
   const Certificate before = environment.certify();
   Reshaping<D> reshaping(environment, {});
   const Cut_report report = reshaping.cut(blade, {.opening = opening});
-  reshaping.close();
+  reshaping.finish();
   const Certificate after = environment.certify();
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
   EXPECT_GE(after.free_volume, before.free_volume * (1 - 1e-12));
@@ -139,7 +139,7 @@ TEST(Slit, SparesMembranesAmongResidents) {
   particle = *Locator<2>(environment.snapshot()).particle_at({0.4, 3.1});
   Reshaping<2> reshaping(environment, {{}, {std::span(&particle, 1)}});
   EXPECT_EQ(reshaping.cut(blade<2>({{2.31, 1}, {2.31, 3}}), {.opening = 0.1}).slit, 1u);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_EQ(environment.certify().components, 1u);
   Walk_counts counts;
   EXPECT_EQ(move(environment.snapshot(), particle, Point<2>{0.5, 2.5}, counts).status, Walk_status::arrived);

@@ -286,7 +286,7 @@ TYPED_TEST(StarCases, TwoVerticesOfACellMoveInEitherOrder) {
     if (reverse) std::ranges::reverse(moves);
     Reshaping<D> reshaping(environment, {{&body}, {}});
     const Move_report<D> report = reshaping.move(moves);
-    reshaping.close();
+    reshaping.finish();
     EXPECT_TRUE(report.short_of_target.empty());
     EXPECT_EQ(report.rounds > 1, !reverse) << "in one order the first has to wait";
     EXPECT_NO_THROW(body.validate());

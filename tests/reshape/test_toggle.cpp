@@ -22,7 +22,7 @@ TEST(Toggle, ValveClosesOnAnEdge) {
   expect_held<2>(reshaping.close(f), {{false, 0, Body_feature::edge, 0}});
   EXPECT_EQ(environment.snapshot().epoch(), epoch) << "nothing was changed";
   EXPECT_FALSE(environment.snapshot().is_impassable(f));
-  reshaping.close();
+  reshaping.finish();
   expect_sound(environment, body);
 }
 
@@ -34,7 +34,7 @@ TEST(Toggle, ValveClosesOnAnEdgeAtItsRim) {
   const Half_facet other = level_facets<2>(environment, 1, {1, 0}).at(0);
   expect_held<2>(reshaping.close(environment.snapshot().opposite(other)),
                  {{false, 0, Body_feature::edge, 0}});
-  reshaping.close();
+  reshaping.finish();
   expect_sound(environment, body);
 }
 
@@ -48,7 +48,7 @@ TEST(Toggle, VertexInTheFacetGoesToTheSideOfItsEdges) {
   ASSERT_EQ(body.particles()[0].cell, snapshot.cell_of(f)) << "it came from below";
   Reshaping<2> reshaping(environment, {{&body}, {}});
   EXPECT_TRUE(reshaping.close(f).is_made);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_EQ(body.particles()[0].cell, snapshot.neighbour(f));
   expect_sound(environment, body);
   EXPECT_TRUE(body.move_vertex(0, {0.5, 0.5}, {}, counts)) << "there is a wall now";
@@ -78,7 +78,7 @@ TEST(Toggle, EdgeKeepsTheSideOfAMembraneBeside) {
     ASSERT_NE(f, Half_facet::none);
     {
       Reshaping<2> reshaping(environment, {{&body}, {}});
-      const Change_result result = reshaping.close(f);
+      const Outcome result = reshaping.close(f);
       EXPECT_EQ(result.is_made, !is_above);
       EXPECT_EQ(result.held_by.size(), is_above ? 1u : 0u) << "a chain below would be another one";
     }
@@ -131,7 +131,7 @@ void fill_beside_a_particle() {
   EXPECT_EQ(particles[0].cell, above);
   expect_held<D>(reshaping.fill(above), {{true, 0, Body_feature::vertex, 0}});
   EXPECT_TRUE(reshaping.fill(below).is_made);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(environment.certify());
 }
 
@@ -169,7 +169,7 @@ TEST(Toggle, CertificatesAreThoseOfAnEnvironmentBuiltSo) {
   ASSERT_EQ(reshaping.move(v, {2, 2}).end, Move_end::reached);
   EXPECT_TRUE(reshaping.open(f).is_made);
   EXPECT_TRUE(reshaping.excavate(snapshot.cell(7)).is_made);
-  reshaping.close();
+  reshaping.finish();
   const Environment<2> built = test::simplex_grid<2>(4);
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
@@ -211,11 +211,11 @@ TEST(Toggle, WhatIsNotThereIsAnError) {
   EXPECT_THROW(reshaping.close(Half_facet::none), Error);
   EXPECT_THROW(reshaping.fill(Cell{12345}), Error);
   EXPECT_THROW(reshaping.excavate(Cell::none), Error);
-  const Change_result boundary = reshaping.open(level_facets<2>(environment, 2, {1, 0}).at(0));
+  const Outcome boundary = reshaping.open(level_facets<2>(environment, 2, {1, 0}).at(0));
   EXPECT_FALSE(boundary.is_made);
   EXPECT_TRUE(boundary.held_by.empty());
   EXPECT_TRUE(reshaping.close(f).is_made);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(body.validate());
   EXPECT_THROW(forgotten.validate(), Error) << "it was not listed";
   EXPECT_THROW(reshaping.open(f), Error) << "after close()";
@@ -255,7 +255,7 @@ void fill_behind_edges() {
         ASSERT_NE(now, cell);
         changed += body.chain(0).empty();
         ASSERT_TRUE(reshaping.insert_point(now, test::centroid(snapshot, now)).is_made);
-        reshaping.close();
+        reshaping.finish();
         expect_sound(environment, body);
       }
   EXPECT_GT(changed, 5);

@@ -87,7 +87,7 @@ TEST(ToggleFaces, FaceKeepsTheSideOfWhatItRestsOn) {
     Body<3> body = resting_face(environment, from);
     const Snapshot<3>& snapshot = environment.snapshot();
     const auto beside = [&](Half_facet f) { return from > 2 ? snapshot.neighbour(f) : snapshot.cell_of(f); };
-    const auto expect_held_by_face = [&](const Change_result& result) {
+    const auto expect_held_by_face = [&](const Outcome& result) {
       ASSERT_FALSE(result.is_made);
       EXPECT_EQ(result.held_by.back(), (Resident{false, 0, Body_feature::face, 0}));
     };
@@ -114,7 +114,7 @@ TEST(ToggleFaces, FaceHoldsWhatWouldPierceIt) {
   const Cell inside = Locator<3>(snapshot).particles_at({2.1, 1.7, 1.5}).at(0).cell;
   std::size_t held = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Change_result result = reshaping.close(Snapshot<3>::half_facet(inside, k));
+    const Outcome result = reshaping.close(Snapshot<3>::half_facet(inside, k));
     if (result.is_made) continue;
     ++held;
     EXPECT_EQ(result.held_by, (std::vector<Resident>{{false, 0, Body_feature::face, 0}}));

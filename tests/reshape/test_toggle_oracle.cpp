@@ -34,7 +34,7 @@ void expect_all_right(bool generic, std::size_t worlds) {
                                     << tally.wrong_registrations << " registrations, " << tally.wrong_holders
                                     << " holders" << tally.last;
       }
-      reshaping.close();
+      reshaping.finish();
       ASSERT_NO_THROW(world.environment.certify());
       for (const auto& body : world.bodies) ASSERT_NO_THROW(body->validate());
       world.step_bodies();

@@ -56,7 +56,7 @@ struct Scene {
   Vertex_result<D> move(const Residents<D>& residents, const Point<D>& target) {
     Reshaping<D> reshaping(environment, residents, hold);
     const auto result = reshaping.move(vertex, target);
-    reshaping.close();
+    reshaping.finish();
     for (const Body<D>* body : residents.bodies) EXPECT_NO_THROW(body->validate());
     return result;
   }

@@ -95,7 +95,7 @@ TEST(UnsweptFaces, ForgetWallsThatAreGone) {
       break;
     }
   EXPECT_GT(gone, 0);
-  reshaping.close();
+  reshaping.finish();
   EXPECT_NO_THROW(face.body.validate());
   Body<3> restored = restore_body<3>(snapshot, save(face.body));
   EXPECT_TRUE(std::ranges::equal(restored.positions(), face.body.positions()));

@@ -52,7 +52,7 @@ Body<D> body_at(const Environment<D>& environment, std::vector<Point<D>> points,
 }
 
 template <int D>
-void expect_held(const Change_result& result, std::vector<Resident> by) {
+void expect_held(const Outcome& result, std::vector<Resident> by) {
   EXPECT_FALSE(result.is_made);
   EXPECT_FALSE(result.reason.empty());
   EXPECT_EQ(result.held_by, by);

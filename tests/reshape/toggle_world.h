@@ -89,7 +89,7 @@ class Toggle_world {
       if (random.chance(0.3)) continue;
       Body_options options;
       options.sweep.sweep = D == 3 && !body->faces().empty() ? Sweep::faces : Sweep::triangle;
-      options.policy = random.chance(0.5) ? Contact_policy::slide : Contact_policy::reject;
+      options.rule = random.chance(0.5) ? Step_rule::slide : Step_rule::reject;
       options.clearance = random.chance(0.8);
       for (std::size_t k = 0; k < 2; ++k) {
         std::vector<Point<D>> targets(body->positions().begin(), body->positions().end());

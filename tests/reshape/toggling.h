@@ -35,7 +35,7 @@ void toggle_somewhere(World& world, Reshaping<D>& reshaping, Closing_tally& tall
   if (is_cell ? snapshot.is_solid(subject) : snapshot.is_impassable(f)) {
     const bool is_possible =
         is_cell || (other != Cell::none && snapshot.is_solid(other) == snapshot.is_solid(cell));
-    const Change_result result = is_cell ? reshaping.excavate(subject) : reshaping.open(f);
+    const Outcome result = is_cell ? reshaping.excavate(subject) : reshaping.open(f);
     ASSERT_EQ(result.is_made, is_possible);
     ASSERT_EQ(result.reason.empty(), is_possible);
     ASSERT_TRUE(result.held_by.empty());
@@ -54,7 +54,7 @@ void toggle_somewhere(World& world, Reshaping<D>& reshaping, Closing_tally& tall
   }
   Closing_judge<D> judge(snapshot, world.bodies, world.particles, closed, is_cell ? subject : Cell::none,
                          with_faces(world));
-  const Change_result result = is_cell ? reshaping.fill(subject) : reshaping.close(f);
+  const Outcome result = is_cell ? reshaping.fill(subject) : reshaping.close(f);
   judge.judge(result, world.bodies, world.particles, tally);
   ASSERT_EQ(result.reason.empty(), result.is_made);
   for (const Half_facet g : closed) ASSERT_EQ(snapshot.is_impassable(g), result.is_made);

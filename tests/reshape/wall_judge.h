@@ -64,7 +64,7 @@ class Wall_judge {
         return may_meet(simplex, set) && relation_by_clipping<D>(simplex, set) != Relation::apart;
       });
     });
-    const Vertex_result<D> result = asks ? reshaping.ask(v, target) : reshaping.move(v, target);
+    const Vertex_result<D> result = asks ? reshaping.test_move(v, target) : reshaping.move(v, target);
     ++tally_.moves;
     if (!asks && !expected.inverts_cell && target != from && result.end != Move_end::boundary)
       fates_.judge({world_.snapshot, v, from, target}, result, expected.first_of_faces, tally_.fates);

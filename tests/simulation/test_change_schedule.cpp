@@ -42,7 +42,7 @@ std::vector<Change_outcome> apply(Environment<2>& environment, Change_schedule<2
                                   std::uint32_t step, const Residents<2>& residents = {}) {
   Reshaping<2> reshaping(environment, residents);
   auto outcomes = schedule.apply(environment.snapshot(), reshaping, step);
-  reshaping.close();
+  reshaping.finish();
   return outcomes;
 }
 

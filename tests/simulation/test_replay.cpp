@@ -149,9 +149,9 @@ TEST(Replay, BodiesReportContactsOfTheSameMoves) {
     for (std::uint32_t step = 0; step < trace.steps; ++step) {
       Step_report<3> report;
       const std::span<const Point<3>> targets(&trace.target(step, b, 0), trace_vertices);
-      options.reported = Reported::blocked;
+      options.reports_blocked = true;
       body.step(targets, options, report, counts);
-      options.reported = Reported::contacts;
+      options.reports_blocked = false;
       copy.step(targets, options, report, counts);
       std::vector<std::uint8_t> answers;
       append_answers(report.blocked, Sweep::triangle, answers);
@@ -235,7 +235,7 @@ TEST(Replay, SweptSegmentsThatRejectGoTheSameWay) {
   const Locator<3> locator(environment.snapshot());
   Body_options options;
   options.sweep.sweep = Sweep::three_segments;
-  options.policy = Contact_policy::reject;
+  options.rule = Step_rule::reject;
   Replay replay(environment.snapshot(), locator, trace, {Sweep::three_segments, true});
   std::vector<Body<3>> bodies;
   for (std::uint32_t b = 0; b < trace.bodies; ++b)
@@ -263,7 +263,7 @@ TEST(Replay, SweptTrianglesRejectWhatGoesRound) {
   const Environment<3> environment = trace_environment(trace);
   const Locator<3> locator(environment.snapshot());
   Body_options options;
-  options.policy = Contact_policy::reject;
+  options.rule = Step_rule::reject;
   int rejected = 0;
   test::for_each_move(trace, [&](std::size_t i, const Point<3>& from, const Point<3>& target, const auto&) {
     const unsigned answer = trace.answers[i];

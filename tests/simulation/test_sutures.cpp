@@ -46,7 +46,7 @@ std::vector<Change_outcome> apply(Environment<D>& environment, Change_schedule<D
                                   std::uint32_t step, const Residents<D>& residents = {}) {
   Reshaping<D> reshaping(environment, residents);
   auto outcomes = schedule.apply(environment.snapshot(), reshaping, step);
-  reshaping.close();
+  reshaping.finish();
   return outcomes;
 }
 
@@ -176,7 +176,7 @@ TEST(Sutures, ForgetWhatOthersJoined) {
     Reshaping<2> reshaping(environment, {});
     for (auto made = first.points.rbegin(); made != first.points.rend(); ++made) {
       if (made->between[0] != made->between[1]) continue;
-      ASSERT_TRUE(reshaping.merge(made->point, made->between[0]).is_made);
+      ASSERT_TRUE(reshaping.merge_vertices(made->point, made->between[0]).is_made);
     }
   }
   const Cut_report second = *apply(environment, schedule, 2)[0].cut;

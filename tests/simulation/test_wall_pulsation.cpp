@@ -162,7 +162,7 @@ std::size_t beat_alone(Environment<D>& environment, const Wall_pulsation<D>& pul
     Reshaping<D> reshaping(environment, {}, {});
     const auto moves = pulsation.targets(step / 32.0);
     const Move_report<D> report = reshaping.move(moves);
-    reshaping.close();
+    reshaping.finish();
     for (const Vertex_result<D>& result : report.short_of_target) ends += result.end == Move_end::cell;
     if (step != 64 && step != 96) continue;
     for (const Vertex_move<D>& move : moves) {

@@ -78,24 +78,22 @@ class Body {
   /// \throw Error(usage) if there is no such vertex
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
-  /// Moves the vertices one after the other to their targets, as far as walls allow. What meets a wall is
-  /// decided by options.edges, what its vertex does then by options.policy. Appends to the report what is
-  /// asked for.
-  /// \throw Error(usage) unless there is one target a vertex, for Edge_rule::at_target without
-  ///        Contact_policy::reject, Reported::blocked without Edge_rule::at_target, Edge_rule::at_target if a
-  ///        vertex has more than 64 edges, a search of a tolerance not in (0,1] off regions, and Sweep::faces
-  ///        after moves that left the faces alone and let a wall pierce one; Error(input) naming a target
-  ///        that is not finite. Then nothing has moved.
+  /// Moves the vertices one after the other to their targets, as far as walls allow, by options.rule.
+  /// Appends to the report.
+  /// \throw Error(usage) unless there is one target a vertex, for Step_rule::reject_at_target if a vertex
+  ///        has more than 64 edges, a search of a tolerance not in (0,1] off regions, and Sweep::faces after
+  ///        moves that left the faces alone and let a wall pierce one; Error(input) naming a target that is
+  ///        not finite. Then nothing has moved.
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
   /// sweep an edge, and locating the contacts that are reported or slid along. The first time faces are swept
-  /// after moves that left them alone, all are registered. By Edge_rule::at_target with Touch::stop rational
-  /// arithmetic for walls near a move that planes alone do not prove free, and once for those near a body
-  /// that was moved otherwise.
+  /// after moves that left them alone, all are registered. By Step_rule::reject_at_target with Touch::stop
+  /// rational arithmetic for walls near a move that planes alone do not prove free, and once for those near a
+  /// body that was moved otherwise.
   void step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
             Body_counts& counts);
 
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by
-  /// Contact_policy::reject and Edge_rule::swept, of the options but the sweep nothing counts. Gives a region
+  /// Step_rule::reject, of the options but the sweep nothing counts. Gives a region
   /// free of walls up.
   /// \throw Error(usage) if there is no such vertex, and for Sweep::faces after moves with another sweep that
   ///        let a wall pierce a face; Error(input) if the target is not finite. Then nothing has changed.

@@ -30,29 +30,21 @@ struct Rejected_move {
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
-/// What a vertex does that meets a wall, or has an edge or a face that does.
-enum class Contact_policy {
-  /// It stops at a verified position just before, and its remaining motion is projected on the wall and tried
-  /// again.
+/// A vertex meets a wall if it does on its way, or one of its edges or faces does. The rule of a step says
+/// which edges do, and how the vertex reacts.
+enum class Step_rule {
+  /// Edges and faces do while they sweep what Sweep_options::sweep says. The vertex stops at a verified
+  /// position just before the contact; its remaining motion is projected on the wall and tried again.
   slide,
-  reject  ///< it stays where it was
-};
-
-/// Which of the edges of a vertex meet a wall.
-enum class Edge_rule {
-  swept,  ///< those that do so while they sweep what Sweep_options::sweep says; faces likewise
-  /// Those that do so where the vertex goes: the rule of the paper, and of traces. The swept triangles are
-  /// looked at too unless Sweep::three_segments is asked for, but only reported; faces are left alone. With
-  /// Touch::stop whatever closed wall the closed way, an edge at its end or a closed triangle meets is in the
-  /// way, where the vertex or the edge starts too: one that is at a wall stays. Of Contact_policy::reject,
-  /// for vertices of at most 64 edges.
-  at_target
-};
-
-/// What a step reports; what is not reported is not computed where it can be done without.
-enum class Reported {
-  contacts,  ///< when, where and against which wall
-  blocked  ///< what blocks, by Edge_rule::at_target: cheaper, as no contact of an edge on its way is located
+  /// Edges and faces do as above. The vertex stays where it was.
+  reject,
+  /// The rule of the paper, and of traces: edges do at the target of the vertex. The vertex stays where it
+  /// was. Unless Sweep::three_segments is asked for, edges that meet a wall on their way are reported, too,
+  /// but do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way
+  /// that meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes
+  /// walls that are touched at the start: a vertex or an edge at a wall stays. Vertices have at most 64
+  /// edges.
+  reject_at_target
 };
 
 struct Body_options {
@@ -62,21 +54,22 @@ struct Body_options {
   /// walls leave a choice, of the side on which a motion in their plane goes on or of the one to report, that
   /// may be taken otherwise.
   bool clearance = true;
-  Contact_policy policy = Contact_policy::slide;
-  Edge_rule edges = Edge_rule::swept;
-  Reported reported = Reported::contacts;
+  Step_rule rule = Step_rule::slide;
+  /// By Step_rule::reject_at_target, report what blocks instead of contacts. This costs less, since the
+  /// contact of an edge on its way is not located. Without effect by other rules.
+  bool reports_blocked = false;
   /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at
   /// the first.
   int most_contacts = 4;
 };
 
-/// What walls did in a step, as far as it is asked for.
+/// What walls did in a step.
 template <int D>
 struct Step_report {
-  /// In the order met. By Edge_rule::at_target the first of each vertex that stays, as Sweep::three_segments
-  /// finds it, or the first touch if there is none.
+  /// In the order met. By Step_rule::reject_at_target the first of each vertex that stays, as
+  /// Sweep::three_segments finds it, or the first touch if there is none.
   std::vector<Contact<D>> contacts;
-  /// Vertex by vertex; one without an entry moved, and nothing was met.
+  /// If Body_options::reports_blocked, vertex by vertex: a vertex without an entry moved and met nothing.
   std::vector<Rejected_move<D>> blocked;
 
   void clear() {

@@ -90,7 +90,7 @@ struct Reshape_counts {
   std::uint64_t rested = 0;      ///< faces that walls touch, and may
   std::uint64_t pushes = 0;      ///< residents' features pushed out of the way
   /// Vertices, edges and faces looked at when a vertex was tried for the first time by a call of move() or
-  /// ask(), before anything was pushed.
+  /// test_move(), before anything was pushed.
   std::uint64_t near = 0;
   std::uint64_t certified = 0;  ///< of these, decided by their cell, their chain, or as apart from all walls
   Walk_counts walk;             ///< of all signs

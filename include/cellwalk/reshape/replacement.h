@@ -10,22 +10,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace cellwalk {
 
 /// What came of a replacement of cells by others that cover the same region.
-struct Replacement {
+struct Replacement : Outcome {
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  bool is_made = false;
-  std::string reason;       ///< why it was not made; empty if it was
   std::vector<Cell> cells;  ///< the new ones
   /// The point inserted, or the one removed, whose index later points may get; `none` for flips.
   std::uint32_t point = none;
-  std::vector<Resident> held_by;  ///< every vertex, edge and face that forbids a merge, sorted
 };
 
 /// Which cells Reshaping::relax() looks at, and what it may do. Qualities are 6 sqrt(2) V / l^3 of a

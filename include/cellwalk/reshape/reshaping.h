@@ -9,7 +9,6 @@
 #include <cellwalk/reshape/move.h>
 #include <cellwalk/reshape/replacement.h>
 #include <cellwalk/reshape/residents.h>
-#include <cellwalk/reshape/toggle.h>
 
 #include <cstdint>
 #include <memory>
@@ -52,7 +51,7 @@ struct Reshape_options {
 /// An environment that is open for moves of its vertices, with all that lies in it. Vertices move one after
 /// the other along straight lines, and the bodies and particles listed stand still meanwhile, or are pushed
 /// out of the way before; after each move they are registered as if the environment had always been so.
-/// Nothing else reads or changes the environment until close(), and bodies are not moved. Once a move was
+/// Nothing else reads or changes the environment until finish(), and bodies are not moved. Once a move was
 /// made, a body that is not listed throws Error(usage) at its next use instead of missing a wall, and
 /// particles that are not listed must be located again. What is asked, or not made, changes nothing for them.
 ///
@@ -65,12 +64,12 @@ struct Reshape_options {
 template <int D>
 class Reshaping {
  public:
-  /// \param environment its certificates near vertices that move are withdrawn until close()
+  /// \param environment its certificates near vertices that move are withdrawn until finish()
   /// \throw Error(usage) for a body of another environment, or one registered before an edit, for a null one,
   ///        and for a particle without a cell or a finite position
   /// Cost: reading the positions of all residents.
   Reshaping(Environment<D>& environment, const Residents<D>& residents, const Reshape_options& options = {});
-  /// Closes it.
+  /// As finish().
   ~Reshaping();
   Reshaping(Reshaping&&) noexcept;
   Reshaping& operator=(Reshaping&&) noexcept;
@@ -78,7 +77,7 @@ class Reshaping {
   /// Moves a vertex to a target, or as far as options.at_contact says. What forbids a move is a result, not
   /// an error. An error changes nothing.
   /// \throw Error(usage) if there is no such point, if a cell around it is not a simplex (see
-  ///        Build_options::simplicial), for a particle that is not in its cell, and after close();
+  ///        Build_options::simplicial), for a particle that is not in its cell, and after finish();
   ///        Error(input) for a target that is not finite
   /// Degenerate cases: all are decided; where a rim passes a vertex or edge exactly, it may end on either
   /// side, see docs/moving.md, touches. A target equal to the position is reached.
@@ -98,16 +97,16 @@ class Reshaping {
   /// solvers that shorten a step to the first contact themselves.
   /// \throw Error as move()
   /// Cost: that of move().
-  Vertex_result<D> ask(std::uint32_t point, const Point<D>& target);
+  Vertex_result<D> test_move(std::uint32_t point, const Point<D>& target);
 
   /// Makes a wall between two free cells, or two solid ones, passable. Nothing that lies there can forbid it.
   /// A facet of the boundary, or between a solid and a free cell, is not opened: that is a result with its
   /// reason. One that is passable already stays so.
-  /// \throw Error(usage) if there is no such facet, if the environment is frozen, and after close()
-  /// Cost: about 1 us, and certificates as close() if vertices were moved before.
-  Change_result open(Half_facet facet);
+  /// \throw Error(usage) if there is no such facet, if the environment is frozen, and after finish()
+  /// Cost: about 1 us, and certificates as finish() if vertices were moved before.
+  Outcome open(Half_facet facet);
 
-  /// Makes a facet a wall, seen from either side; not to be mistaken for close(), which ends all changes.
+  /// Makes a facet a wall, seen from either side.
   /// Refused if a vertex, an edge or a face would then be on both sides of it, as an edge that passes through
   /// its inside. What only touches the facet is registered on a side of it on which the rest of its body can
   /// be as well. Faces count if the body was last moved with Sweep::faces (3D); walls may appear inside of a
@@ -116,27 +115,27 @@ class Reshaping {
   /// Degenerate cases: all are decided; see docs/cutting.md.
   /// Cost: about 1 us with nothing near; some signs an edge that passes it inside; exact numbers, up to a
   /// millisecond, for an edge or face that touches it otherwise.
-  Change_result close(Half_facet facet);
+  Outcome close(Half_facet facet);
 
   /// Makes a solid cell free: its facets to free cells become passable, those to solid ones and on the
   /// boundary stay walls or become such. Nothing can forbid it. A cell that is free already stays so.
-  /// \throw Error(usage) if there is no such cell, if the environment is frozen, and after close()
+  /// \throw Error(usage) if there is no such cell, if the environment is frozen, and after finish()
   /// Cost: about 2 us.
-  Change_result excavate(Cell cell);
+  Outcome excavate(Cell cell);
 
   /// Makes a free cell solid: all its facets to free cells become walls. Refused if something lies in its
   /// inside, or on its border with no free space beside it that it could be in as well. A cell that is solid
   /// already stays so.
   /// \throw Error as excavate(), and Error(usage) for a particle near that is not in its cell
-  /// Degenerate cases and cost: as close(Half_facet), of all its facets.
-  Change_result fill(Cell cell);
+  /// Degenerate cases and cost: as close(), of all its facets.
+  Outcome fill(Cell cell);
 
   // Replacements of cells, all simplices, by others over the same region, between which there is no wall. No
   // body can be in the way of one: all that lies in the old cells is registered in the new ones, on the same
   // side of all walls. What the shape of the environment forbids is a result with a reason, and changes
   // nothing. The names of the old cells and of their half-facets are gone, those in contacts too, and later
   // ones may be equal. Each throws Error(usage) for what does not exist, for a cell that is not a simplex, in
-  // a frozen environment, for a particle that is not in its cell, and after close(); Error(input) for a
+  // a frozen environment, for a particle that is not in its cell, and after finish(); Error(input) for a
   // position that is not finite.
   // Cost: 3 to 4 us a new cell, whatever the size of the environment; more where what lies there passes
   // ridges or vertices of cells exactly.
@@ -178,10 +177,10 @@ class Reshaping {
   /// Refused if a cell would be flat or inverted, also one of the gap: the target lies strictly inside of all
   /// facets at the vertex between these cells and others.
   /// \param solid simplices around the vertex, joined through facets at it
-  /// \throw Error(usage) for a cell that is no such simplex or named twice, if frozen, and after close();
+  /// \throw Error(usage) for a cell that is no such simplex or named twice, if frozen, and after finish();
   ///        Error(input) for a target that is not finite
   /// Cost: some 20 us.
-  Replacement peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target);
+  Replacement split_vertex(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target);
 
   /// Merges a point of the walls of a gap with one across it, a stitch of a suture: the free cells that
   /// have both vanish, and the others around the point get the other one instead. Where a free cell vanishes
@@ -192,10 +191,10 @@ class Reshaping {
   /// anything has to lie in the free cells around it, or a face of a body lies near; held_by has all that.
   /// Later new points may get the index of the point; those before keep theirs.
   /// \throw Error(usage) if there is no such point, for a point and itself, for a cell around one that is not
-  ///        a simplex, if frozen, for a particle near that is not in its cell, and after close()
+  ///        a simplex, if frozen, for a particle near that is not in its cell, and after finish()
   /// Degenerate cases: as split_edge().
   /// Cost: 3 to 5 us a new cell, whatever the size of the environment.
-  Replacement merge(std::uint32_t point, std::uint32_t onto);
+  Replacement merge_vertices(std::uint32_t point, std::uint32_t onto);
 
   /// Cuts solid simplices along a blade. Edges that it passes are split near it, and the vertices of the
   /// facets that then lie along it are parted: the cells in front of the blade are taken back, and free ones
@@ -211,7 +210,7 @@ class Reshaping {
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved or changed after that.
   /// Cost: about 0.3 us a cell around vertices that moved.
-  void close();
+  void finish();
 
   const Reshape_counts& counts() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What lies in an environment while it changes.
+// What lies in an environment while it changes, and what came of a change.
 #ifndef CELLWALK_RESHAPE_RESIDENTS_H
 #define CELLWALK_RESHAPE_RESIDENTS_H
 
@@ -9,6 +9,7 @@
 #include <compare>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -29,6 +30,13 @@ struct Resident {
   std::uint32_t number = 0;                     ///< of the vertex, edge, face or particle
 
   auto operator<=>(const Resident&) const = default;
+};
+
+/// What came of a change of an environment among them.
+struct Outcome {
+  bool is_made = false;           ///< also if nothing had to be changed
+  std::string reason;             ///< why not, empty if made: one sentence without a full stop
+  std::vector<Resident> held_by;  ///< every vertex, edge and face that forbids it, sorted
 };
 
 }  // namespace cellwalk

@@ -29,7 +29,7 @@ struct Change_outcome {
   Change_kind kind = Change_kind::open;
   Half_facet facet = Half_facet::none;  ///< that is opened or closed
   Cell cell = Cell::none;               ///< that is excavated or filled; of a facet, one of its two
-  Change_result result;
+  Outcome result;
   std::optional<Cut_report> cut;  ///< of cuts only, which name neither facet nor cell
   std::optional<Stitch> stitch;   ///< of sutures only, likewise
 };

@@ -22,7 +22,7 @@ namespace cellwalk::cli {
 namespace {
 
 /// What a point does whose walls meet a body.
-enum class Contact_rule : std::uint8_t { stop, hold, push, ask };
+enum class Contact_rule : std::uint8_t { stop, hold, push, test };
 
 struct Deform_options {
   std::string environment, moves, output, report, positions, json;
@@ -33,12 +33,12 @@ struct Deform_options {
 
 /// \throw Error(usage) if there is no place for what is moved, or nothing to write
 void check_outputs(const Deform_options& options) {
-  const bool asks = options.at_contact == Contact_rule::ask;
-  if (!asks && options.output.empty())
+  const bool tests_only = options.at_contact == Contact_rule::test;
+  if (!tests_only && options.output.empty())
     throw Error(Error_code::usage, "--output is required: name the environment to write");
-  if (asks && !options.output.empty())
+  if (tests_only && !options.output.empty())
     throw Error(Error_code::usage,
-                "--at-contact ask moves nothing, so that there is no environment to write: leave out -o");
+                "--at-contact test moves nothing, so that there is no environment to write: leave out -o");
 }
 
 /// The output files; null for those not requested.
@@ -62,16 +62,16 @@ struct Deform_files {
   }
 };
 
-/// Moves the points, or asks where they would go.
+/// Moves the points, or tests where they would go.
 template <int D>
-void move_points(const std::vector<Vertex_move<D>>& moves, bool ask, Reshaping<D>& reshaping,
+void move_points(const std::vector<Vertex_move<D>>& moves, bool tests_only, Reshaping<D>& reshaping,
                  Move_results<D>& results) {
   Progress progress("moving points", moves.size());
   for (const auto& [point, target] : moves) {
-    results.add(ask ? reshaping.ask(point, target) : reshaping.move(point, target));
+    results.add(tests_only ? reshaping.test_move(point, target) : reshaping.move(point, target));
     progress.update(results.count());
   }
-  reshaping.close();
+  reshaping.finish();
 }
 
 At_contact reshape_rule(Contact_rule rule) {
@@ -90,19 +90,19 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
                         const Groups<D>& groups) {
   const std::vector<Vertex_move<D>> moves = read_moves(options.moves, environment);
   Standing_bodies<D> bodies(options.bodies, environment.snapshot());
-  const bool asks = options.at_contact == Contact_rule::ask;
+  const bool tests_only = options.at_contact == Contact_rule::test;
   Reshaping<D> reshaping(environment, bodies.residents(), {.at_contact = reshape_rule(options.at_contact)});
   Move_results<D> results(files.report, environment.snapshot());
-  move_points(moves, asks, reshaping, results);
+  move_points(moves, tests_only, reshaping, results);
   bodies.write_positions(files.positions);
 
   // What nobody moved is certified as it was read.
-  const std::string& name = asks ? options.environment : options.output;
+  const std::string& name = tests_only ? options.environment : options.output;
   const Certificate certificate = [&] {
     const Progress progress("certifying " + name);
     return naming(name, [&] { return environment.certify(); });
   }();
-  if (!asks) write_environment<D>(*files.environment, environment, certificate, groups);
+  if (!tests_only) write_environment<D>(*files.environment, environment, certificate, groups);
   nlohmann::ordered_json json{{"environment", name}, {"certificate", to_json(certificate, D)}};
   json.update(moves_json(results, bodies, reshaping.counts()));
   write_json(files.json, json);
@@ -149,9 +149,9 @@ void add_deform(CLI::App& app, Action& chosen) {
       {{"stop", Contact_rule::stop},
        {"hold", Contact_rule::hold},
        {"push", Contact_rule::push},
-       {"ask", Contact_rule::ask}},
+       {"test", Contact_rule::test}},
       "What a point does whose walls would meet a body. stop: it goes as far as they may. hold: it "
-      "stays where it is. push: what is in the way is moved, as far as other walls allow. ask: nothing "
+      "stays where it is. push: what is in the way is moved, as far as other walls allow. test: nothing "
       "moves; the report says where each point could go by itself");
   command->add_option("--report", options->report, "What came of each move, a row each")
       ->type_name("OUT.csv");
@@ -169,7 +169,7 @@ void add_deform(CLI::App& app, Action& chosen) {
                {"cellwalk deform vessel.ovm moves.csv -o narrow.ovm --body catheter.obj --report report.csv",
                 "cellwalk deform rooms.ovm moves.csv -o moved.ovm --body box.off --at-contact push "
                 "--positions box.csv",
-                "cellwalk deform rooms.ovm moves.csv --body box.off --at-contact ask --report report.csv"});
+                "cellwalk deform rooms.ovm moves.csv --body box.off --at-contact test --report report.csv"});
   command->callback([options, &chosen] { chosen = [options] { deform(*options); }; });
 }
 

@@ -65,7 +65,7 @@ void edit_environment(const Edit_options& options, Edit_files& files, Environmen
     const Progress progress("changing the environment");
     Reshaping<D> reshaping(environment, bodies.residents());
     const std::vector<Change_outcome> outcomes = schedule.apply(snapshot, reshaping, 1);
-    reshaping.close();
+    reshaping.finish();
     table->add(0, outcomes);
   }
   const Certificate certificate = [&] {

@@ -255,7 +255,7 @@ void Cutter<D>::part(std::uint32_t vertex) {
     for (const double longest = longest_edge(vertex, part); way > longest;) way /= 2;
     std::string reason;
     for (int k = 0; k < most_halvings; ++k) {
-      const auto point = patch_.peel(vertex, part, from + std::ldexp(way, -k) * into, reason);
+      const auto point = patch_.split_vertex(vertex, part, from + std::ldexp(way, -k) * into, reason);
       if (!point) continue;
       sides_[*point] = Side::front;
       report_.points.push_back({*point, {vertex, vertex}, 0});

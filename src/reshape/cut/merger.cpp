@@ -65,7 +65,7 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
 }
 
 template <int D>
-Replacement Merger<D>::merge(std::uint32_t point, std::uint32_t onto) {
+Replacement Merger<D>::merge_vertices(std::uint32_t point, std::uint32_t onto) {
   const Snapshot<D>& s = snapshot();
   const std::vector<Cell> star = environment_.cells_around(point);
   Replacement result;

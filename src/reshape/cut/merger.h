@@ -31,8 +31,9 @@ class Merger {
         patcher_(environment),
         relinker_(groups, environment.snapshot(), counts.walk) {}
 
-  /// As Reshaping::merge(), for points that exist, and cells around the first of them that are simplices.
-  Replacement merge(std::uint32_t point, std::uint32_t onto);
+  /// As Reshaping::merge_vertices(), for points that exist, and cells around the first of them that are
+  /// simplices.
+  Replacement merge_vertices(std::uint32_t point, std::uint32_t onto);
 
   /// True once something had no place in the new cells: then bodies must not go on.
   bool is_broken() const { return is_broken_; }

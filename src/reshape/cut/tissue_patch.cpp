@@ -229,8 +229,8 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_at(std::uint32_t u, std::uin
 }
 
 template <int D>
-std::optional<std::uint32_t> Tissue_patch<D>::peel(std::uint32_t vertex, std::span<const Cell> solid,
-                                                   const Point<D>& target, std::string& reason) {
+std::optional<std::uint32_t> Tissue_patch<D>::split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
+                                                           const Point<D>& target, std::string& reason) {
   const Snapshot<D>& s = snapshot();
   const std::uint32_t point = s.next_point();
   Cell_soup<D> soup;

@@ -55,8 +55,8 @@ class Tissue_patch {
   /// Takes solid cells back from a vertex: they get another vertex instead, and free cells fill the gap that
   /// they leave. Its facets to free cells become passable. Returns the new vertex, or why it cannot be made.
   /// \param solid joined through facets at the vertex, those between them all passable or all not
-  std::optional<std::uint32_t> peel(std::uint32_t vertex, std::span<const Cell> solid, const Point<D>& target,
-                                    std::string& reason);
+  std::optional<std::uint32_t> split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
+                                            const Point<D>& target, std::string& reason);
 
   const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
   /// True once something had no place in the new cells: then bodies must not go on.

@@ -10,12 +10,12 @@
 namespace cellwalk::detail {
 namespace {
 
-Change_result made() { return {true, {}, {}}; }
-Change_result refused(const char* reason) { return {false, reason, {}}; }
+Outcome made() { return {true, {}, {}}; }
+Outcome refused(const char* reason) { return {false, reason, {}}; }
 
 /// \param reason why not, if something holds
 template <int D>
-Change_result shrunk(Shrinkage<D> change, const char* reason) {
+Outcome shrunk(Shrinkage<D> change, const char* reason) {
   if (std::vector<Resident> holders = change.holders(); !holders.empty())
     return {false, reason, std::move(holders)};
   change.make();
@@ -32,7 +32,7 @@ Box<D> box_of_facet(const Snapshot<D>& snapshot, Half_facet facet) {
 }  // namespace
 
 template <int D>
-Change_result Toggle<D>::open(Half_facet facet) {
+Outcome Toggle<D>::open(Half_facet facet) {
   editor_.check(facet);
   if (!snapshot().is_impassable(facet)) return made();
   const Cell own = snapshot().cell_of(facet), other = snapshot().neighbour(facet);
@@ -46,7 +46,7 @@ Change_result Toggle<D>::open(Half_facet facet) {
 }
 
 template <int D>
-Change_result Toggle<D>::excavate(Cell cell) {
+Outcome Toggle<D>::excavate(Cell cell) {
   editor_.check(cell);
   if (!snapshot().is_solid(cell)) return made();
   std::vector<Half_facet> opened;
@@ -92,7 +92,7 @@ void Toggle<D>::rest(Rests rests) noexcept {
 }
 
 template <int D>
-Change_result Toggle<D>::close(Half_facet facet) {
+Outcome Toggle<D>::close(Half_facet facet) {
   editor_.check(facet);
   if (snapshot().is_impassable(facet)) return made();
   if (!snapshot().is_solid(snapshot().cell_of(facet)))
@@ -103,7 +103,7 @@ Change_result Toggle<D>::close(Half_facet facet) {
 }
 
 template <int D>
-Change_result Toggle<D>::fill(Cell cell) {
+Outcome Toggle<D>::fill(Cell cell) {
   editor_.check(cell);
   if (snapshot().is_solid(cell)) return made();
   return shrunk(Shrinkage<D>(editor_, groups_, cell, counts_), "something lies in the cell");

@@ -5,7 +5,7 @@
 #define CELLWALK_RESHAPE_TOGGLE_TOGGLE_H
 
 #include <cellwalk/internal/environment/wall_editor.h>
-#include <cellwalk/reshape/toggle.h>
+#include <cellwalk/reshape/residents.h>
 
 #include <span>
 #include <utility>
@@ -23,10 +23,10 @@ class Toggle {
       : editor_(environment), groups_(groups), counts_(counts) {}
 
   // As the members of Reshaping.
-  Change_result open(Half_facet facet);
-  Change_result close(Half_facet facet);
-  Change_result excavate(Cell cell);
-  Change_result fill(Cell cell);
+  Outcome open(Half_facet facet);
+  Outcome close(Half_facet facet);
+  Outcome excavate(Cell cell);
+  Outcome fill(Cell cell);
 
  private:
   const Snapshot<D>& snapshot() const { return editor_.snapshot(); }

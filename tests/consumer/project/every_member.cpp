@@ -107,10 +107,10 @@ void keep_reshaping() {
       static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
       static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
       &Reshaping<D>::ask, static_cast<void (Reshaping<D>::*)()>(&Reshaping<D>::close),
-      static_cast<Change_result (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
+      static_cast<Outcome (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
       &Reshaping<D>::excavate, &Reshaping<D>::fill, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
       &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
-      &Reshaping<D>::relax, &Reshaping<D>::peel, &Reshaping<D>::cut, &Reshaping<D>::merge);
+      &Reshaping<D>::relax, &Reshaping<D>::split_vertex, &Reshaping<D>::cut, &Reshaping<D>::merge_vertices);
   keep(&Relax_report::operations, &Cut_report::refused, &blade_along<D>, &swept_blade);
 }
 

@@ -21,7 +21,8 @@ Body_options body_trace_options(Sweep sweep);
 
 /// The number of edges of each vertex of a body.
 /// \param number of the body in its trace
-/// \throw Error(input) naming a vertex with more than 64, to whose moves Edge_rule::at_target has no answer
+/// \throw Error(input) naming a vertex with more than 64, to whose moves Step_rule::reject_at_target has no
+///        answer
 std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size_t number);
 
 /// Appends the answers to the moves of one body in one step.
